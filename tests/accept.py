@@ -1,7 +1,7 @@
 """Build cases: `python tests/accept.py` rewrites what each folder of `cases/build` is expected to compile to.
 
-It also rewrites the table of features in the documentation, the JSON Schemas that ship, and the postures with which the
-page of the studio is tested.
+It also rewrites the table of features in the documentation, the JSON Schemas that ship, the clients that are made from
+the contract, and the postures with which the page of the studio is tested.
 
 A case holds the `.skill` files of a library, its vocabularies in Turtle, and the artifacts below `expected/`.
 """
@@ -52,6 +52,7 @@ def _sources(case: Path, pattern: str) -> list[Source]:
 
 def main() -> None:
     """Rewrite the expectations of every case and say what changed; rewrite the list of diagnostics."""
+    from clients.made import MADE
     from matrix.table import PAGE, page  # only here: tests import this module for the cases alone
     from running_cells import kinematics
 
@@ -64,6 +65,8 @@ def main() -> None:
     PAGE.write_text(page())
     MANUAL.write_text(manual(), encoding="utf-8")
     kinematics.FILE.write_text(kinematics.format_cases(), encoding="utf-8")
+    for made in MADE:
+        made.file.write_text(made.make(), encoding="utf-8")
     for name in SCHEMAS:
         (SCHEMA_FILES / f"{name}.schema.json").write_text(format_schema(make_schema(name)), encoding="utf-8")
 

@@ -27,8 +27,9 @@ def _members(name: str) -> Iterator[tuple[str, Any]]:
     for each in module.__all__:
         value = getattr(module, each)
         yield f"{name}.{each}", value
-        if inspect.isclass(value) and value.__module__.startswith(("skillc.api", "skillc.client", "skillc.values")):
-            yield from ((f"{name}.{each}.{part}", found) for part, found in vars(value).items() if part[0] != "_")
+        for known in value.__mro__ if inspect.isclass(value) else ():
+            if known.__module__.startswith(("skillc.api", "skillc.client", "skillc.values")):
+                yield from ((f"{name}.{each}.{part}", found) for part, found in vars(known).items() if part[0] != "_")
 
 
 def _needs_docstring(value: Any) -> bool:

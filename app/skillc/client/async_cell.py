@@ -10,7 +10,7 @@ from typing import Any, Literal
 from uuid import uuid4
 
 from skillc.client.async_operation import AsyncOperation
-from skillc.client.connection import Connection, join
+from skillc.client.calls import CellCalls
 from skillc.client.experiments import rehearse, run_trials
 from skillc.client.facts import collect_facts
 from skillc.client.feed import follow_samples
@@ -23,26 +23,35 @@ from skillc.client.requests import (
     describe_trials,
 )
 from skillc.contract.cell import CellStatus, PaceSetting
-from skillc.contract.device import DeviceStatus
 from skillc.contract.disturbance import Disturbance
-from skillc.contract.lease import Lease, LeaseRequest
-from skillc.contract.library import LibraryDescription
-from skillc.contract.operation import OperationStatus
+from skillc.contract.endpoints import (
+    ADD_ORDER,
+    DISTURB_CELL,
+    EDIT_WORLD,
+    LIST_OPERATIONS,
+    LIST_WRITES,
+    PREVIEW_PLAN,
+    QUERY_WORLD,
+    REMOVE_ORDER,
+    SET_PACE,
+    SUBMIT_OPERATION,
+    WRITE_WORLD,
+)
+from skillc.contract.history import HistoryPage
 from skillc.contract.order import Missed, Order
 from skillc.contract.plan import PlanPreview
 from skillc.contract.rehearsal import Rehearsal
 from skillc.contract.sample import Sample
-from skillc.contract.stopping import StopReason
 from skillc.contract.trials import TrialDisturbance, TrialSeries
 from skillc.contract.world import (
-    PlacedThing,
+    DocumentForm,
     QueryRows,
     WorldEdit,
     WorldFact,
     WorldFormat,
     WorldQuery,
-    WorldText,
     WorldWrite,
+    WritePage,
 )
 from skillc.values.arguments import read_pace, require_choice, require_text
 from skillc.values.trials import Trials
@@ -50,16 +59,8 @@ from skillc.values.trials import Trials
 OPERATIONS, WRITES, TRIALS = 100, 100, 50
 
 
-class AsyncCell:
+class AsyncCell(CellCalls):
     """A cell of a server. Errors are those of `AsyncOperation`."""
-
-    def __init__(self, connection: Connection, name: str) -> None:
-        self._connection = connection
-        self.name = name
-
-    async def status(self) -> CellStatus:
-        """Return how it is."""
-        return await self._connection.get(self._path(), CellStatus)
 
     async def start(
         self,
@@ -98,9 +99,7 @@ class AsyncCell:
             step=step,
             breakpoints=tuple(pause_at),
         )
-        status = await self._connection.send(
-            "POST", self._path("operations"), OperationStatus, request, key=key or str(uuid4())
-        )
+        status = await self._connection.call(SUBMIT_OPERATION, self.name, body=request, key=key or str(uuid4()))
         return AsyncOperation(self._connection, status)
 
     async def order(
@@ -140,43 +139,25 @@ class AsyncCell:
             priority=priority,
         )
         order = describe_order(request, at, every_s, until, count, missed)
-        return await self._connection.send("POST", self._path("orders"), Order, order, key=key or str(uuid4()))
-
-    async def orders(self) -> tuple[Order, ...]:
-        """Return the orders for it, also the last ones that have ended."""
-        return await self._connection.get(self._path("orders"), tuple[Order, ...])
+        return await self._connection.call(ADD_ORDER, self.name, body=order, key=key or str(uuid4()))
 
     async def remove_order(self, order: str) -> None:
         """Forget an order by its id; what it has submitted goes on."""
-        await self._connection.send("DELETE", join("orders", require_text(order, "the order")), type(None))
+        await self._connection.call(REMOVE_ORDER, order)
 
     async def operations(self, limit: int = OPERATIONS, ongoing: bool = False) -> tuple[AsyncOperation, ...]:
         """Return its last operations, the last one first; with `ongoing` all that have not ended, and no others."""
-        found = await self._connection.get(
-            self._path("operations"), tuple[OperationStatus, ...], limit=limit, ongoing=str(ongoing).lower()
-        )
+        found = await self._connection.call(LIST_OPERATIONS, self.name, query=HistoryPage(limit=limit, ongoing=ongoing))
         return tuple(AsyncOperation(self._connection, each) for each in found)
-
-    async def library(self) -> LibraryDescription:
-        """Return what its next operation runs: the skills and tasks of its library."""
-        return await self._connection.get(self._path("library"), LibraryDescription)
-
-    async def robots(self) -> tuple[DeviceStatus, ...]:
-        """Return its robots, arms, grippers, cameras and sensors, and which operation holds each."""
-        return await self._connection.get(self._path("robots"), tuple[DeviceStatus, ...])
 
     async def set_pace(self, pace: float | str) -> CellStatus:
         """Let its time pass `fast`, as fast as it computes, `real`, as real time, or so many times as fast."""
         setting = PaceSetting(None if isinf(factor := read_pace(pace)) else factor)
-        return await self._connection.send("PUT", self._path("pace"), CellStatus, setting)
-
-    async def acknowledge(self) -> CellStatus:
-        """Let it take operations again after a fault or a stop whose cause is removed."""
-        return await self._connection.send("POST", self._path("acknowledge"), CellStatus)
+        return await self._connection.call(SET_PACE, self.name, body=setting)
 
     async def disturb(self, disturbance: Disturbance) -> CellStatus:
         """Let something happen to it that no skill does, if it is simulated, such as a `skillc.devices.Push`."""
-        return await self._connection.send("POST", self._path("disturbances"), CellStatus, disturbance)
+        return await self._connection.call(DISTURB_CELL, self.name, body=disturbance)
 
     async def plan(
         self,
@@ -190,7 +171,7 @@ class AsyncCell:
     ) -> PlanPreview:
         """Plan for a task of the cell's library, or a goal, as its world is now; parameters as of `skillc.plan`."""
         request = describe_plan(task, goal, arguments, minimise, prove, deadline_s)
-        return await self._connection.send("POST", self._path("plans"), PlanPreview, request)
+        return await self._connection.call(PREVIEW_PLAN, self.name, body=request)
 
     async def rehearse(
         self,
@@ -209,7 +190,7 @@ class AsyncCell:
         a film is written to this MP4 file. RefusedError if the request cannot be carried out.
         """
         request = describe_rehearsal(task, goal, skill, arguments, seed, deadline_s, film is not None)
-        return await rehearse(self._connection, self._path("rehearsals"), request, Path(film) if film else None)
+        return await rehearse(self._connection, self.name, request, Path(film) if film else None)
 
     async def trials(
         self,
@@ -229,7 +210,7 @@ class AsyncCell:
         RefusedError if the trials cannot be run.
         """
         request = describe_trials(task, arguments, number, seed, disturb, deadline_s)
-        return Trials(await run_trials(self._connection, self._path("trials"), request, watch))
+        return Trials(await run_trials(self._connection, self.name, request, watch))
 
     async def facts(
         self, subject: str | None = None, type: str | None = None, search: str | None = None
@@ -238,12 +219,12 @@ class AsyncCell:
 
         With `search` only those about individuals whose names, labels, classes or texts contain these words.
         """
-        return await collect_facts(self._connection, self._path("world"), subject, type, search)
+        return await collect_facts(self._connection, self.name, subject, type, search)
 
     async def query(self, sparql: str) -> QueryRows:
         """Answer a SPARQL query about its world."""
         query = WorldQuery(require_text(sparql, "the query"))
-        return await self._connection.send("POST", self._path("world", "query"), QueryRows, query)
+        return await self._connection.call(QUERY_WORLD, self.name, body=query)
 
     async def export(self, format: WorldFormat = "turtle", everything: bool = False) -> str:
         """Return its world as RDF, or as the picture `graph` or `top-view`, an SVG document.
@@ -251,42 +232,18 @@ class AsyncCell:
         RDF has the facts of data sheets with `everything`.
         """
         choice = require_choice(format, WorldFormat, "`format`")
-        query = {"format": choice, "everything": str(everything).lower()}
-        return (await self._connection.get(self._path("world", "document"), WorldText, **query)).text
-
-    async def things(self) -> tuple[PlacedThing, ...]:
-        """Return what has a place or a size in it, as it is believed."""
-        return await self._connection.get(self._path("things"), tuple[PlacedThing, ...])
+        form = DocumentForm(choice, everything)
+        return (await self._connection.call(WRITE_WORLD, self.name, query=form)).text
 
     async def edit(self, *edits: str, why: str) -> None:
         """Change its world in one transaction, as you state, by edits as of `skillc scene edit`; `why` is recorded."""
         wanted = WorldEdit(tuple(edits), require_text(why, "`why`"))
-        await self._connection.send("POST", self._path("world", "edits"), type(None), wanted)
+        await self._connection.call(EDIT_WORLD, self.name, body=wanted)
 
     async def world_history(self, limit: int = WRITES, before: int | None = None) -> tuple[WorldWrite, ...]:
         """Return the last writes to its world, or those before a number, the last one first."""
-        path = self._path("world", "history")
-        return await self._connection.get(path, tuple[WorldWrite, ...], limit=limit, before=before)
+        return await self._connection.call(LIST_WRITES, self.name, query=WritePage(before, limit))
 
     def samples(self, rate_hz: float = 10.0) -> AsyncGenerator[Sample, None]:
         """Yield what moves in it, `rate_hz` times a second at most, up to 50; who takes them slowly gets fewer."""
         return follow_samples(self._connection, self.name, rate_hz)
-
-    async def stop(self, reason: str = "stopped") -> CellStatus:
-        """Stop all its operations."""
-        return await self._connection.send("POST", self._path("stop"), CellStatus, StopReason(reason), repeatable=True)
-
-    async def lease(self) -> Lease:
-        """Return who alone may command it now."""
-        return await self._connection.get(self._path("lease"), Lease)
-
-    async def take_lease(self, duration_s: float = 60.0, takeover: bool = False) -> Lease:
-        """Be the only client that may command it for `duration_s` s from now on; `takeover` ends another's lease."""
-        return await self._connection.send("PUT", self._path("lease"), Lease, LeaseRequest(duration_s, takeover))
-
-    async def release_lease(self) -> None:
-        """Let others command it again."""
-        await self._connection.send("DELETE", self._path("lease"), type(None))
-
-    def _path(self, *parts: str) -> str:
-        return join("cells", self.name, *parts)

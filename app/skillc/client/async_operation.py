@@ -9,13 +9,14 @@ from pathlib import Path
 from typing import Any, Literal
 from uuid import uuid4
 
-from skillc.client.connection import Connection, join
+from skillc.client.calls import OperationCalls
 from skillc.client.errors import UnavailableError
 from skillc.client.experiments import make_report
 from skillc.client.feed import follow_operation
 from skillc.client.retries import Retries
 from skillc.contract import commands
 from skillc.contract.commands import Command
+from skillc.contract.endpoints import GIVE_COMMAND, READ_RECORDING, SHOW_OPERATION, STOP_OPERATION, SUBMIT_OPERATION
 from skillc.contract.operation import ENDS, Decision, OperationRequest, OperationStatus, State
 from skillc.contract.report import OperationReport
 from skillc.contract.stopping import StopReason
@@ -31,21 +32,12 @@ STEPS: dict[Depth, Command] = {
 BEFORE_PAUSE: frozenset[State] = frozenset({"queued", "planning", "running", "pausing", "stopping"})
 
 
-class AsyncOperation:
+class AsyncOperation(OperationCalls):
     """An operation of a server. `status` is how it was when it was last heard of; `refresh` asks again.
 
     A command returns when it took effect. RefusedError if the server refuses it, UnavailableError if the server does
     not answer. It can be awaited: the value is the status with which it ended. Nothing here stops it but `stop`.
     """
-
-    def __init__(self, connection: Connection, status: OperationStatus) -> None:
-        self._connection = connection
-        self.status = status
-
-    @property
-    def id(self) -> str:
-        """Its id, which no other has."""
-        return self.status.id
 
     @property
     def task(self) -> str:
@@ -75,7 +67,7 @@ class AsyncOperation:
 
     async def refresh(self) -> OperationStatus:
         """Ask the server how it is."""
-        self.status = await self._connection.get(join("operations", self.id), OperationStatus)
+        self.status = await self._connection.call(SHOW_OPERATION, self.id)
         return self.status
 
     def events(self, after: int = 0) -> AsyncGenerator[Envelope, None]:
@@ -92,7 +84,7 @@ class AsyncOperation:
         While it goes on, that is what is written up to now. RefusedError if it has none.
         """
         file = Path(path)
-        await self._connection.download(join("operations", self.id, "recording"), file)
+        await self._connection.download(READ_RECORDING, self.id, file=file)
         return file
 
     async def report(self, folder: str | Path, film: bool = True) -> OperationReport:
@@ -130,8 +122,7 @@ class AsyncOperation:
 
     async def stop(self, reason: str = "stopped") -> None:
         """Halt everything; it ends when everything is at rest. One that has ended stays as it is."""
-        path = join("operations", self.id, "stop")
-        self.status = await self._connection.send("POST", path, OperationStatus, StopReason(reason), repeatable=True)
+        self.status = await self._connection.call(STOP_OPERATION, self.id, body=StopReason(reason))
 
     async def retry(self) -> None:
         """After a failure: run the failed step again."""
@@ -170,8 +161,8 @@ class AsyncOperation:
         `status.decisions` are those that there are; `why` is why a step that is skipped counts as done.
         """
         request = OperationRequest(continues=self.id, decision=decision, why=why)
-        path = join("cells", self.status.cell, "operations")
-        status = await self._connection.send("POST", path, OperationStatus, request, key=str(uuid4()))
+        cell, key = self.status.cell, str(uuid4())
+        status = await self._connection.call(SUBMIT_OPERATION, cell, body=request, key=key)
         return AsyncOperation(self._connection, status)
 
     async def give(self, command: Command) -> None:
@@ -194,8 +185,7 @@ class AsyncOperation:
         return self.wait().__await__()  # wait ends: with the operation, or whoever awaits it cancels it
 
     async def _command(self, command: Command) -> None:
-        path = join("operations", self.id, "commands")
-        self.status = await self._connection.send("POST", path, OperationStatus, command)
+        self.status = await self._connection.call(GIVE_COMMAND, self.id, body=command)
 
     async def _wait_while(self, states: frozenset[State] | None) -> None:
         """Wait until it is in another state, or until it has ended if None."""

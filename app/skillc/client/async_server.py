@@ -8,36 +8,18 @@ from types import TracebackType
 
 from skillc.client.async_cell import AsyncCell
 from skillc.client.async_operation import AsyncOperation
-from skillc.client.connection import Connection, join
+from skillc.client.calls import ServerCalls
 from skillc.client.feed import Status, follow_states
-from skillc.contract.access import LoginCode, MadeToken, NewToken, Role, TokenInfo
-from skillc.contract.cell import CellStatus
-from skillc.contract.library import LibraryStatus
-from skillc.contract.operation import OperationStatus
-from skillc.contract.version import VersionInfo
+from skillc.contract.access import NewToken, Role
+from skillc.contract.endpoints import ADD_TOKEN, MAKE_LOGIN_CODE, SHOW_OPERATION
 from skillc.errors import RequestError
 
 
-class AsyncServer:
+class AsyncServer(ServerCalls):
     """A server; as a context manager it closes the connection. Errors are those of `AsyncOperation`.
 
     All is used in one event loop, that in which it is used first.
     """
-
-    def __init__(self, connection: Connection) -> None:
-        self._connection = connection
-
-    async def version(self) -> VersionInfo:
-        """Return its version of skillc and of the API."""
-        return await self._connection.get("/version", VersionInfo)
-
-    async def libraries(self) -> tuple[LibraryStatus, ...]:
-        """Return its libraries, and why one on disk is not used."""
-        return await self._connection.get("/libraries", tuple[LibraryStatus, ...])
-
-    async def cells(self) -> tuple[CellStatus, ...]:
-        """Return how its cells are."""
-        return await self._connection.get("/cells", tuple[CellStatus, ...])
 
     async def cell(self, name: str | None = None) -> AsyncCell:
         """Return a cell, or the only one. RequestError, with the cells, if there is none such, or several."""
@@ -52,7 +34,7 @@ class AsyncServer:
     async def operation(self, id: str | None = None) -> AsyncOperation:
         """Return an operation, or the only one that goes on. RequestError if there is none such, or several."""
         if id is not None:
-            status = await self._connection.get(join("operations", id), OperationStatus)
+            status = await self._connection.call(SHOW_OPERATION, id)
             return AsyncOperation(self._connection, status)
         match await self.ongoing():
             case (only,):
@@ -75,24 +57,16 @@ class AsyncServer:
         """
         return follow_states(self._connection)
 
-    async def tokens(self) -> tuple[TokenInfo, ...]:
-        """Return the tokens of its clients, without their secrets."""
-        return await self._connection.get("/tokens", tuple[TokenInfo, ...])
-
     async def add_token(self, name: str, role: Role, agent: bool = False) -> str:
         """Make a token for a client, and return it; nobody can read it again.
 
         What an `agent`, a program that decides by itself, submits waits for the approval of somebody else.
         """
-        return (await self._connection.send("POST", "/tokens", MadeToken, NewToken(name, role, agent))).token
-
-    async def revoke_token(self, name: str) -> None:
-        """Refuse all further requests with a token."""
-        await self._connection.send("DELETE", join("tokens", name), type(None))
+        return (await self._connection.call(ADD_TOKEN, body=NewToken(name, role, agent))).token
 
     async def make_login_code(self) -> str:
         """Return a code that stands for the token of this client in one request, within a minute."""
-        return (await self._connection.send("POST", "/login-codes", LoginCode)).code
+        return (await self._connection.call(MAKE_LOGIN_CODE)).code
 
     async def close(self) -> None:
         """Close the connection; what goes on in the server goes on."""

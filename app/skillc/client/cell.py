@@ -1,4 +1,4 @@
-"""A cell of a server."""
+"""A cell of a server; made from `async_cell` by `python tests/accept.py`, not edited."""
 
 from __future__ import annotations
 
@@ -7,13 +7,16 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any, Literal
 
-from skillc.client.async_cell import OPERATIONS, TRIALS, WRITES, AsyncCell
-from skillc.client.loop_thread import LoopThread
+from skillc.client.async_cell import OPERATIONS, TRIALS, WRITES
 from skillc.client.operation import ServerOperation
-from skillc.client.requests import PLANNING_S
+from skillc.client.requests import (
+    PLANNING_S,
+)
+from skillc.client.waiting import WaitingCell
 from skillc.contract.cell import CellStatus
 from skillc.contract.device import DeviceStatus
 from skillc.contract.disturbance import Disturbance
+from skillc.contract.geometry import CellModel, SurfaceCoverage
 from skillc.contract.lease import Lease
 from skillc.contract.library import LibraryDescription
 from skillc.contract.order import Missed, Order
@@ -21,25 +24,85 @@ from skillc.contract.plan import PlanPreview
 from skillc.contract.rehearsal import Rehearsal
 from skillc.contract.sample import Sample
 from skillc.contract.trials import TrialDisturbance, TrialSeries
-from skillc.contract.world import PlacedThing, QueryRows, WorldFact, WorldFormat, WorldWrite
+from skillc.contract.world import (
+    PlacedThing,
+    QueryRows,
+    WorldFact,
+    WorldFormat,
+    WorldWrite,
+)
 from skillc.values.trials import Trials
 
 
-class ServerCell:
+class ServerCell(WaitingCell):
     """A cell of a server; its methods are those of `AsyncCell`, and wait."""
 
-    def __init__(self, loop: LoopThread, cell: AsyncCell) -> None:
-        self._loop, self._cell = loop, cell
+    def acknowledge(self) -> CellStatus:
+        """Let a cell take operations again after a fault or a stop whose cause is removed."""
+        return self._loop.run(self._client.acknowledge())
 
-    @property
-    def name(self) -> str:
-        """Its name, which no other cell of the server has."""
-        return self._cell.name
+    def stop(self, reason: str = "stopped") -> CellStatus:
+        """Stop all operations of a cell.
 
-    @property
-    def status(self) -> CellStatus:
-        """How it is now."""
-        return self._loop.run(self._cell.status())
+        Why an operation, or everything, is stopped. A long reason is cut, and what else a body has is ignored.
+        """
+        return self._loop.run(self._client.stop(reason))
+
+    def model(self) -> CellModel:
+        """Show the shapes and joints of a simulated cell, as they really are."""
+        return self._loop.run(self._client.model())
+
+    def poses(self) -> dict[str, tuple[float, float, float, float, float, float, float]]:
+        """List where the world of a cell has individuals, by IRI."""
+        return self._loop.run(self._client.poses())
+
+    def coverage(self) -> dict[str, SurfaceCoverage]:
+        """Show where tools have really worked on surfaces."""
+        return self._loop.run(self._client.coverage())
+
+    def take_lease(self, duration_s: float = 60.0, takeover: bool = False) -> Lease:
+        """Take the lease of a cell, or prolong it.
+
+        For how long a client wants to command a cell alone, in s; `takeover` ends the lease of another client.
+        """
+        return self._loop.run(self._client.take_lease(duration_s, takeover))
+
+    def release_lease(self) -> None:
+        """Give the lease of a cell back."""
+        self._loop.run(self._client.release_lease())
+
+    def orders(self) -> tuple[Order, ...]:
+        """List the orders for a cell."""
+        return self._loop.run(self._client.orders())
+
+    def things(self) -> tuple[PlacedThing, ...]:
+        """List what has a place or a size in a cell, as it is believed."""
+        return self._loop.run(self._client.things())
+
+    def place_thing(self, thing: str, pose: tuple[float, float, float, float, float, float, float], why: str) -> None:
+        """Say where a thing is in the world of a cell; nothing moves.
+
+        Where a thing is, and why this is said: its position in m and a quaternion (w, x, y, z), in the world.
+
+        It stays with what carries it. `thing` is an IRI or `prefix:name`.
+        """
+        self._loop.run(self._client.place_thing(thing, pose, why))
+
+    def library(self) -> LibraryDescription:
+        """Describe the library of a cell."""
+        return self._loop.run(self._client.library())
+
+    def robots(self) -> tuple[DeviceStatus, ...]:
+        """List the devices of a cell, and which operation holds each."""
+        return self._loop.run(self._client.robots())
+
+    def list_rehearsals(self) -> tuple[Rehearsal, ...]:
+        """List the rehearsals for a cell."""
+        return self._loop.run(self._client.list_rehearsals())
+
+    def list_trials(self) -> tuple[TrialSeries, ...]:
+        """List the series of trials for a cell."""
+        return self._loop.run(self._client.list_trials())
 
     def start(
         self,
@@ -57,22 +120,33 @@ class ServerCell:
         pause_at: Sequence[str] = (),
         key: str | None = None,
     ) -> ServerOperation:
-        """Submit a task, a goal or a skill call, and return the operation; the parameters are those of `AsyncCell`."""
-        starting = self._cell.start(
-            task,
-            arguments=arguments,
-            goal=goal,
-            skill=skill,
-            approve=approve,
-            ask_after_failure=ask_after_failure,
-            priority=priority,
-            deadline_s=deadline_s,
-            step_deadline_s=step_deadline_s,
-            step=step,
-            pause_at=pause_at,
-            key=key,
+        """Submit a task of the cell's library, a goal or a skill call, and return the operation.
+
+        `arguments` are the values of the task's parameters by name. With `approve` each plan waits for approval; with
+        `ask_after_failure` a failed step waits for a decision. Of operations that wait for devices a higher `priority`
+        comes first. The operation fails if it has not ended `deadline_s` s of the cell's time after this, and a
+        primitive or a wait if it has not ended `step_deadline_s` s after its start. It pauses before its first call
+        with `step`, and before each SKILL or FILE:LINE of `pause_at`. The same `key` twice is one operation.
+        """
+        return ServerOperation(
+            self._loop,
+            self._loop.run(
+                self._client.start(
+                    task,
+                    arguments=arguments,
+                    goal=goal,
+                    skill=skill,
+                    approve=approve,
+                    ask_after_failure=ask_after_failure,
+                    priority=priority,
+                    deadline_s=deadline_s,
+                    step_deadline_s=step_deadline_s,
+                    step=step,
+                    pause_at=pause_at,
+                    key=key,
+                )
+            ),
         )
-        return ServerOperation(self._loop, self._loop.run(starting))
 
     def order(
         self,
@@ -93,58 +167,49 @@ class ServerCell:
         step_deadline_s: float | None = None,
         key: str | None = None,
     ) -> Order:
-        """Let the server submit something at a time, once or again; the parameters are those of `AsyncCell`."""
-        ordering = self._cell.order(
-            task,
-            at=at,
-            every_s=every_s,
-            until=until,
-            count=count,
-            missed=missed,
-            arguments=arguments,
-            goal=goal,
-            skill=skill,
-            approve=approve,
-            ask_after_failure=ask_after_failure,
-            priority=priority,
-            deadline_s=deadline_s,
-            step_deadline_s=step_deadline_s,
-            key=key,
-        )
-        return self._loop.run(ordering)
+        """Let the server submit a task, a goal or a skill call `at` a time, with its offset from UTC.
 
-    def orders(self) -> tuple[Order, ...]:
-        """Return the orders for it, also the last ones that have ended."""
-        return self._loop.run(self._cell.orders())
+        It is submitted again every `every_s` s, `count` times or `until` a time. If that was not possible within 60 s,
+        the last one that was missed is submitted as soon as it is, or none with `missed="skip"`. The other parameters
+        are those of `start`.
+        """
+        return self._loop.run(
+            self._client.order(
+                task,
+                at=at,
+                every_s=every_s,
+                until=until,
+                count=count,
+                missed=missed,
+                arguments=arguments,
+                goal=goal,
+                skill=skill,
+                approve=approve,
+                ask_after_failure=ask_after_failure,
+                priority=priority,
+                deadline_s=deadline_s,
+                step_deadline_s=step_deadline_s,
+                key=key,
+            )
+        )
 
     def remove_order(self, order: str) -> None:
         """Forget an order by its id; what it has submitted goes on."""
-        self._loop.run(self._cell.remove_order(order))
+        self._loop.run(self._client.remove_order(order))
 
     def operations(self, limit: int = OPERATIONS, ongoing: bool = False) -> tuple[ServerOperation, ...]:
         """Return its last operations, the last one first; with `ongoing` all that have not ended, and no others."""
-        found = self._loop.run(self._cell.operations(limit, ongoing))
-        return tuple(ServerOperation(self._loop, each) for each in found)
-
-    def library(self) -> LibraryDescription:
-        """Return what its next operation runs: the skills and tasks of its library."""
-        return self._loop.run(self._cell.library())
-
-    def robots(self) -> tuple[DeviceStatus, ...]:
-        """Return its robots, arms, grippers, cameras and sensors, and which operation holds each."""
-        return self._loop.run(self._cell.robots())
+        return tuple(
+            ServerOperation(self._loop, each) for each in self._loop.run(self._client.operations(limit, ongoing))
+        )
 
     def set_pace(self, pace: float | str) -> CellStatus:
         """Let its time pass `fast`, as fast as it computes, `real`, as real time, or so many times as fast."""
-        return self._loop.run(self._cell.set_pace(pace))
-
-    def acknowledge(self) -> CellStatus:
-        """Let it take operations again after a fault or a stop whose cause is removed."""
-        return self._loop.run(self._cell.acknowledge())
+        return self._loop.run(self._client.set_pace(pace))
 
     def disturb(self, disturbance: Disturbance) -> CellStatus:
         """Let something happen to it that no skill does, if it is simulated, such as a `skillc.devices.Push`."""
-        return self._loop.run(self._cell.disturb(disturbance))
+        return self._loop.run(self._client.disturb(disturbance))
 
     def plan(
         self,
@@ -157,10 +222,11 @@ class ServerCell:
         deadline_s: float = PLANNING_S,
     ) -> PlanPreview:
         """Plan for a task of the cell's library, or a goal, as its world is now; parameters as of `skillc.plan`."""
-        planning = self._cell.plan(
-            task, arguments=arguments, goal=goal, minimise=minimise, prove=prove, deadline_s=deadline_s
+        return self._loop.run(
+            self._client.plan(
+                task, arguments=arguments, goal=goal, minimise=minimise, prove=prove, deadline_s=deadline_s
+            )
         )
-        return self._loop.run(planning)
 
     def rehearse(
         self,
@@ -178,10 +244,11 @@ class ServerCell:
         `seed` determines how the reality of the twin differs from the facts, `deadline_s` is in its time. With `film`
         a film is written to this MP4 file. RefusedError if the request cannot be carried out.
         """
-        rehearsing = self._cell.rehearse(
-            task, arguments=arguments, goal=goal, skill=skill, seed=seed, deadline_s=deadline_s, film=film
+        return self._loop.run(
+            self._client.rehearse(
+                task, arguments=arguments, goal=goal, skill=skill, seed=seed, deadline_s=deadline_s, film=film
+            )
         )
-        return self._loop.run(rehearsing)
 
     def trials(
         self,
@@ -194,11 +261,17 @@ class ServerCell:
         deadline_s: float | None = None,
         watch: Callable[[TrialSeries], None] | None = None,
     ) -> Trials:
-        """Run a task many times in simulation, from the cell's scene, and judge the runs; parameters of `AsyncCell`."""
-        running = self._cell.trials(
-            task, number, arguments=arguments, seed=seed, disturb=disturb, deadline_s=deadline_s, watch=watch
+        """Run a task with `number` successive seeds from the cell's scene, and judge the runs; as `skillc.trials`.
+
+        The cell itself does nothing, and its world now does not matter. One trial may take `deadline_s` s of wall time.
+        `watch` is called with each progress. The server keeps the series; it forgets it if this is cancelled.
+        RefusedError if the trials cannot be run.
+        """
+        return self._loop.run(
+            self._client.trials(
+                task, number, arguments=arguments, seed=seed, disturb=disturb, deadline_s=deadline_s, watch=watch
+            )
         )
-        return self._loop.run(running)
 
     def facts(
         self, subject: str | None = None, type: str | None = None, search: str | None = None
@@ -207,48 +280,27 @@ class ServerCell:
 
         With `search` only those about individuals whose names, labels, classes or texts contain these words.
         """
-        return self._loop.run(self._cell.facts(subject, type, search))
+        return self._loop.run(self._client.facts(subject, type, search))
+
+    def query(self, sparql: str) -> QueryRows:
+        """Answer a SPARQL query about its world."""
+        return self._loop.run(self._client.query(sparql))
 
     def export(self, format: WorldFormat = "turtle", everything: bool = False) -> str:
         """Return its world as RDF, or as the picture `graph` or `top-view`, an SVG document.
 
         RDF has the facts of data sheets with `everything`.
         """
-        return self._loop.run(self._cell.export(format, everything))
-
-    def things(self) -> tuple[PlacedThing, ...]:
-        """Return what has a place or a size in it, as it is believed."""
-        return self._loop.run(self._cell.things())
-
-    def query(self, sparql: str) -> QueryRows:
-        """Answer a SPARQL query about its world."""
-        return self._loop.run(self._cell.query(sparql))
+        return self._loop.run(self._client.export(format, everything))
 
     def edit(self, *edits: str, why: str) -> None:
         """Change its world in one transaction, as you state, by edits as of `skillc scene edit`; `why` is recorded."""
-        self._loop.run(self._cell.edit(*edits, why=why))
+        self._loop.run(self._client.edit(*edits, why=why))
 
     def world_history(self, limit: int = WRITES, before: int | None = None) -> tuple[WorldWrite, ...]:
         """Return the last writes to its world, or those before a number, the last one first."""
-        return self._loop.run(self._cell.world_history(limit, before))
+        return self._loop.run(self._client.world_history(limit, before))
 
     def samples(self, rate_hz: float = 10.0) -> Iterator[Sample]:
         """Yield what moves in it, `rate_hz` times a second at most, up to 50; who takes them slowly gets fewer."""
-        return self._loop.iterate(self._cell.samples(rate_hz))
-
-    def stop(self, reason: str = "stopped") -> CellStatus:
-        """Stop all its operations."""
-        return self._loop.run(self._cell.stop(reason))
-
-    @property
-    def lease(self) -> Lease:
-        """Who alone may command it now."""
-        return self._loop.run(self._cell.lease())
-
-    def take_lease(self, duration_s: float = 60.0, takeover: bool = False) -> Lease:
-        """Be the only client that may command it for `duration_s` s from now on; `takeover` ends another's lease."""
-        return self._loop.run(self._cell.take_lease(duration_s, takeover))
-
-    def release_lease(self) -> None:
-        """Let others command it again."""
-        self._loop.run(self._cell.release_lease())
+        return self._loop.iterate(self._client.samples(rate_hz))

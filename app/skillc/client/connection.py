@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ssl
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Literal, TypeVar
+from typing import Any, TypeVar
 from urllib.parse import quote
 
 import httpx
@@ -12,8 +13,10 @@ import msgspec
 
 from skillc.client.address import ServerAddress
 from skillc.client.errors import RefusedError, UnavailableError
+from skillc.contract.endpoint import Endpoint
 from skillc.contract.problem import ProblemDetails
 from skillc.errors import ServiceError
+from skillc.values.arguments import require_text
 from skillc_dsl.rendering.json import from_data
 from skillc_dsl.source import Source
 
@@ -21,7 +24,6 @@ TIMEOUT_S = 75.0
 """How long an answer may take, in s: a cell that plans or starts answers late."""
 FIRST_SERVER_ERROR, UNAVAILABLE = 500, 503
 UNAUTHORIZED = 401
-Method = Literal["GET", "POST", "PUT", "DELETE"]
 T = TypeVar("T")
 
 
@@ -42,23 +44,18 @@ class Connection:
         """Close the connection; what goes on in the server goes on."""
         await self._client.aclose()
 
-    async def get(self, path: str, kind: type[T], **query: object) -> T:
-        """Read a resource; errors as of `send`."""
-        return await self.send("GET", path, kind, query=query)
-
-    async def send(
+    async def call(
         self,
-        method: Method,
-        path: str,
-        kind: type[T],
+        endpoint: Endpoint[T],
+        *path: str,
         body: object = None,
-        query: dict[str, object] | None = None,
+        query: msgspec.Struct | None = None,
         key: str | None = None,
-        repeatable: bool = False,
     ) -> T:
-        """Make a request and return the answer. `key` makes the same request twice one.
+        """Make the request of an endpoint, with the parts of its path, and return the answer.
 
-        One that is `repeatable`, as those that read or have a key are, is made again if its connection is cut.
+        `key` makes the same request twice one. One that reads, stops or has a key is made again if its connection is
+        cut.
 
         RefusedError if the server refuses it, UnavailableError if it does not answer, or the cell is off.
         """
@@ -66,16 +63,17 @@ class Connection:
         if key is not None:
             headers["Idempotency-Key"] = key
         content = None if body is None else msgspec.json.encode(body)
-        parameters = {name: str(value) for name, value in (query or {}).items() if value is not None}
-        url = self.address.url + path
+        url = self.address.url + make_path(endpoint, path)
         try:
-            request = self._client.build_request(method, url, content=content, params=parameters, headers=headers)
-            answer = await self._send(request, repeatable or method == "GET" or key is not None)
+            request = self._client.build_request(
+                endpoint.method, url, content=content, params=_list_parameters(query), headers=headers
+            )
+            answer = await self._send(request, endpoint.is_repeatable or key is not None)
         except (httpx.HTTPError, httpx.InvalidURL) as error:
             raise UnavailableError(describe_loss(self.address, error)) from error
         if not answer.is_success:
             raise _find_error(answer, self.address)
-        return decode(answer.content or b"null", kind)
+        return decode(answer.content or b"null", endpoint.answer)
 
     async def _send(self, request: httpx.Request, repeatable: bool) -> httpx.Response:
         try:
@@ -85,12 +83,15 @@ class Connection:
                 raise
         return await self._client.send(request)
 
-    async def download(self, path: str, file: Path) -> None:
-        """Write a resource to a file, completely or not at all; errors as of `send`, ServiceError if not possible."""
+    async def download(self, endpoint: Endpoint[None], *path: str, file: Path) -> None:
+        """Write what an endpoint sends to a file, completely or not at all; errors as of `call`.
+
+        ServiceError if the file cannot be written.
+        """
         half = file.with_name(f"{file.name}.half")
         try:
             with half.open("wb") as target:
-                async with self._client.stream("GET", self.address.url + path) as answer:
+                async with self._client.stream(endpoint.method, self.address.url + make_path(endpoint, path)) as answer:
                     if not answer.is_success:
                         await answer.aread()
                         raise _find_error(answer, self.address)
@@ -134,9 +135,23 @@ def describe_loss(address: ServerAddress, error: Exception) -> str:
     return f"no server answers at {server}{reason}; start one with `skillc serve`, or give the address of one"
 
 
-def join(*parts: str) -> str:
-    """Return a path of parts, each of which may be any text."""
-    return "".join(f"/{quote(part, safe='')}" for part in parts)
+def make_path(endpoint: Endpoint[Any], parts: Sequence[str]) -> str:
+    """Return the path of an endpoint with parts, each of which may be any text; RequestError for anything else."""
+    quoted = {
+        name: quote(require_text(part, f"the {name}"), safe="")
+        for name, part in zip(endpoint.path_parameters, parts, strict=True)
+    }
+    return endpoint.path.format_map(quoted)
+
+
+def _list_parameters(query: msgspec.Struct | None) -> dict[str, str]:
+    """Return the parameters of a query; one that is None is not given."""
+    given = {} if query is None else msgspec.structs.asdict(query)
+    return {
+        name: str(value).lower() if isinstance(value, bool) else str(value)
+        for name, value in given.items()
+        if value is not None
+    }
 
 
 def _find_error(answer: httpx.Response, address: ServerAddress) -> ServiceError:

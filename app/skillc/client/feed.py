@@ -14,9 +14,12 @@ from skillc.client.connection import Connection, decode, decode_binary, describe
 from skillc.client.errors import RefusedError, UnavailableError
 from skillc.client.retries import Retries
 from skillc.contract.cell import CellStatus
+from skillc.contract.endpoint import Stream
+from skillc.contract.endpoints import STREAM_EVENTS, STREAM_SAMPLES
+from skillc.contract.history import EventsHello
 from skillc.contract.messages import Happened, StatusChanged
 from skillc.contract.operation import OperationStatus
-from skillc.contract.sample import Sample
+from skillc.contract.sample import Sample, SampleHello
 from skillc.errors import ServiceError
 from skillc.events import Envelope
 
@@ -37,8 +40,8 @@ async def follow_operation(connection: Connection, operation: str, after: int) -
     retries = Retries()
     while True:
         try:
-            hello = {"operation": operation, "after": after}
-            async with aclosing(_receive(connection, hello, list[Envelope])) as batches:
+            hello = EventsHello(connection.address.token, operation, after)
+            async with aclosing(_receive(connection, STREAM_EVENTS, hello, list[Envelope])) as batches:
                 async for batch in batches:
                     retries.succeeded()
                     for each in batch:
@@ -56,10 +59,10 @@ async def follow_states(connection: Connection) -> AsyncGenerator[Status, None]:
 
     Of changes that follow each other quickly only the last one may come. Errors as of `follow_operation`.
     """
-    retries = Retries()
+    retries, hello = Retries(), EventsHello(connection.address.token)
     while True:
         try:
-            async with aclosing(_receive(connection, {}, list[Happened | StatusChanged])) as batches:
+            async with aclosing(_receive(connection, STREAM_EVENTS, hello, list[Happened | StatusChanged])) as batches:
                 async for batch in batches:
                     retries.succeeded()
                     for each in batch:
@@ -74,8 +77,8 @@ async def follow_samples(connection: Connection, cell: str, rate_hz: float) -> A
     retries = Retries()
     while True:
         try:
-            hello = {"cell": cell, "rate_hz": rate_hz}
-            async with aclosing(_receive(connection, hello, Sample, "samples")) as samples:
+            hello = SampleHello(cell, connection.address.token, rate_hz)
+            async with aclosing(_receive(connection, STREAM_SAMPLES, hello, Sample)) as samples:
                 async for each in samples:
                     retries.succeeded()
                     yield each
@@ -85,19 +88,19 @@ async def follow_samples(connection: Connection, cell: str, rate_hz: float) -> A
 
 
 async def _receive(
-    connection: Connection, hello: dict[str, object], kind: type[T], path: str = "events"
+    connection: Connection, stream: Stream, hello: msgspec.Struct, kind: type[T]
 ) -> AsyncGenerator[T, None]:
-    """Yield the messages of one connection to a path until the server says that there are no more.
+    """Yield the messages of one connection to a stream until the server says that there are no more.
 
     UnavailableError if the connection breaks before.
     """
     address = connection.address
-    url = f"ws{address.url.removeprefix('http')}/{path}"
+    url = f"ws{address.url.removeprefix('http')}{stream.path}"
     try:
         async with connect(
             url, ssl=connection.tls, proxy=None if address.is_local else True, max_size=MAX_BYTES
         ) as socket:
-            await socket.send(msgspec.json.encode({"token": address.token, **hello}).decode())
+            await socket.send(msgspec.json.encode(hello).decode())
             while (message := await _read(socket)) is not None:
                 yield decode(message, kind) if isinstance(message, str) else decode_binary(message, kind)
     except (OSError, TimeoutError, InvalidHandshake, InvalidMessage, ConnectionClosed) as error:

@@ -1,86 +1,121 @@
-"""A server."""
+"""A server; made from `async_server` by `python tests/accept.py`, not edited."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from types import TracebackType
 
-from skillc.client.async_server import AsyncServer
 from skillc.client.cell import ServerCell
 from skillc.client.feed import Status
-from skillc.client.loop_thread import LoopThread
 from skillc.client.operation import ServerOperation
+from skillc.client.waiting import WaitingServer
 from skillc.contract.access import Role, TokenInfo
+from skillc.contract.audit import AuditEntry
 from skillc.contract.cell import CellStatus
 from skillc.contract.library import LibraryStatus
+from skillc.contract.source import SourceInfo, SourceText
+from skillc.contract.trials import Series, TrialReplay, TrialSeries
 from skillc.contract.version import VersionInfo
 
 
-class Server:
+class Server(WaitingServer):
     """A server; its methods are those of `AsyncServer`, and wait. They may be called from any thread.
 
     As a context manager it closes the connection; what goes on in the server goes on.
     """
 
-    def __init__(self, server: AsyncServer) -> None:
-        self._loop, self._server = LoopThread(), server
+    def cells(self) -> tuple[CellStatus, ...]:
+        """List the cells."""
+        return self._loop.run(self._client.cells())
 
     def version(self) -> VersionInfo:
-        """Return its version of skillc and of the API."""
-        return self._loop.run(self._server.version())
+        """Show the versions of skillc and of the API."""
+        return self._loop.run(self._client.version())
 
     def libraries(self) -> tuple[LibraryStatus, ...]:
-        """Return its libraries, and why one on disk is not used."""
-        return self._loop.run(self._server.libraries())
+        """List the libraries, and why the one on disk is not used."""
+        return self._loop.run(self._client.libraries())
 
-    def cells(self) -> tuple[CellStatus, ...]:
-        """Return how its cells are."""
-        return self._loop.run(self._server.cells())
+    def list_library_sources(self, library: str) -> tuple[SourceInfo, ...]:
+        """List the texts of a library, and those that it may import."""
+        return self._loop.run(self._client.list_library_sources(library))
+
+    def read_library_source(self, library: str, path: str) -> SourceText:
+        """Read a text of a library.
+
+        Which text, by its path in the library.
+        """
+        return self._loop.run(self._client.read_library_source(library, path))
+
+    def change_library_source(self, library: str, path: str, text: str, base_hash: str) -> SourceText:
+        """Change a text of a library, unless somebody else has meanwhile.
+
+        Which text, by its path in the library.
+
+        A new text, in the place of the one whose file has the hash `base_hash`.
+        """
+        return self._loop.run(self._client.change_library_source(library, path, text, base_hash))
+
+    def tokens(self) -> tuple[TokenInfo, ...]:
+        """List the tokens."""
+        return self._loop.run(self._client.tokens())
+
+    def revoke_token(self, name: str) -> None:
+        """Revoke a token."""
+        self._loop.run(self._client.revoke_token(name))
+
+    def show_trials(self, series: str) -> TrialSeries:
+        """Show how far a series of trials is."""
+        return self._loop.run(self._client.show_trials(series))
+
+    def judge_trials(self, series: str) -> Series:
+        """Judge the trials of a series that are done."""
+        return self._loop.run(self._client.judge_trials(series))
+
+    def remove_trials(self, series: str) -> None:
+        """End and forget a series of trials."""
+        self._loop.run(self._client.remove_trials(series))
+
+    def replay_trial(self, series: str, seed: str) -> TrialReplay:
+        """Run a trial of a series again, and record it."""
+        return self._loop.run(self._client.replay_trial(series, seed))
+
+    def show_replay(self, series: str, seed: str) -> TrialReplay:
+        """Show how far a trial is that is run again."""
+        return self._loop.run(self._client.show_replay(series, seed))
+
+    def list_audit_entries(self, after: int = 0, limit: int = 1000) -> tuple[AuditEntry, ...]:
+        """Read the audit log: what was changed, by whom, and what was refused.
+
+        Which entries: those after a number, and how many at most.
+        """
+        return self._loop.run(self._client.list_audit_entries(after, limit))
 
     def cell(self, name: str | None = None) -> ServerCell:
         """Return a cell, or the only one. RequestError, with the cells, if there is none such, or several."""
-        return ServerCell(self._loop, self._loop.run(self._server.cell(name)))
+        return ServerCell(self._loop, self._loop.run(self._client.cell(name)))
 
     def operation(self, id: str | None = None) -> ServerOperation:
         """Return an operation, or the only one that goes on. RequestError if there is none such, or several."""
-        return ServerOperation(self._loop, self._loop.run(self._server.operation(id)))
+        return ServerOperation(self._loop, self._loop.run(self._client.operation(id)))
 
     def ongoing(self) -> tuple[ServerOperation, ...]:
         """Return the operations of all cells that have not ended."""
-        return tuple(ServerOperation(self._loop, each) for each in self._loop.run(self._server.ongoing()))
+        return tuple(ServerOperation(self._loop, each) for each in self._loop.run(self._client.ongoing()))
 
     def watch(self) -> Iterator[Status]:
-        """Yield how each cell and each operation that goes on is, and then what changes, until that is given up."""
-        return self._loop.iterate(self._server.watch())
+        """Yield how each cell and each operation that goes on is, and then what changes, until that is given up.
 
-    def tokens(self) -> tuple[TokenInfo, ...]:
-        """Return the tokens of its clients, without their secrets."""
-        return self._loop.run(self._server.tokens())
+        Of several changes of the same only the last one may come; events of operations come all.
+        """
+        return self._loop.iterate(self._client.watch())
 
     def add_token(self, name: str, role: Role, agent: bool = False) -> str:
         """Make a token for a client, and return it; nobody can read it again.
 
         What an `agent`, a program that decides by itself, submits waits for the approval of somebody else.
         """
-        return self._loop.run(self._server.add_token(name, role, agent))
-
-    def revoke_token(self, name: str) -> None:
-        """Refuse all further requests with a token."""
-        self._loop.run(self._server.revoke_token(name))
+        return self._loop.run(self._client.add_token(name, role, agent))
 
     def make_login_code(self) -> str:
         """Return a code that stands for the token of this client in one request, within a minute."""
-        return self._loop.run(self._server.make_login_code())
-
-    def close(self) -> None:
-        """Close the connection; what goes on in the server goes on."""
-        self._loop.run(self._server.close())
-        self._loop.close()
-
-    def __enter__(self) -> Server:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        self.close()
+        return self._loop.run(self._client.make_login_code())

@@ -13,7 +13,6 @@ from skillc.contract.access import Role
 PREFIX = "/api/v1"
 JSON = "application/json"
 Method: TypeAlias = Literal["GET", "POST", "PUT", "DELETE"]
-Owner: TypeAlias = Literal["server", "cell", "operation"]
 A = TypeVar("A")
 
 
@@ -49,6 +48,11 @@ class Endpoint(Generic[A]):
     unlimited: bool = False
     media_types: tuple[str, ...] = (JSON,)
     call: str | None = ""
+
+    @property
+    def is_repeatable(self) -> bool:
+        """Whether the same request twice is one: it reads, or stops."""
+        return self.method == "GET" or self.unlimited
 
     @property
     def path_parameters(self) -> tuple[str, ...]:

@@ -7,10 +7,10 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc.contract.sample import PoseNumbers
-from skillc_runtime.devices.simulation import IndividualKind
 
 Vector: TypeAlias = tuple[float, float, float]
 Shape: TypeAlias = Literal["plane", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh"]
+IndividualKind: TypeAlias = Literal["arm", "gripper", "base", "tool", "surface", "fixture", "body"]
 JointKind: TypeAlias = Literal["free", "ball", "slide", "hinge"]
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Literal, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Literal, Protocol, TypeAlias
 
 import msgspec
 
-from skillc_runtime.motion.pose import Array
+if TYPE_CHECKING:
+    from skillc_runtime.motion.pose import Array
 
 Origin: TypeAlias = Literal["truth", "sensor", "estimate", "command"]
 """What only the simulator knows; what a sensor says; what is computed from sensors; what is asked for."""

@@ -1,0 +1,25 @@
+"""The modules of clients that are made from the contract, in the order in which they are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from clients import made_calls
+from clients.made_waiting import WAITING, make_waiting
+
+
+@dataclass(frozen=True, slots=True)
+class MadeModule:
+    """A file, and what makes its text."""
+
+    file: Path
+    make: Callable[[], str]
+
+
+MADE = (
+    MadeModule(made_calls.FILE, made_calls.make_calls),
+    *(MadeModule(each.file, partial(make_waiting, each)) for each in WAITING),
+)
