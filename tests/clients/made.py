@@ -1,4 +1,4 @@
-"""The modules of clients that are made from the contract, in the order in which they are."""
+"""The modules of clients and of the studio that are made from the contract, in the order in which they are."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from clients import made_calls
+from clients import made_calls, made_requests
 from clients.made_waiting import WAITING, make_waiting
 
 
@@ -22,4 +22,5 @@ class MadeModule:
 MADE = (
     MadeModule(made_calls.FILE, made_calls.make_calls),
     *(MadeModule(each.file, partial(make_waiting, each)) for each in WAITING),
+    MadeModule(made_requests.FILE, made_requests.make_requests),
 )

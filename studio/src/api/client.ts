@@ -1,30 +1,6 @@
 // Requests to the server. What it refuses is an error with its own words.
-import type {
-  CellStatus,
-  DeviceStatus,
-  Envelope,
-  Lease,
-  LibraryDescription,
-  LibraryStatus,
-  OperationReport,
-  OperationRequest,
-  OperationStatus,
-  OperationTree,
-  PlanPreview,
-  ProblemDetails,
-  Rehearsal,
-  RunDiff,
-  RunExplanation,
-  Session,
-  SignalRows,
-  Series,
-  SourceText,
-  TrialReplay,
-  TrialSeries,
-  TrialsRequest,
-  WorldFacts,
-  WorldWrite,
-} from "./types";
+import { REQUESTS, type Requests } from "./requests";
+import type { OperationRequest, ProblemDetails, TrialsRequest } from "./types";
 import { Turns } from "./turns";
 
 /** The event that a request was refused because nobody is logged in any more. */
@@ -93,7 +69,7 @@ function endingWith(signal: AbortSignal | undefined): AbortSignal {
 
 type Headers = Record<string, string>;
 
-export interface Manner {
+interface Manner {
   headers?: Headers;
   /** What ends the request when its answer is not needed any more. */
   signal?: AbortSignal;
@@ -101,7 +77,7 @@ export interface Manner {
   isUrgent?: boolean;
 }
 
-export async function request(
+async function request(
   method: string,
   path: string,
   body?: unknown,
@@ -141,20 +117,35 @@ function readJson({ content }: Answer): unknown {
   }
 }
 
-export async function read<T>(path: string, query: Query = {}): Promise<T> {
-  return readJson(await request("GET", address(path, query))) as T;
+const part = encodeURIComponent;
+
+type Name = keyof Requests;
+
+/** What is given with the request of a name, besides the parts of its path. */
+export interface Given<N extends Name> extends Manner {
+  query?: Requests[N]["query"];
+  body?: Requests[N]["body"];
 }
 
-async function write<T>(method: string, path: string, body?: unknown, manner: Manner = {}): Promise<T> {
-  const answer = await request(method, address(path), body, manner);
-  return answer.status === 204 ? (undefined as T) : (readJson(answer) as T);
+function locate(name: Name, path: string[], query: Query = {}): string {
+  const parts = [...path];
+  return address(
+    REQUESTS[name].path.replace(/\{\w+\}/g, () => part(parts.shift() ?? "")),
+    query,
+  );
 }
 
-async function readBytes(path: string): Promise<ArrayBuffer> {
-  return (await request("GET", address(path))).content;
+/** Make the request of a name, with the parts of its path, and return the answer. */
+export async function call<N extends Name>(
+  name: N,
+  path: Requests[N]["path"],
+  { query, body, ...manner }: Given<N> = {},
+): Promise<Requests[N]["answer"]> {
+  const { method, isFile } = REQUESTS[name];
+  const answer = await request(method, locate(name, path, query), body, manner);
+  if (isFile) return answer.content;
+  return (answer.status === 204 ? undefined : readJson(answer)) as Requests[N]["answer"];
 }
-
-export const part = encodeURIComponent;
 
 export interface PlanWish {
   task?: string;
@@ -166,85 +157,64 @@ export interface PlanWish {
 }
 
 /** A command such as `{type: "pause"}`. */
-export type CommandBody = { type: string } & Record<string, unknown>;
-
-/** A file of a library; `editable` if it is its own. */
-export interface SourceName {
-  path: string;
-  editable: boolean;
-}
+export type CommandBody = Requests["give_command"]["body"];
 
 export const api = {
-  session: () => read<Session>("/session"),
+  session: () => call("show_session", []),
   /** Log in with a token, or with a code that is good for one time; the browser keeps the cookie. */
-  logIn: (secret: string) =>
-    write<undefined>("POST", "/session", undefined, { headers: { Authorization: `Bearer ${secret}` } }),
-  logOut: () => write<undefined>("DELETE", "/session"),
-  cells: () => read<CellStatus[]>("/cells"),
-  version: () => read<{ skillc: string; api: string }>("/version"),
-  library: (cell: string) => read<LibraryDescription>(`/cells/${part(cell)}/library`),
-  world: (cell: string, query: Query = {}) => read<WorldFacts>(`/cells/${part(cell)}/world`, query),
-  writes: (cell: string, query: Query = {}) =>
-    read<WorldWrite[]>(`/cells/${part(cell)}/world/history`, query),
-  edit: (cell: string, edits: string[], why: string) =>
-    write<undefined>("POST", `/cells/${part(cell)}/world/edits`, { edits, why }),
+  logIn: (secret: string) => call("log_in", [], { headers: { Authorization: `Bearer ${secret}` } }),
+  logOut: () => call("log_out", []),
+  cells: () => call("list_cells", []),
+  version: () => call("show_version", []),
+  library: (cell: string) => call("show_library", [cell]),
+  world: (cell: string, query: Requests["list_facts"]["query"] = {}) => call("list_facts", [cell], { query }),
+  writes: (cell: string, query: Requests["list_writes"]["query"] = {}) =>
+    call("list_writes", [cell], { query }),
+  edit: (cell: string, edits: string[], why: string) => call("edit_world", [cell], { body: { edits, why } }),
   plan: (cell: string, wish: PlanWish, signal: AbortSignal) =>
-    write<PlanPreview>("POST", `/cells/${part(cell)}/plans`, wish, { signal }),
+    call("preview_plan", [cell], { body: wish, signal }),
   /** Do something in a simulated twin of the cell; its recording can be played. */
-  rehearse: (cell: string, wish: PlanWish) =>
-    write<Rehearsal>("POST", `/cells/${part(cell)}/rehearsals`, { ...wish, record: true }),
-  rehearsalRecording: (id: string) => readBytes(`/rehearsals/${part(id)}/recording`),
-  rehearsal: (id: string) => read<Rehearsal>(`/rehearsals/${part(id)}`),
-  devices: (cell: string) => read<DeviceStatus[]>(`/cells/${part(cell)}/robots`),
-  lease: (cell: string) => read<Lease>(`/cells/${part(cell)}/lease`),
+  rehearse: (cell: string, wish: PlanWish) => call("rehearse", [cell], { body: { ...wish, record: true } }),
+  rehearsalRecording: (id: string) => call("read_rehearsal_recording", [id]),
+  rehearsal: (id: string) => call("show_rehearsal", [id]),
+  devices: (cell: string) => call("list_robots", [cell]),
+  lease: (cell: string) => call("show_lease", [cell]),
   /** Take the lease of a cell, or prolong it; `takeover` ends that of another client. */
   takeLease: (cell: string, durationS: number, takeover = false) =>
-    write<Lease>("PUT", `/cells/${part(cell)}/lease`, { duration_s: durationS, takeover }),
-  releaseLease: (cell: string) => write<undefined>("DELETE", `/cells/${part(cell)}/lease`),
-  trials: (cell: string) => read<TrialSeries[]>(`/cells/${part(cell)}/trials`),
-  beginTrials: (cell: string, wanted: TrialsRequest) =>
-    write<TrialSeries>("POST", `/cells/${part(cell)}/trials`, wanted),
-  removeTrials: (id: string) => write<undefined>("DELETE", `/trials/${part(id)}`),
-  trialsResult: (id: string) => read<Series>(`/trials/${part(id)}/result`),
+    call("take_lease", [cell], { body: { duration_s: durationS, takeover } }),
+  releaseLease: (cell: string) => call("release_lease", [cell]),
+  trials: (cell: string) => call("list_trials", [cell]),
+  beginTrials: (cell: string, body: TrialsRequest) => call("run_trials", [cell], { body }),
+  removeTrials: (id: string) => call("remove_trials", [id]),
+  trialsResult: (id: string) => call("judge_trials", [id]),
   /** Run a trial again in simulation, and record it. */
-  replayTrial: (id: string, seed: number) =>
-    write<TrialReplay>("POST", `/trials/${part(id)}/replays/${seed}`),
-  trialReplay: (id: string, seed: number) => read<TrialReplay>(`/trials/${part(id)}/replays/${seed}`),
-  trialRecording: (id: string, seed: number) => readBytes(`/trials/${part(id)}/replays/${seed}/recording`),
-  submit: (cell: string, wanted: OperationRequest, key: string) =>
-    write<OperationStatus>("POST", `/cells/${part(cell)}/operations`, wanted, {
-      headers: { "Idempotency-Key": key },
-    }),
-  operations: (cell: string, query: Query = {}) =>
-    read<OperationStatus[]>(`/cells/${part(cell)}/operations`, query),
-  operation: (id: string) => read<OperationStatus>(`/operations/${part(id)}`),
-  events: (id: string, after: number) =>
-    read<Envelope[]>(`/operations/${part(id)}/events`, { after, limit: 1000 }),
-  command: (id: string, command: CommandBody) =>
-    write<OperationStatus>("POST", `/operations/${part(id)}/commands`, command),
+  replayTrial: (id: string, seed: number) => call("replay_trial", [id, String(seed)]),
+  trialReplay: (id: string, seed: number) => call("show_replay", [id, String(seed)]),
+  trialRecording: (id: string, seed: number) => call("read_replay", [id, String(seed)]),
+  submit: (cell: string, body: OperationRequest, key: string) =>
+    call("submit_operation", [cell], { body, headers: { "Idempotency-Key": key } }),
+  operations: (cell: string, query: Requests["list_operations"]["query"] = {}) =>
+    call("list_operations", [cell], { query }),
+  operation: (id: string) => call("show_operation", [id]),
+  events: (id: string, after: number) => call("list_events", [id], { query: { after, limit: 1000 } }),
+  command: (id: string, body: CommandBody) => call("give_command", [id], { body }),
   /** Stop all that goes on in a cell. */
-  stop: (cell: string, reason: string) =>
-    write<CellStatus>("POST", `/cells/${part(cell)}/stop`, { reason }, { isUrgent: true }),
-  setPace: (cell: string, factor: number | null) =>
-    write<CellStatus>("PUT", `/cells/${part(cell)}/pace`, { factor }),
-  acknowledge: (cell: string) => write<CellStatus>("POST", `/cells/${part(cell)}/acknowledge`),
-  report: (id: string) => read<OperationReport>(`/operations/${part(id)}/report`),
-  makeReport: (id: string) =>
-    write<OperationReport>("POST", `/operations/${part(id)}/report`, { film: false }),
-  reportPage: (id: string) => address(`/operations/${part(id)}/report/report.html`),
-  tree: (id: string) => read<OperationTree>(`/operations/${part(id)}/tree`),
-  why: (id: string, question: string) => read<RunExplanation>(`/operations/${part(id)}/why`, { question }),
+  stop: (cell: string, reason: string) => call("stop_cell", [cell], { body: { reason }, isUrgent: true }),
+  setPace: (cell: string, factor: number | null) => call("set_pace", [cell], { body: { factor } }),
+  acknowledge: (cell: string) => call("acknowledge_fault", [cell]),
+  report: (id: string) => call("show_report", [id]),
+  makeReport: (id: string) => call("make_report", [id], { body: { film: false } }),
+  reportPage: (id: string) => locate("read_report_file", [id, "report.html"]),
+  tree: (id: string) => call("show_tree", [id]),
+  why: (id: string, question: string) => call("explain_run", [id], { query: { question } }),
   signals: (id: string, match: string, afterS: number | null) =>
-    read<SignalRows>(`/operations/${part(id)}/signals`, { match, after_s: afterS }),
-  diff: (id: string, other: string) => read<RunDiff>(`/operations/${part(id)}/diff`, { other }),
-  libraries: () => read<LibraryStatus[]>("/libraries"),
-  files: (library: string) => read<SourceName[]>(`/libraries/${part(library)}/files`),
-  file: (library: string, path: string) => read<SourceText>(`/libraries/${part(library)}/file`, { path }),
+    call("read_signals", [id], { query: afterS === null ? { match } : { match, after_s: afterS } }),
+  diff: (id: string, other: string) => call("compare_runs", [id], { query: { other } }),
+  libraries: () => call("list_libraries", []),
+  files: (library: string) => call("list_library_sources", [library]),
+  file: (library: string, path: string) => call("read_library_source", [library], { query: { path } }),
   /** Write a file if it is still the one with the hash `base`; 412 otherwise. */
-  writeFile: async (library: string, path: string, text: string, base: string): Promise<SourceText> => {
-    const body = { text, base_hash: base };
-    const place = address(`/libraries/${part(library)}/file`, { path });
-    return readJson(await request("PUT", place, body)) as SourceText;
-  },
-  recording: (id: string) => readBytes(`/operations/${part(id)}/recording`),
+  writeFile: (library: string, path: string, text: string, base: string) =>
+    call("change_library_source", [library], { query: { path }, body: { text, base_hash: base } }),
+  recording: (id: string) => call("read_recording", [id]),
 };

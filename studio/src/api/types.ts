@@ -9,7 +9,6 @@ export type CellStatus = Required<Schemas["CellStatus"]>;
 export type CellState = CellStatus["state"];
 export type OperationStatus = Required<Schemas["OperationStatus"]>;
 export type OperationRequest = Partial<Schemas["OperationRequest"]>;
-export type OperationEndState = Schemas["TaskEnded"]["status"];
 export type RunState = OperationStatus["state"];
 export type Envelope = Schemas["Envelope"];
 export type RunEvent = Envelope["event"];

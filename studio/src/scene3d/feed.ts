@@ -1,7 +1,8 @@
 // Brings what the 3-D view shows: the model of a cell, believed poses and coverage from the server, the rest from the page.
 import { computed, effect, signal } from "@preact/signals";
-import { ApiError, part, read, request } from "../api/client";
+import { ApiError, call } from "../api/client";
 import { attempt, select } from "../state/actions";
+import type { PoseNumbers } from "../api/types";
 import { readWorld } from "../state/live";
 import { rehearsed } from "../state/replay";
 import {
@@ -71,11 +72,11 @@ export function followScene(cell: string): () => void {
   believed.value = coverage.value = {};
   const ends = [
     effect(() =>
-      isOn.value ? keepReading(() => read<CellModel>(`/cells/${part(cell)}/model`), model) : undefined,
+      isOn.value ? keepReading(() => call("show_model", [cell]) as Promise<CellModel>, model) : undefined,
     ),
     effect(() => {
       return isOn.value && worldSequence.value >= 0
-        ? keepReading(() => read<BelievedPoses>(`/cells/${part(cell)}/poses`), believed)
+        ? keepReading<BelievedPoses>(() => call("list_poses", [cell]), believed)
         : undefined;
     }),
     followCoverage(cell),
@@ -114,7 +115,7 @@ function followCoverage(cell: string): () => void {
     const isOff = cells.peek().get(cell)?.state === "off";
     if (isOff || isReading || replay.peek() !== null || now === time || document.hidden) return;
     isReading = true;
-    read<Coverage>(`/cells/${part(cell)}/coverage`).then(
+    call("show_coverage", [cell]).then(
       (found) => {
         [time, isReading, coverage.value] = [now, false, found];
       },
@@ -136,22 +137,17 @@ export function sceneActions(cell: string): SceneActions {
 }
 
 function disturb(cell: string, { individual, label, by_m }: Displacement): Promise<boolean> {
-  const body = { type: "move", thing: individual, by_m };
+  const body = { type: "move" as const, thing: individual, by_m: [...by_m] as [number, number, number] };
   return attempt(
-    () => request("POST", `/api/v1/cells/${part(cell)}/disturbances`, body),
+    () => call("disturb_cell", [cell], { body }),
     `${label} was moved in the simulated reality; the cell does not know it`,
   );
 }
 
 function take(cell: string, { individual, label, by_m }: Displacement): Promise<boolean> {
-  const aside = by_m.some((each) => each !== 0) ? { by_m } : {};
+  const aside = by_m.some((each) => each !== 0) ? { by_m: [...by_m] as [number, number, number] } : {};
   return attempt(
-    () =>
-      request("POST", `/api/v1/cells/${part(cell)}/disturbances`, {
-        type: "take",
-        thing: individual,
-        ...aside,
-      }),
+    () => call("disturb_cell", [cell], { body: { type: "take", thing: individual, ...aside } }),
     `${label} was taken out of the hand; the fingers close, and find out`,
   );
 }
@@ -161,9 +157,9 @@ async function correct(
   { individual, label, pose }: Displacement,
   why: string,
 ): Promise<boolean> {
-  const body = { thing: individual, pose, why };
+  const body = { thing: individual, pose: [...pose] as PoseNumbers, why };
   const isDone = await attempt(
-    () => request("POST", `/api/v1/cells/${part(cell)}/world/placements`, body),
+    () => call("place_thing", [cell], { body }),
     `The cell believes that ${label} is there; nothing has moved`,
   );
   if (isDone) await readWorld(true);

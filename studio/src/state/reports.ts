@@ -24,7 +24,7 @@ export async function makeReport(id: string): Promise<void> {
       await new Promise((resolve) => window.setTimeout(resolve, LOOK_MS));
       found = await api.report(id);
     }
-    if (found.result == null) throw new ApiError(0, `The report was not made: ${found.reason ?? ""}`);
+    if (found.result === null) throw new ApiError(0, `The report was not made: ${found.reason}`);
   });
   note(id, isMade ? "made" : null);
 }

@@ -1,6 +1,7 @@
 // The files of a library: which one is open, what was changed in it, and breakpoints for the next operation.
 import { computed, signal } from "@preact/signals";
-import { api, ApiError, type SourceName } from "../api/client";
+import { api, ApiError } from "../api/client";
+import type { Requests } from "../api/requests";
 import type { Position } from "../api/types";
 import { activeCalls } from "./operation";
 import { attempt, command } from "./actions";
@@ -17,7 +18,7 @@ export interface OpenFile {
   problem: string;
 }
 
-export const files = signal<readonly SourceName[]>([]);
+export const files = signal<readonly Requests["list_library_sources"]["answer"][number][]>([]);
 export const source = signal<OpenFile | null>(null);
 /** FILE:LINE of each place where the next operation pauses. */
 export const breakpoints = signal<ReadonlySet<string>>(new Set());

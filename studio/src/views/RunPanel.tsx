@@ -92,7 +92,7 @@ const DECISIONS = [
   { name: "retry", label: "Try again", why: "Run the failed step again" },
   { name: "skip", label: "Count as done", why: "Somebody did the step by hand; its effects are assumed" },
   { name: "replan", label: "Plan again", why: "Make another plan for the world as it is" },
-];
+] as const;
 
 /** How an operation that was interrupted can be continued; nothing goes on by itself. */
 function Continue() {
@@ -125,11 +125,8 @@ function Continue() {
 function Decisions() {
   const possible = DECISIONS.filter((each) => allows(each.name));
   if (possible.length === 0) return null;
-  const give = (name: string): void => {
-    const body =
-      name === "skip" ? { type: name, who: "", why: "counted as done in the studio" } : { type: name };
-    void command(body);
-  };
+  const give = (type: (typeof DECISIONS)[number]["name"]): void =>
+    void command(type === "skip" ? { type, why: "counted as done in the studio" } : { type });
   return (
     <div class="row decisions">
       {possible.map((each, index) => (

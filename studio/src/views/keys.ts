@@ -16,7 +16,7 @@ import {
 } from "./layout";
 import { togglePause } from "./TopBar";
 
-function step(type: string): void {
+function step(type: "step-into" | "step-over" | "step-out"): void {
   if (mayCommand() && allows(type)) void command({ type });
 }
 
