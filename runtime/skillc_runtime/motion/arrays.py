@@ -1,14 +1,28 @@
-"""Array types that state the number of dimensions, for readers and for `numerics.compiled`."""
+"""Arrays: numpy as `np`, or its part for scenes where it is not installed; and types that state dimensions.
+
+What plans and checks need imports `np` from here. The types are for readers and for `numerics.compiled`.
+"""
 
 from __future__ import annotations
 
-from typing import Annotated
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Annotated
 
-import numpy as np
-from numpy.typing import NDArray
+HAS_NUMPY = find_spec("numpy") is not None
+if TYPE_CHECKING or HAS_NUMPY:
+    import numpy as np
+    from numpy.typing import NDArray
 
-Vector = Annotated[NDArray[np.float64], 1, "read"]
-Matrix = Annotated[NDArray[np.float64], 2, "read"]
-OutVector = Annotated[NDArray[np.float64], 1, "written"]
-OutMatrix = Annotated[NDArray[np.float64], 2, "written"]
+    Array = NDArray[np.float64]
+else:
+    from skillc_runtime.motion import small_arrays as np
+
+    Array = np.ndarray
+
+__all__ = ["HAS_NUMPY", "Array", "Matrix", "OutMatrix", "OutVector", "Vector", "np"]
+
+Vector = Annotated[Array, 1, "read"]
+Matrix = Annotated[Array, 2, "read"]
+OutVector = Annotated[Array, 1, "written"]
+OutMatrix = Annotated[Array, 2, "written"]
 """Arguments of compiled functions: arrays that are read, in any layout, or written, in C order."""

@@ -5,8 +5,7 @@ from __future__ import annotations
 from math import ceil
 from typing import Literal, TypeAlias, assert_never
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
 
 OVERHANG_M = (0.024, 0.012)

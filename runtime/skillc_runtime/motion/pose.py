@@ -5,12 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import atan2, cos, hypot, sin, sqrt
 
-import numpy as np
-from numpy.typing import NDArray
-
-from skillc_runtime.motion.arrays import Matrix, Vector
-
-Array = NDArray[np.float64]
+from skillc_runtime.motion.arrays import Array, Matrix, Vector, np
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,8 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.lanes import OVERHANG_M, Direction, plan_lanes
 from skillc_runtime.motion.layout import Hole, Layout
 from skillc_runtime.motion.pose import Array, Pose

@@ -7,12 +7,12 @@ import re
 from decimal import Decimal, InvalidOperation
 from difflib import get_close_matches
 
-import numpy as np
 import pyoxigraph as ox
 
 from skillc_model.format_type import SI_UNITS
 from skillc_rdf.turtle.terms import XSD
 from skillc_rdf.vocabulary.types import DirectionType, NumberType, PlainType, PropertyTerm, VectorType
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.world.state.terms import SKILLC
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.vectors import is_direction, is_too_large, parse_vector

@@ -8,8 +8,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.lanes import Direction, lane_axis
 from skillc_runtime.motion.lanes import plan_lanes as lane_pattern
 from skillc_runtime.motion.pose import Array, Pose

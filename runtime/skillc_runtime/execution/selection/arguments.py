@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from skillc_model.format_type import format_type
 from skillc_model.rounding import is_above
 from skillc_model.skills import Parameter
 from skillc_rdf.vocabulary.types import THING, ClassType, DirectionType, ValueType, Vocabulary, local_name
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.world.state.labelled_text import format_value
 from skillc_runtime.world.state.labelling import label_value
 from skillc_runtime.world.state.value_types import is_of_type

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import acos, atan2, degrees, pi
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.frame_tree import FrameError

@@ -6,8 +6,6 @@ import operator
 from collections.abc import Callable, Mapping
 from typing import TypeAlias, assert_never
 
-import numpy as np
-
 from skillc_model.conditions import (
     Anything,
     Arithmetic,
@@ -21,6 +19,7 @@ from skillc_model.conditions import (
 )
 from skillc_model.format_type import format_type
 from skillc_rdf.vocabulary.types import local_name
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.world.eval.identity_cache import IdentityCache
 from skillc_runtime.world.state.properties import property_of, value_from_python
 from skillc_runtime.world.state.python_calls import EvaluationError

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.drawers import Slide, read_slide
 from skillc_runtime.world.space.extents import FRAME_HEIGHT

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from math import degrees, pi
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.data_sheet import DataSheet, sheet_of
 

@@ -10,8 +10,7 @@ from math import radians
 from typing import TypeAlias
 from weakref import WeakKeyDictionary, ref
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose, rotation_from_angles, rotation_from_quaternion
 from skillc_runtime.world.space.extents import LocalBox, Spot, contact_pose
 from skillc_runtime.world.space.floors import bin_floor, shelf_board

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.world.space.frame_tree import WORLD_FRAME, FrameError, Unplaced, frame_tree_of
 from skillc_runtime.world.state.changes import Change, ClearProperty, RemoveRelation, SetProperty

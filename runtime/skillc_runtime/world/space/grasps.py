@@ -9,8 +9,7 @@ from contextlib import suppress
 from functools import lru_cache
 from typing import Final, Literal, TypeAlias
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.space.bodies import RigidBody, read_body
 from skillc_runtime.world.space.frame_tree import Unplaced

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import RigidBody
 from skillc_runtime.world.space.grasp_geometry import (

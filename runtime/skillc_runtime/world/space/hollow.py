@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.bodies import RigidBody, has_body, read_body
 from skillc_runtime.world.space.bounding_boxes import TOUCH_M, bounding_box, solid_box

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.world.space.bounding_boxes import bounding_box, solid_box
 
 if TYPE_CHECKING:

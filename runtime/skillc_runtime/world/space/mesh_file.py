@@ -7,9 +7,8 @@ from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
 
-import numpy as np
-
 from skillc_ontology.catalogue import model_path
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.shapes import Mesh, ShapeError
 from skillc_runtime.world.space.solids import Hull, Size

@@ -7,8 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import REGIONS, RigidBody, has_body, read_body
 from skillc_runtime.world.space.bounding_boxes import solid_box

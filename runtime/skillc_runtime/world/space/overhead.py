@@ -5,8 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import Final
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.bodies import read_body
 from skillc_runtime.world.space.frame_tree import FrameError

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.bounding_boxes import TOUCH_M
 from skillc_runtime.world.space.frame_tree import FrameError

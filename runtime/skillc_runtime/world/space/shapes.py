@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from itertools import pairwise, product
 from typing import TypeAlias, assert_never
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.world.space.solids import Hull, Kind, Size, Solid, block
 
 BIN_WALL_M, SHELF_WALL_M, TABLE_WALL_M = 0.004, 0.018, 0.03

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from math import pi, sqrt
 from typing import Literal, TypeAlias, assert_never
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
 
 Size: TypeAlias = tuple[float, float, float]

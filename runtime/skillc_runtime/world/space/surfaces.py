@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from math import atan2
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.lanes import Direction
 from skillc_runtime.motion.layout import Hole, Layout, Patch
 from skillc_runtime.motion.pose import Array, Pose, exp

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.frames import moves_with, pose, size
 from skillc_runtime.world.state.terms import HAS_ARM, HAS_WORKSPACE, MOBILE_ROBOT

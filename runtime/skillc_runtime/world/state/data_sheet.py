@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from skillc_ontology.catalogue import model_path
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.terms import (
     HAS_POSTURE,

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import assert_never
 
-import numpy as np
-
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.state.changes import (
     AddIndividual,

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import cast
 
-import numpy as np
-
 from skillc_rdf.vocabulary.types import local_name
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.world.state.python_calls import EvaluationError, call_python, load_python
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState

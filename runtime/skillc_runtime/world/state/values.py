@@ -5,12 +5,8 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from skillc_runtime.motion.arrays import Array, np
 from skillc_runtime.motion.pose import Pose
-
-Array = NDArray[np.float64]
 
 Value: TypeAlias = "bool | int | float | str | Pose | Array | tuple[Value, ...]"
 """Numbers in SI units, individuals as IRIs, vectors as arrays (3,), several values and lists as tuples."""

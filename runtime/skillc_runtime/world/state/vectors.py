@@ -6,10 +6,7 @@ import re
 from math import isfinite
 from typing import TypeGuard
 
-import numpy as np
-from numpy.typing import NDArray
-
-Array = NDArray[np.float64]
+from skillc_runtime.motion.arrays import Array, np
 
 UNIT_WITHIN = 1e-3
 """The tolerance for the length of a direction, unitless: files state it with three or four decimals."""
