@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from accept import built, cases, expected
+from emit.reading_back import read_back_artifact
 from skillc_compiler.emit.headers import MARK
 from skillc_model.codec import loads
 
@@ -29,6 +30,12 @@ def test_there_are_cases_and_each_kind_of_artifact_is_among_them() -> None:
         "skills.ttl",
         "trees",
     }
+
+
+@pytest.mark.parametrize("case", cases(), ids=lambda case: case.name)
+def test_another_parser_reads_the_domain(case: Path) -> None:
+    artifacts = built(case)
+    read_back_artifact(loads(artifacts["library.json"].encode(), case.name), artifacts["domain.pddl"])
 
 
 @pytest.mark.parametrize("case", cases(), ids=lambda case: case.name)

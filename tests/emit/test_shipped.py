@@ -6,6 +6,7 @@ from functools import cache
 from importlib.resources import files
 from pathlib import Path
 
+from emit.reading_back import read_back_artifact
 from peers.comparing import differences_of
 from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.pipeline import compile
@@ -29,6 +30,10 @@ def test_every_planned_skill_can_be_planned_with() -> None:
     domain = make_planning_domain(wiping())
     assert domain.excluded == ()
     assert {each.skill for each in domain.actions} == {each.name for each in wiping().skills.values() if each.planned}
+
+
+def test_another_parser_reads_the_domain() -> None:
+    read_back_artifact(wiping(), make_artifacts(wiping())["domain.pddl"])
 
 
 def test_the_trees_keep_the_rules_of_the_format_and_run_in_the_library() -> None:

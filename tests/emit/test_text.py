@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from emit.reading_back import InvalidDomain, read_back
 from emit.samples import (
     BASE,
     DRIVE,
@@ -25,7 +26,6 @@ from emit.samples import (
     wiping,
 )
 from skillc_compiler.emit import pddl
-from skillc_compiler.emit.pddl import InvalidDomain, read_back
 from skillc_model.conditions import Arithmetic, Compare, Literal, Variable
 from skillc_model.pddl.domain import ComputedCost
 from skillc_model.pddl.names import KEYWORDS, assign_object_names

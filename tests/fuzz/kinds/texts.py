@@ -9,6 +9,7 @@ from importlib.resources import files
 from pathlib import Path
 from random import Random
 
+from emit.reading_back import read_back_artifact
 from fuzz.kinds._texts import make_text
 from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.pipeline import compile
@@ -41,7 +42,7 @@ def try_text(source: Source, format: str) -> None:
     outcome = compile([source], vocabulary(), shelf(), "own", parsed_by=_parse)
     _try_rendering(source, outcome.diagnostics, format)
     if not any(problem.severity == "error" for problem in outcome.diagnostics):
-        assert make_artifacts(outcome.value)
+        read_back_artifact(outcome.value, make_artifacts(outcome.value)["domain.pddl"])
 
 
 def _try_format(source: Source) -> None:
