@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import atan2, cos, hypot, sin, sqrt
 
-from skillc_runtime.motion.arrays import Array, Matrix, Vector, np
+from skillc_runtime.motion.arrays import Array as Array
+from skillc_runtime.motion.arrays import Matrix, Vector, np
 
 
 @dataclass(frozen=True, slots=True)
