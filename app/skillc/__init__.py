@@ -94,7 +94,10 @@ __all__ = sorted(_MODULES)
 def __getattr__(name: str) -> object:
     if name not in _MODULES:
         raise AttributeError(f"module 'skillc' has no attribute {name!r}")
-    value = getattr(import_module(_MODULES[name]), name)
+    from skillc.extras import naming_extras
+
+    with naming_extras():
+        value = getattr(import_module(_MODULES[name]), name)
     globals()[name] = value
     return value
 

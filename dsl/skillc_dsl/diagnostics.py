@@ -8,7 +8,8 @@ from typing import Generic, Literal, NamedTuple, TypeVar
 from skillc_dsl.source import Span
 
 T_co = TypeVar("T_co", covariant=True)
-Severity = Literal["error", "warning"]
+Severity = Literal["error", "warning", "note"]
+"""A note is no problem: it says what was not looked at."""
 
 
 class Label(NamedTuple):

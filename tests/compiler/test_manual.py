@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import get_args
+from unittest.mock import patch
 
 import pytest
 from shipped import shelf, vocabulary
@@ -52,6 +53,9 @@ shop:Ware a owl:Class ; owl:deprecated true ; <http://purl.org/dc/terms/isReplac
 def problems(page: Page, text: str) -> list[str]:
     """Return the names of the diagnostics of an example."""
     match page.found_by:
+        case "check" if page.name == "unchecked-space":
+            with patch("skillc.services.task_checks.missing_extras", lambda *extras: extras):
+                return in_library(text)
         case "check":
             return beside_scene(text) if page.language == "turtle" else in_library(text)
         case "vocabulary":

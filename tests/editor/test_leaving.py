@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import subprocess
-import sys
 
 from editor.conftest import SERVER
 
@@ -36,11 +35,3 @@ def test_goodbye_and_exit_end_it_with_0() -> None:
 
 def test_an_editor_that_vanishes_ends_it_with_1() -> None:
     assert served(HELLO).returncode == 1
-
-
-def test_without_pygls_it_says_what_to_install() -> None:
-    script = "import sys; sys.modules['pygls'] = None; from skillc.cli.main import main; main(['lsp'])"
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, timeout=PATIENCE_S, check=False)
-    assert done.returncode == 2
-    assert b"pip install 'skillc[editor]'" in done.stderr
-    assert b"Traceback" not in done.stderr

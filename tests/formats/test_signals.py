@@ -115,10 +115,7 @@ def test_without_a_folder_or_a_package_there_is_a_sentence(monkeypatch: pytest.M
     run = CliRunner().invoke(skillc, ["run", "clean_table", "--signals", "csv"])
     assert run.exit_code == 2 and "--signals records to a folder, which --out names" in run.stderr
     monkeypatch.setitem(sys.modules, "pyarrow", None)
-    monkeypatch.setattr("skillc.services.signal_files.find_spec", lambda name: None)
-    with pytest.raises(
-        RequestError, match=r"--signals parquet needs the package pyarrow: pip install 'skillc\[data\]'"
-    ):
+    with pytest.raises(RequestError, match=r"--signals parquet needs .*pyarrow.*: pip install 'skillc\[data\]'"):
         check_signals("parquet", Path("out"))
 
 

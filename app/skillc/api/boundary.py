@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from skillc.errors import RequestError, ServiceError
+from skillc.extras import naming_extras
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
@@ -41,7 +42,7 @@ def api_call(folders: Iterable[Path] = ()) -> Iterator[None]:
 
     RequestError for what the world model or a recording refuses, ServiceError for a store that cannot be used.
     """
-    with catalogue.folder_scope(folders):
+    with catalogue.folder_scope(folders), naming_extras():
         try:
             yield
         except WRONG_REQUESTS as error:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from skillc.api.boundary import NoticeList, api_call, refusing_values
 from skillc.api.picture import Picture
 from skillc.api.planning import Minimise, Plan, make_plan
-from skillc.api.run import Run
 from skillc.api.table import QueryResult
 from skillc.errors import RequestError
 from skillc.services import scenes
@@ -39,6 +38,7 @@ if TYPE_CHECKING:
     from rdflib import Graph
 
     from skillc.api.operation import Operation
+    from skillc.api.run import Run
     from skillc.services.backends import BackendName
 
 

@@ -10,6 +10,7 @@ import click
 from skillc.cli.console import Terminal, print_error
 from skillc.cli.settings import GroupedOption, output_options
 from skillc.errors import ServiceError
+from skillc.extras import naming_extras
 from skillc_ontology import catalogue
 
 OPTIONS, OUTPUT = "Options", "Output"
@@ -31,7 +32,7 @@ class Command(click.Command):
         """Run the function and exit with its code; folders that a project adds to paths are removed again."""
         modules = sys.path[:]
         try:
-            with catalogue.folder_scope():
+            with catalogue.folder_scope(), naming_extras():
                 code = super().invoke(ctx)
         except ServiceError as error:
             if error.diagnostics:

@@ -9,7 +9,7 @@ import click
 
 from skillc.cli.console import has_colours, page_width, print_remark
 from skillc.services.reporting import format_count
-from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.diagnostics import Diagnostic, Severity
 from skillc_dsl.source import Source
 
 FORMS = ("full", "concise", "github", "sarif")
@@ -56,8 +56,8 @@ def summarise(found: Sequence[Diagnostic]) -> str:
     """Return how many problems there are in how many files, and how many of them `--fix` can fix."""
     if not found:
         return "no problems"
-    errors = sum(each.severity == "error" for each in found)
-    counts = ((errors, "error"), (len(found) - errors, "warning"))
+    severities: tuple[Severity, ...] = ("error", "warning", "note")
+    counts = [(sum(each.severity == severity for each in found), severity) for severity in severities]
     problems = ", ".join(format_count(count, word) for count, word in counts if count)
     files = format_count(len({each.span.path for each in found}), "file")
     fixes = [each.fix for each in found if each.fix is not None]

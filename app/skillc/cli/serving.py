@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
 from skillc.cli.options import FOLDER, PATH
+from skillc.extras import require
 
 DEFAULT_BIND = "127.0.0.1:8421"
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -45,9 +45,8 @@ def cell_options(function: Function) -> Function:
 
 
 def require_server() -> None:
-    """Raise UsageError if no server can run here."""
-    if find_spec("uvicorn") is None:
-        raise click.UsageError("the server needs uvicorn and starlette: pip install 'skillc[server]'")
+    """Raise MissingExtraError or UsageError if no server can run here."""
+    require("a server", "server", "run")
     from skillc_runtime.platforms.processes import INHERITS_SOCKETS
 
     if not INHERITS_SOCKETS:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from skillc.client.address import find_address
-from skillc.errors import ServiceError
+from skillc.extras import require
 from skillc.values.arguments import AnyPath, optional_path, optional_text
 
 if TYPE_CHECKING:
@@ -24,6 +23,7 @@ def connect(url: str | None = None, token: str | None = None, state: AnyPath | N
     RequestError if there is no token, or the server refuses it; SkillcError if no server answers, or the extra
     `server` is not installed.
     """
+    require("a client of a server", "server")
     from skillc.client.server import Server
 
     server = Server(connect_async(url, token, state))
@@ -40,8 +40,7 @@ def connect_async(url: str | None = None, token: str | None = None, state: AnyPa
 
     That no server answers is found with the first request.
     """
-    if any(find_spec(each) is None for each in ("httpx", "websockets")):
-        raise ServiceError("clients of a server need httpx and websockets: pip install 'skillc[server]'")
+    require("a client of a server", "server")
     from skillc.client.async_server import AsyncServer
     from skillc.client.connection import Connection
 

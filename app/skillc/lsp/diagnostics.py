@@ -17,7 +17,11 @@ from skillc_compiler.ide.analysis import Analysis
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 
-_SEVERITY = {"error": types.DiagnosticSeverity.Error, "warning": types.DiagnosticSeverity.Warning}
+_SEVERITY = {
+    "error": types.DiagnosticSeverity.Error,
+    "warning": types.DiagnosticSeverity.Warning,
+    "note": types.DiagnosticSeverity.Information,
+}
 
 
 def diagnostics_by_uri(

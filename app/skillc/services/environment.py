@@ -8,9 +8,20 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 
-from skillc_runtime.film.rendering import RenderingError, check_rendering
+from skillc.extras import install_command, missing_extras
 from skillc_runtime.planning.aries import solver as aries
 from skillc_runtime.planning.fast_downward import solver as fast_downward
+
+
+_OTHERS = {
+    "run": ("av", "films are written as MP4"),
+    "robots": ("pin", "models of robots are read"),
+    "server": ("starlette", "cells are served"),
+    "motion": ("ompl", "arms find ways around obstacles"),
+    "meshes": ("coacd", "meshes are cut into convex pieces"),
+    "data": ("pyarrow", "signals are written as Parquet"),
+}
+"""A package of each of the other extras, and what works with it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,8 +42,8 @@ def diagnose_environment() -> list[Finding]:
         Finding("skillc", True, version("skillc"), "", required=True),
         *(_package(name) for name in _required()),
         *_planners(),
-        _rendering(),
-        _video(),
+        *_simulation(),
+        *_others(),
     ]
 
 
@@ -54,24 +65,30 @@ def _planners() -> Iterator[Finding]:
         can = "plans with proved minimal work"
         yield Finding("Fast Downward", True, version("up-fast-downward"), can)
     else:
-        yield Finding("Fast Downward", False, "", "plans for larger scenes; pip install 'skillc[planner]'")
+        yield Finding("Fast Downward", False, "", f"plans for larger scenes; {install_command('planner')}")
     yield Finding("built-in A*", True, version("skillc"), "plans for small scenes, with proved minimal work")
     if aries.find_aries():
         yield Finding("aries", True, version("up-aries"), "schedules with a short makespan (--minimise makespan)")
     else:
-        missing = "schedules with a shorter makespan; pip install 'skillc[temporal]'"
+        missing = f"schedules with a shorter makespan; {install_command('temporal')}"
         yield Finding("aries", False, "", missing)
 
 
-def _rendering() -> Finding:
+def _simulation() -> Iterator[Finding]:
+    if missing_extras("run"):
+        yield Finding("simulation", False, "", f"runs tasks and looks at space in checks; {install_command('run')}")
+        return
+    yield Finding("simulation", True, version("mujoco"), "tasks are run, and checks look at space")
+
     try:
-        return Finding("GL library", True, check_rendering(), "runs are filmed")
+        yield Finding("GL library", True, check_rendering(), "runs are filmed")
     except RenderingError as error:
-        return Finding("GL library", False, "", str(error))
+        yield Finding("GL library", False, "", str(error))
 
 
-def _video() -> Finding:
-    try:
-        return Finding("av", True, version("av"), "films are written as MP4")
-    except PackageNotFoundError:
-        return Finding("av", False, "", "needed for films; pip install 'skillc[video]'")
+def _others() -> Iterator[Finding]:
+    for extra, (package, can) in _OTHERS.items():
+        try:
+            yield Finding(package, True, version(package), can)
+        except PackageNotFoundError:
+            yield Finding(package, False, "", f"{can}; {install_command(extra)}")

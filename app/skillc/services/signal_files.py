@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Literal, TypeAlias
 
 import msgspec
 
 from skillc.errors import RequestError, ServiceError
+from skillc.extras import require
 from skillc.services.files import writing_to
 from skillc.services.reporting import Reporter
 from skillc_runtime.devices.simulation import Simulation
@@ -34,8 +34,8 @@ def check_signals(form: SignalFormat | None, folder: Path | None) -> None:
     """Raise RequestError if signals cannot be recorded: there is no folder for them, or a package is missing."""
     if form is not None and folder is None:
         raise RequestError("--signals records to a folder, which --out names")
-    if form == "parquet" and find_spec("pyarrow") is None:
-        raise RequestError("--signals parquet needs the package pyarrow: pip install 'skillc[data]'")
+    if form == "parquet":
+        require("--signals parquet", "data")
 
 
 def read_signal_dictionary(folder: Path | None) -> SignalDictionary:

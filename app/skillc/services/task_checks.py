@@ -15,12 +15,13 @@ from typing import TypeAlias
 from skillc.services import scene_diagnostics, value_checks
 from skillc.services.cell_checks.report import CellJudge, CellProblem, cell_problems, used_individuals
 from skillc.services.cell_checks.verdicts import judge_cell
-from skillc.services.device_checks import check_controllers, check_sheets
+from skillc.extras import install_command, missing_extras
 from skillc.services.task_scenes import TaskScenes
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome, Severity
 from skillc_dsl.source import Span
 from skillc_dsl.spelling import did_you_mean
+from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary, Task
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Position
@@ -31,6 +32,7 @@ from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual
 from skillc_runtime.planning.reachability import UnreachableGoal, explain_unreachable
 from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.statements import iri_of
+from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.terms import CONTAIN, MANIPULATABLE
 
 _NAME = re.compile(r"(?<![\w.-])[\w.-]*:[\w-]+")
@@ -63,7 +65,9 @@ def check_tasks_in_scenes(
     errors: list[Diagnostic] = []
     places = value_checks.value_places(program)
     known = {name: task for name, task in library.tasks.items() if not task.parameters}
-    cells = {path: list(_of_cell(path, scenes, known, judge or judge_cell)) for path in scenes.valid}
+    unchecked = list(_unchecked(scenes.valid))
+    judge = _judge_nothing if unchecked else judge or judge_cell
+    cells = {path: list(_of_cell(path, scenes, known, judge)) for path in scenes.valid}
     stopped: dict[CellProblem, list[Label]] = {}
     for name, path in scenes.files.items():
         if path in scenes.valid and name in known:
@@ -73,11 +77,35 @@ def check_tasks_in_scenes(
     errors = list({(each.span, each.name, each.message): each for each in reversed(errors)}.values())[::-1]
     labelled = {(label.span.path, label.span.line) for each in errors for label in each.labels}
     valid = [(scene, str(path)) for path, scene in scenes.valid.items()]
-    others = [each for scene, path in valid for each in check_controllers(scene, path)]
-    others += (each for scene, path in valid for each in check_sheets(scene, path))
+    others = [] if unchecked else [each for scene, path in valid for each in _of_devices(scene, path)]
     others += (each for scene, path in valid for each in _of_individuals(library, scene, path))
     others = [each for each in others if (each.span.path, each.span.line) not in labelled]
-    return [*errors, *others, *(_with_tasks(each, stopped) for found in cells.values() for each in found)]
+    return [*errors, *others, *unchecked, *(_with_tasks(each, stopped) for found in cells.values() for each in found)]
+
+
+def _unchecked(scenes: Mapping[Path, Scene]) -> Iterator[Diagnostic]:
+    """Yield a note, in the first of the scenes, if what looks at space and devices is not installed."""
+    if scenes and missing_extras("run"):
+        first = next(iter(scenes))
+        message = (
+            "only the numbers of this scene were compared; what overlaps, can be grasped or reached was not looked at"
+        )
+        help_ = f"install what looks at space: {install_command('run')}"
+        yield Diagnostic("unchecked-space", Span(str(first), 1, 1, 1, 1), message, help_, "note")
+
+
+def _judge_nothing(scene: Scene, goals: Sequence[Condition]) -> tuple[SceneViolation, ...]:
+    """Stand for the judge of cells where there is none."""
+    return ()
+
+
+def _of_devices(scene: Scene, path: str) -> Iterator[Diagnostic]:
+    """Yield the diagnostics of controllers and data sheets of the arms in a scene."""
+    # It needs the simulator, which is slow to import and not always installed.
+    from skillc.services.device_checks import check_controllers, check_sheets
+
+    yield from check_controllers(scene, path)
+    yield from check_sheets(scene, path)
 
 
 def _of_cell(path: Path, scenes: TaskScenes, known: Mapping[str, Task], judge: CellJudge) -> Iterator[CellProblem]:

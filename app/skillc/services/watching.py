@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 from datetime import datetime
-from importlib.util import find_spec
 from pathlib import Path
 from typing import NoReturn, TypeAlias
 
@@ -27,10 +26,8 @@ Show: TypeAlias = Callable[[CheckResult], None]
 def watch_sources(request: CheckRequest, show: Show, reporter: Reporter) -> NoReturn:
     """Check and show the result after each change, for ever; changes during a check lead to another one.
 
-    RequestError without the package watchfiles, or if there is nothing to check at first.
+    RequestError if there is nothing to check at first.
     """
-    if find_spec("watchfiles") is None:
-        raise RequestError("--watch needs the package watchfiles: pip install 'skillc[editor]'")
     memos: Memos = {}
     wanted = _roots(request, read_libraries(request))
     while True:

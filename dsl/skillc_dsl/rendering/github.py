@@ -22,7 +22,8 @@ def _command(diagnostic: Diagnostic) -> str:
     properties["title"] = diagnostic.name
     written = ",".join(f"{key}={_escaped_property(value)}" for key, value in properties.items())
     message = "\n".join(filter(None, (diagnostic.message, diagnostic.help)))
-    return f"::{diagnostic.severity} {written}::{_escaped(message)}"
+    kind = "notice" if diagnostic.severity == "note" else diagnostic.severity
+    return f"::{kind} {written}::{_escaped(message)}"
 
 
 def _escaped(text: str) -> str:

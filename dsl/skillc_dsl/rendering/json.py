@@ -39,7 +39,7 @@ class DiagnosticData(PlaceData):
     """A problem: its name, as `skillc explain` knows it, where it is, and what to do about it."""
 
     name: str
-    severity: Literal["error", "warning"]
+    severity: Literal["error", "warning", "note"]
     message: str
     help: str
     labels: list[LabelData]

@@ -4,8 +4,15 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
-Kind = Literal["error", "warning", "place", "label", "help"]
-_COLOURS: dict[Kind, str] = {"error": "31", "warning": "33", "place": "36", "label": "34", "help": "32"}
+Kind = Literal["error", "warning", "note", "place", "label", "help"]
+_COLOURS: dict[Kind, str] = {
+    "error": "31",
+    "warning": "33",
+    "note": "34",
+    "place": "36",
+    "label": "34",
+    "help": "32",
+}
 
 
 class Paint(NamedTuple):

@@ -23,7 +23,7 @@ async function start(): Promise<void> {
     client = undefined;
     const reason = error instanceof Error ? error.message : String(error);
     const choice = await window.showErrorMessage(
-      `The skill language server did not start (${reason}). Install it with: pip install 'skillc[editor]', ` +
+      `The skill language server did not start (${reason}). Install it with: pip install skillc, ` +
         "or set its command in the setting skillc.command.",
       "Open settings",
     );

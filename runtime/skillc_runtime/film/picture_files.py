@@ -41,7 +41,7 @@ def write_film(path: Path, pictures: Iterable[Picture], width: int, height: int,
     try:
         import av
     except ImportError as error:
-        raise FilmError("films need PyAV: pip install 'skillc[video]'") from error
+        raise FilmError("films need PyAV: pip install 'skillc[run]'") from error
     with _partial_file(path) as partial, av.open(str(partial), "w", format="mp4") as container:
         stream: Any = container.add_stream("libx264", rate=rate, options={"preset": PRESET, "crf": CRF})
         stream.width, stream.height, stream.pix_fmt = width, height, "yuv420p"

@@ -2822,7 +2822,7 @@ export interface components {
             name: string;
             path: string;
             /** @enum {unknown} */
-            severity: "error" | "warning";
+            severity: "error" | "warning" | "note";
         };
         /**
          * FixData

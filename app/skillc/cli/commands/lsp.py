@@ -5,8 +5,6 @@ It speaks the Language Server Protocol over stdin and stdout. Editors start it; 
 
 from __future__ import annotations
 
-from importlib.util import find_spec
-
 import click
 
 from skillc.cli.command import Command
@@ -19,8 +17,6 @@ def command(stdio: bool) -> int:
 
     It speaks the Language Server Protocol over stdin and stdout, and is started by editors.
     """
-    if find_spec("pygls") is None:
-        raise click.UsageError("the language server needs pygls: pip install 'skillc[editor]'")
     from skillc.lsp.server import serve
 
     return 0 if serve() else 1

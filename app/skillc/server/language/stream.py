@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 from http import HTTPStatus
-from importlib.util import find_spec
 from typing import Any
 
 import msgspec
@@ -35,10 +34,6 @@ async def stream_language(server: ServerContext, socket: WebSocket) -> None:
             client = ClientSocket(server, socket, make_credential(server, socket, hello.token))
             name = client.check_client().name
         library = server.find_library(hello.library)
-        if find_spec("pygls") is None:
-            raise ApiRefusal(
-                HTTPStatus.NOT_IMPLEMENTED, "the language server needs pygls: pip install 'skillc[editor]'"
-            )
         with server.watchers.watching(name), server.language_servers.watching(name):
             folder = library.checked.basis.folders[0]
             async with language_server(library.environment, folder) as running:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from skillc.errors import RequestError
+from skillc.extras import require
 from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.xml_file import read_xml
 
@@ -15,15 +15,10 @@ ASKEW = 0.99
 def read_robot(path: Path, options: ReadOptions | None = None) -> Reading:
     """Return the arm in a URDF or MJCF file.
 
-    RequestError if there is no arm that can be used, or pinocchio is not installed.
+    RequestError if there is no arm that can be used, MissingExtraError if pinocchio is not installed.
     """
-    try:
-        import pinocchio  # noqa: F401
-    except ImportError as error:
-        raise RequestError(
-            "reading models of robots needs pinocchio (`pip install pin`), which there is not for Windows: use Linux, "
-            "macOS or WSL, or `skillc add robot NAME --like ARM` and replace the numbers"
-        ) from error
+    # There is no pinocchio for Windows.
+    require("reading models of robots, which cannot be done on Windows,", "robots")
     form, root = read_xml(path)
     if form == "urdf":
         from skillc.services.robot_import.urdf_reader import read_urdf

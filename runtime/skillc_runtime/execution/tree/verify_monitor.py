@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from skillc_model.conditions import Compare, Literal
 from skillc_model.properties import ConditionEvent, Measures, Property
 from skillc_model.skills import Implementation
 from skillc_rdf.vocabulary.types import ClassType, Vocabulary
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.tree.lexical_scope import Frame
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.terms import ARM_DEVICE

@@ -1,4 +1,4 @@
-"""Compiles functions over arrays if numba is installed (the extra `fast`); otherwise they run as plain Python.
+"""Compiles functions over arrays if numba is installed (the extra `run`); otherwise they run as plain Python.
 
 Each function is compiled at its first call, or with a function that calls it. Loops over numbers compile fast; an
 expression over arrays takes ten times as long to compile, an assignment to a slice half a second. Machine code is
