@@ -13,11 +13,12 @@ from lark_peer import convert, describe, load_parser
 from programs import programs
 
 from skillc_dsl.diagnostics import Outcome
+from skillc_dsl.parsing import tables
 from skillc_dsl.parsing.automaton import MisfitError, parse_tree
 from skillc_dsl.parsing.direct import build_directly
 from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.parsing.parser import parse_with_problems
-from skillc_dsl.parsing.tables import grammar_text, read_or_make_tables
+from skillc_dsl.parsing.tables import grammar_text, load_tables, read_built_tables, read_or_make_tables
 from skillc_dsl.parsing.tokens import Tree
 from skillc_dsl.source import Source
 
@@ -71,6 +72,17 @@ def test_shipped_files_are_parsed_as_by_lark_also_with_mistakes(path: Path) -> N
         mistaken = text[:at] + text[at + chance.randrange(1, 9) :]
         parse_as_lark(mistaken)
         parse_in_both_ways(mistaken)
+
+
+@pytest.mark.slow
+def test_tables_are_built_for_one_grammar(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    built, grammar = tmp_path / "tables.msgpack", grammar_text()
+    assert read_built_tables(grammar, built) is None
+    monkeypatch.setattr(tables, "BUILT", built)
+    tables.build_tables()
+    found = read_built_tables(grammar, built)
+    assert found is not None and len(found.states) == len(load_tables().states) > 100
+    assert read_built_tables(grammar.replace("skill", "skull"), built) is None
 
 
 @pytest.mark.slow

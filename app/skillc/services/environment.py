@@ -12,7 +12,6 @@ from skillc.extras import install_command, missing_extras
 from skillc_runtime.planning.aries import solver as aries
 from skillc_runtime.planning.fast_downward import solver as fast_downward
 
-
 _OTHERS = {
     "run": ("av", "films are written as MP4"),
     "robots": ("pin", "models of robots are read"),
@@ -79,6 +78,7 @@ def _simulation() -> Iterator[Finding]:
         yield Finding("simulation", False, "", f"runs tasks and looks at space in checks; {install_command('run')}")
         return
     yield Finding("simulation", True, version("mujoco"), "tasks are run, and checks look at space")
+    from skillc_runtime.film.rendering import RenderingError, check_rendering
 
     try:
         yield Finding("GL library", True, check_rendering(), "runs are filmed")

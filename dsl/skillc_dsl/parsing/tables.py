@@ -1,4 +1,4 @@
-"""The tables of the parser and the lexer, which are computed once and then cached."""
+"""The tables of the parser and the lexer: made with the package, or for a changed grammar once, and then cached."""
 
 from __future__ import annotations
 
@@ -16,8 +16,10 @@ from skillc_dsl.units import UNITS
 
 WORD = "NAME"
 """The terminal whose texts may be words of the language."""
+BUILT = Path(__file__).with_name("tables.msgpack")
+"""What the build of the package makes."""
 _FORMAT = 1
-"""Another number makes the tables in caches unknown."""
+"""Another number makes the tables in files unknown."""
 
 NESTED = frozenset(
     (
@@ -72,13 +74,34 @@ def grammar_text() -> str:
 @functools.cache
 def load_tables() -> Tables:
     """Return the tables of the language."""
-    return read_or_make_tables(grammar_text(), cache.cache_folder())
+    grammar = grammar_text()
+    return read_built_tables(grammar, BUILT) or read_or_make_tables(grammar, cache.cache_folder())
 
 
 @functools.cache
 def load_pattern() -> re.Pattern[str]:
     """Return the pattern of the lexer."""
     return re.compile(load_tables().pattern)
+
+
+def build_tables() -> None:
+    """Make the tables and write them beside this file, where installations have them."""
+    grammar = grammar_text()
+    BUILT.write_bytes(_digest(grammar) + msgspec.msgpack.encode(_make(grammar)))
+
+
+def read_built_tables(grammar: str, path: Path) -> Tables | None:
+    """Return the tables that were built for `grammar`; None if there are none, or those of another grammar."""
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return None
+    size = len(_digest(""))
+    return msgspec.msgpack.decode(content[size:], type=Tables) if content[:size] == _digest(grammar) else None
+
+
+def _digest(grammar: str) -> bytes:
+    return hashlib.sha256(f"{_FORMAT}\n{grammar}".encode()).digest()
 
 
 def read_or_make_tables(grammar: str, folder: Path | None) -> Tables:

@@ -105,6 +105,10 @@ def _add_robot(
     project: Project, file: Path, like: str | None, called: str | None, settings: tuple[str, ...], **options: Any
 ) -> None:
     from skillc.errors import RequestError
+    from skillc.extras import require
+
+    # There is no pinocchio for Windows.
+    require("reading models of robots, which cannot be done on Windows,", "robots")
     from skillc.services.robot_import.add_robot import RobotRequest, add_robot
     from skillc.services.robot_import.reading import ReadOptions
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from skillc.extras import require
 from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.xml_file import read_xml
 
@@ -13,12 +12,7 @@ ASKEW = 0.99
 
 
 def read_robot(path: Path, options: ReadOptions | None = None) -> Reading:
-    """Return the arm in a URDF or MJCF file.
-
-    RequestError if there is no arm that can be used, MissingExtraError if pinocchio is not installed.
-    """
-    # There is no pinocchio for Windows.
-    require("reading models of robots, which cannot be done on Windows,", "robots")
+    """Return the arm in a URDF or MJCF file; RequestError if there is no arm that can be used."""
     form, root = read_xml(path)
     if form == "urdf":
         from skillc.services.robot_import.urdf_reader import read_urdf
