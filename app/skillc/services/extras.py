@@ -11,19 +11,19 @@ from skillc.errors import RequestError
 
 MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
-        "run": ("mujoco", "numpy", "mcap", "matplotlib", "PIL", "av", "numba", "lz4", "zstandard"),
+        "run": ("mujoco", "numpy", "mcap", "matplotlib", "PIL", "rich", "av", "numba", "lz4", "zstandard"),
         "planner": ("up_fast_downward",),
         "temporal": ("up_aries",),
         "motion": ("ompl",),
         "meshes": ("coacd",),
-        "data": ("pandas", "pyarrow"),
+        "data": ("pandas", "pyarrow", "rdflib"),
         "server": ("httpx", "starlette", "uvicorn", "websockets", "prometheus_client", "h11", "httpcore", "anyio"),
         "robots": ("pinocchio", "coal"),
         "pddl": ("pddl",),
     }
 )
 """The modules of each extra; the first ones are those without which it is of no use."""
-_NEEDED = MappingProxyType({"run": 5, "server": 5, "data": 2})
+_NEEDED = MappingProxyType({"run": 6, "server": 5, "data": 2})
 """How many modules of an extra have to be there, if it is not one."""
 
 
