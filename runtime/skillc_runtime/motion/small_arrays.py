@@ -17,7 +17,7 @@ from skillc_runtime.motion.small_array import ndarray, refuse
 
 Like: TypeAlias = "ndarray | float | Sequence[Any]"
 
-pi = math.pi
+pi, inf = math.pi, math.inf
 float64, bool_, uint8 = float, bool, int
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
+from importlib.util import find_spec
 from typing import get_args
 
 from skillc_model.skills import Parameter
@@ -23,6 +24,8 @@ class PrimitiveError(Exception):
     """A primitive's class cannot be imported or has other parameters; the message says what to change."""
 
 
+CAN_RUN = find_spec("mujoco") is not None
+"""Whether primitives can be imported: they need what runs tasks, which is not installed where these are only checked."""
 METHOD_ARGUMENTS = {
     "start": (),
     "tick": (),
