@@ -87,8 +87,8 @@ def _unchecked(scenes: Mapping[Path, Scene]) -> Iterator[Diagnostic]:
     """Yield a note, in the first of the scenes, if what looks at space and devices is not installed."""
     if scenes and missing_extras("run"):
         first = next(iter(scenes))
-        message = "only the numbers of this scene were compared; what overlaps or can be reached, and primitives, were not looked at"
-        help_ = f"install what looks at space: {install_command('run')}"
+        message = "the numbers of this scene were compared; space, and the Python of primitives, were not looked at"
+        help_ = f"install what looks at them: {install_command('run')}"
         yield Diagnostic("unchecked-space", Span(str(first), 1, 1, 1, 1), message, help_, "note")
 
 

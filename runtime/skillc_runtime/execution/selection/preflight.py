@@ -17,7 +17,6 @@ from skillc_runtime.execution.selection.binding import bind_arguments
 from skillc_runtime.execution.selection.foresight import ForesightTracker
 from skillc_runtime.execution.selection.inferred_parameters import infer_fixed_parameters
 from skillc_runtime.execution.selection.python_targets import (
-    CAN_RUN,
     PrimitiveError,
     import_matching_primitive,
     import_primitive,
@@ -219,7 +218,7 @@ class _Preflight:
         rejected = bind_arguments(implementation, arguments, passed, self._state, bindings)
         if rejected is not None:
             return rejected
-        if isinstance(implementation.body, Primitive) and CAN_RUN:
+        if isinstance(implementation.body, Primitive):
             try:
                 import_matching_primitive(implementation.body.python, implementation.parameters)
             except PrimitiveError as error:

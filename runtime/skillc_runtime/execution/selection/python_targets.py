@@ -25,7 +25,7 @@ class PrimitiveError(Exception):
 
 
 CAN_RUN = find_spec("mujoco") is not None
-"""Whether primitives can be imported: they need what runs tasks, which is not installed where these are only checked."""
+"""Whether primitives can be imported: they need what is not installed where tasks are only checked and planned."""
 METHOD_ARGUMENTS = {
     "start": (),
     "tick": (),
@@ -41,7 +41,12 @@ METHOD_ARGUMENTS = {
 
 @cache
 def import_primitive(python: str) -> type[Primitive]:
-    """Import "module:Class"; PrimitiveError if it does not exist or is not a Primitive whose methods can be called."""
+    """Import "module:Class"; PrimitiveError if it does not exist or is not a Primitive whose methods can be called.
+
+    Where none can run, nothing is known of any: `Primitive` stands for it.
+    """
+    if not CAN_RUN:
+        return Primitive
     module_name, _, class_name = python.partition(":")
     try:
         with foreign_code:
@@ -100,7 +105,7 @@ def import_matching_primitive(python: str, parameters: Sequence[Parameter]) -> t
     """
     cls = import_primitive(python)
     passed = tuple(parameter.name for parameter in parameters if parameter.direction != "out")
-    problem = _check_constructor(python, passed)
+    problem = _check_constructor(python, passed) if CAN_RUN else None
     if problem is not None:
         raise PrimitiveError(f"{cls.__name__} in `{python}` {problem}; the skill passes ({', '.join(passed)})")
     return cls
