@@ -12,10 +12,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
 
+from skillc.extras import install_command, missing_extras
 from skillc.services import scene_diagnostics, value_checks
 from skillc.services.cell_checks.report import CellJudge, CellProblem, cell_problems, used_individuals
 from skillc.services.cell_checks.verdicts import judge_cell
-from skillc.extras import install_command, missing_extras
 from skillc.services.task_scenes import TaskScenes
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome, Severity

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from skillc.errors import ServiceError
+from skillc.extras import naming_extras
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -16,16 +16,14 @@ SHOWN_ROWS = 30
 
 
 def make_frame(rows: Iterable[Mapping[str, Any]], columns: Sequence[str] | None = None) -> pd.DataFrame:
-    """Return records as a frame. ServiceError if pandas is not installed."""
+    """Return records as a frame. MissingExtraError if pandas is not installed."""
     return import_pandas().DataFrame(list(rows), columns=None if columns is None else list(columns))
 
 
 def import_pandas() -> Any:
-    """Return pandas. ServiceError if it is not installed."""
-    try:
+    """Return pandas. MissingExtraError if it is not installed."""
+    with naming_extras():
         import pandas as pd
-    except ImportError as error:
-        raise ServiceError("frames require pandas: `pip install 'skillc[data]'` installs it") from error
     return pd
 
 
