@@ -11,7 +11,7 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, packages_distributions, requires
 from pathlib import Path
 
-from skillc.services.extras import MODULES
+from skillc.extras import MODULES
 
 ROOT = Path(__file__).parents[2]
 HIDE = """

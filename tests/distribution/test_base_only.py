@@ -9,7 +9,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from skillc.services.extras import MODULES
+from skillc.extras import MODULES
 
 from distribution.base_only import ROOT, call, hidden_modules
 
@@ -34,7 +34,7 @@ NEEDS = {
 """Commands in a project, and the extras that each of them names."""
 PROGRAM = """
 import skillc
-from skillc.services.extras import MissingExtraError
+from skillc.extras import MissingExtraError
 
 assert skillc.plan("clean_table").steps
 (note,) = skillc.check(".")

@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from skillc.errors import DiagnosticsError, ServiceError
-from skillc.services.project.project import find_project
+from skillc.services.project.loading import find_project
 
 WITH_DEFAULTS = ("run", "plan", "trials")
 """The commands that have a table of defaults."""

@@ -18,6 +18,7 @@ from skillc.services.library_files import (
     user_vocabularies,
 )
 from skillc.services.project import project as projects
+from skillc.services.project.loading import find_project
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.encoding import MOST_BYTES, decode, read_file
 from skillc_dsl.source import Source, Span
@@ -85,7 +86,7 @@ def find_file(path: str, root: Root, places: Mapping[str, Path]) -> Path:
 def read_surroundings(root: Root) -> Outcome[LibraryFiles]:
     """Return what the files of a library may import, and its name; with the diagnostics of a broken manifest."""
     try:
-        project = projects.find_project(root.folder)
+        project = find_project(root.folder)
     except DiagnosticsError as error:
         found = [replace(each, span=_absolute(each.span)) for each in error.diagnostics]
         return Outcome(_shipped()._replace(name=root.folder.name), tuple(found))

@@ -25,7 +25,7 @@ from skillc.contract.endpoints import ENDPOINTS, STREAMS, UNAVAILABLE
 from skillc.server.access.roles import includes
 from skillc.server.access.tokens import Client
 from skillc.server.api_call import ApiCall
-from skillc.server.audit import AuditedRequest
+from skillc.server.audited_request import AuditedRequest
 from skillc.server.authentication import find_cookie, find_known_client, read_session
 from skillc.server.context import ServerContext
 from skillc.server.event_stream import stream_events

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from contextlib import closing
 from dataclasses import dataclass, field
-from datetime import datetime
+from datetime import UTC, datetime
 from functools import partial
 from http import HTTPStatus
 
@@ -18,7 +18,6 @@ from skillc.server.hub import EventHub
 from skillc.server.idempotency import RequestKeys
 from skillc.server.metrics import Metrics
 from skillc.server.orders.store import Orders
-from skillc.server.orders.submitting import now_utc
 from skillc.server.problems import ApiRefusal
 from skillc.server.rates import TokenBuckets
 from skillc.server.rehearsals import Rehearsals
@@ -38,6 +37,10 @@ FAILURES_PER_S, FAILURES = 0.2, 100.0
 """How many requests and WebSockets without a valid token an address may make."""
 MAX_OF_CLIENT, MAX_SERVERS = 4, 8
 """How many language servers a client has, and how many there are; each is a process."""
+
+
+def _now_utc() -> datetime:
+    return datetime.now(UTC)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +65,7 @@ class ServerContext:
     language_servers: Watchers = field(
         default_factory=partial(Watchers, "language servers", MAX_OF_CLIENT, MAX_SERVERS)
     )
-    clock: Callable[[], datetime] = now_utc
+    clock: Callable[[], datetime] = _now_utc
     audit: AuditLog = field(init=False)
     keys: RequestKeys = field(init=False)
     orders: Orders = field(init=False)

@@ -15,7 +15,7 @@ from skillc.cells.database import DatabaseError
 from skillc.contract.history import EventsHello
 from skillc.contract.messages import Happened, StatusChanged
 from skillc.server.access.tokens import Client
-from skillc.server.audit import AuditedRequest
+from skillc.server.audited_request import AuditedRequest
 from skillc.server.authentication import make_credential, refuse_unknown
 from skillc.server.context import ServerContext, open_journal
 from skillc.server.hub import Listener, News

@@ -13,7 +13,8 @@ from skillc.server.library_stamp import list_files
 from skillc.server.served_library import ServedLibrary
 from skillc.services.files import rewrite_file
 from skillc.services.library_files import SHIPPED
-from skillc.services.project.project import Project, find_project
+from skillc.services.project.loading import find_project
+from skillc.services.project.project import Project
 from skillc_dsl.encoding import MOST_BYTES, decode, normalise_newlines, read_file
 
 TEXTS = (".skill", ".ttl")

@@ -13,6 +13,7 @@ from typing import NamedTuple
 from skillc.errors import RequestError
 from skillc.services.files import inspect_path
 from skillc.services.project import project as projects
+from skillc.services.project.loading import find_project
 from skillc.services.project.project import Project
 from skillc_compiler.emit.headers import is_generated
 from skillc_dsl.diagnostics import Diagnostic
@@ -85,7 +86,7 @@ def find_library(path: Path) -> LibraryFiles:
 
 def _find_by_name(name: Path) -> Path:
     """Return the folder of a dependency or of a shipped library; RequestError if there is none of that name."""
-    here = projects.find_project(Path())
+    here = find_project(Path())
     libraries = {each.name: each.root for each in (here.others() if here else ())}
     root = libraries.get(str(name), SHIPPED / name)
     if inspect_path(root).kind == "missing":
@@ -99,7 +100,7 @@ def _find_by_name(name: Path) -> Path:
 
 
 def _read_folder(folder: Path) -> LibraryFiles:
-    project = projects.find_project(folder)
+    project = find_project(folder)
     root = project.root if project else folder
     files = _files_below(root, whole=project is None)
     sources = {shown: file for shown, file in files.items() if shown.endswith(".skill")}
@@ -117,7 +118,7 @@ def read_single_file(path: Path | None, content: bytes) -> LibraryFiles:
     others = (file for file in sorted(path.parent.glob("*.skill")) if file.name != path.name and file.is_file())
     neighbours = {file.name: (file.name, file) for file in others}
     source = decode(path.name, content)
-    project = projects.find_project(path.parent)
+    project = find_project(path.parent)
     files = _files_below(project.root, whole=False) if project else _files_in(path.parent)
     beside = {shown: file for shown, file in files.items() if is_vocabulary_beside(file, project)}
     home = Home(project.name if project else path.resolve().parent.name, path.parent, project)

@@ -17,7 +17,8 @@ from skillc.services import scene_picture
 from skillc.services.assignments import assign_goal
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library, find_scene
-from skillc.services.project.project import find_project, find_root
+from skillc.services.project.loading import find_project
+from skillc.services.project.project import find_root
 from skillc.services.reporting import Reporter
 from skillc.services.stores import StoreChoice, load_world, open_world
 from skillc.services.task_list import default_library

@@ -9,7 +9,7 @@ from typing import Literal, assert_never
 
 from skillc.errors import RequestError
 from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
-from skillc.services.project.project import find_project
+from skillc.services.project.loading import find_project
 from skillc_compiler.program.written import calls_of
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.parser import parse

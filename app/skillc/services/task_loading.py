@@ -15,7 +15,7 @@ from skillc.services.assignments import assign_call, assign_goal, assign_task
 from skillc.services.libraries import compile_valid, find_task
 from skillc.services.library_files import LibraryFiles, find_library, find_scene
 from skillc.services.named_goals import make_named_task, named_scene
-from skillc.services.project.project import find_project
+from skillc.services.project.loading import find_project
 from skillc.services.reporting import Reporter
 from skillc.services.stores import NO_STORE, StoreChoice, open_world
 from skillc.services.task_list import choose_task, default_library, split_reference

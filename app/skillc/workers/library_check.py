@@ -19,7 +19,7 @@ from skillc.cells.library import find_modules, module_of
 from skillc.errors import DiagnosticsError, ServiceError
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import LibraryFiles, find_library
-from skillc.services.project.project import find_project
+from skillc.services.project.loading import find_project
 from skillc_dsl.encoding import decode, read_file
 from skillc_model.skills import Primitive, SkillLibrary
 from skillc_ontology import catalogue

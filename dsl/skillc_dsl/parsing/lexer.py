@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.parsing.grammar import END
-from skillc_dsl.parsing.tables import WORD, load_pattern, load_tables
+from skillc_dsl.parsing.table_types import WORD
+from skillc_dsl.parsing.tables import load_pattern, load_tables
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source, Span
 

@@ -11,7 +11,7 @@ from lark.grammar import Rule as LarkRule
 from lark.lexer import TerminalDef
 from lark.parsers.lalr_analysis import Shift
 
-from skillc_dsl.parsing.tables import NESTED, WORD, Rule, Tables
+from skillc_dsl.parsing.table_types import NESTED, WORD, Rule, Tables
 
 
 def make_parser(grammar: str) -> Lark:

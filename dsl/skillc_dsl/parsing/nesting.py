@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.parsing.lexer import token_span
-from skillc_dsl.parsing.tables import NESTED
+from skillc_dsl.parsing.table_types import NESTED
 from skillc_dsl.parsing.tokens import Token, Tree
 from skillc_dsl.source import Span
 

@@ -16,13 +16,8 @@ from pathlib import Path
 from typing import Any, TypeAlias, cast
 
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.platforms.processes import (
-    DEFAULT_START,
-    ProcessTerminated,
-    StartMethod,
-    join_process,
-    start_process,
-)
+from skillc_runtime.platforms.processes import DEFAULT_START, StartMethod, join_process, start_process
+from skillc_runtime.platforms.started_process import ProcessTerminated
 
 CLEANUP_S = 2.0
 """How long a worker may take to end the programs that it started, and to remove its files, before it is killed."""

@@ -7,7 +7,9 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
-from typing import Literal, Protocol, TypeAlias
+from typing import Literal, TypeAlias
+
+from skillc_runtime.platforms.started_process import StartedProcess
 
 StartMethod: TypeAlias = Literal["fork", "spawn", "thread"]
 
@@ -21,31 +23,6 @@ else:
 INHERITS_SOCKETS = sys.platform != "win32"
 
 _JOIN_POLL_S = 0.001
-
-
-class ProcessTerminated(BaseException):
-    """Raised in a process that was asked to end, so that it cleans up."""
-
-
-class StartedProcess(Protocol):
-    """A process, or a thread, that was started here."""
-
-    @property
-    def pid(self) -> int:
-        """The id of the process; of a thread, that of this process."""
-        ...
-
-    def poll(self) -> int | None:
-        """Return the exit code, negative for a signal; None while it runs."""
-        ...
-
-    def terminate(self) -> None:
-        """Ask it to end, if it still runs; a thread cannot be asked."""
-        ...
-
-    def kill(self) -> None:
-        """End it, if it still runs; a thread goes on until its function returns."""
-        ...
 
 
 def start_process(function: Callable[[], None], start: StartMethod, files: Sequence[int]) -> StartedProcess:

@@ -24,8 +24,8 @@ from types import FrameType
 from typing import NoReturn, TextIO
 
 from skillc_ontology import catalogue
-from skillc_runtime.platforms.processes import ProcessTerminated, StartedProcess
 from skillc_runtime.platforms.signals import ENDING
+from skillc_runtime.platforms.started_process import ProcessTerminated, StartedProcess
 
 assert sys.platform != "win32", "there are no forks"
 

@@ -80,7 +80,7 @@ def command(kind: Kind, name: str, like: str | None, called: str | None, **optio
     """
     from skillc.errors import RequestError
     from skillc.services.additions import add_files
-    from skillc.services.project.project import find_project
+    from skillc.services.project.loading import find_project
 
     project = find_project(Path())
     if project is None:

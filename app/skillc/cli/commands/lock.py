@@ -19,8 +19,8 @@ from skillc.cli.options import PATH
 def command(path: Path) -> None:
     """Lock the dependencies of the project that PATH, by default the current folder, is in."""
     from skillc.errors import RequestError
+    from skillc.services.project.loading import find_project
     from skillc.services.project.lock import lock_libraries, write_lock
-    from skillc.services.project.project import find_project
 
     project = find_project(path)
     if project is None:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import sqlite3
-from datetime import UTC, datetime
+from datetime import datetime
 from http import HTTPStatus
-from typing import TYPE_CHECKING
 
 from msgspec import structs
 
@@ -15,20 +14,13 @@ from skillc.contract.messages import Refused, Submit
 from skillc.contract.order import Order
 from skillc.server.access.leases import LeaseHeld
 from skillc.server.access.roles import includes
+from skillc.server.context import ServerContext
 from skillc.server.log import log
 from skillc.server.orders.due import Due, find_due
 from skillc.server.supervisor import CellSupervisor
 
-if TYPE_CHECKING:
-    from skillc.server.context import ServerContext
-
 LOOK_S = 0.5
 """How often the clock is looked at, in s: it may jump, so nobody waits for a time."""
-
-
-def now_utc() -> datetime:
-    """Return the time of this machine's clock."""
-    return datetime.now(UTC)
 
 
 async def keep_submitting(server: ServerContext, cell: CellSupervisor) -> None:

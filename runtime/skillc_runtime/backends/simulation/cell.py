@@ -13,13 +13,7 @@ from skillc_runtime.backends.simulation.base import SimulatedBase
 from skillc_runtime.backends.simulation.button import SimulatedButton, make_buttons
 from skillc_runtime.backends.simulation.camera import SimulatedCamera
 from skillc_runtime.backends.simulation.cargo import Cargo
-from skillc_runtime.backends.simulation.checkpoint import (
-    Checkpoint,
-    encode_checkpoint,
-    read_posture,
-    restore_cell,
-    save_cell,
-)
+from skillc_runtime.backends.simulation.checkpoint import Checkpoint, encode_checkpoint
 from skillc_runtime.backends.simulation.claims import find_false_claims
 from skillc_runtime.backends.simulation.device_stopper import DeviceStopper
 from skillc_runtime.backends.simulation.disturber import SimulatedDisturber
@@ -33,6 +27,7 @@ from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.observer import ToolObserver
 from skillc_runtime.backends.simulation.person import make_people
 from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
+from skillc_runtime.backends.simulation.saved_cell import read_posture, restore_cell, save_cell
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
 from skillc_runtime.backends.simulation.stops import SimulatedStops
 from skillc_runtime.backends.simulation.touch_recorder import TouchRecorder
@@ -110,7 +105,7 @@ class ModelledCell(ABC, Generic[A, G]):
             self.data,
         )  # fmt: skip
         self.stops = SimulatedStops(self._drivers, self._stopper, world, names)
-        self.disturber = SimulatedDisturber(self, self.stops)
+        self.disturber = SimulatedDisturber(self, scene, self.model, self.data, self._hands, self.stops)
         self.drawing = ModelDrawing(scene, variation, self.model, self.data)
         self.live = make_live_signals(scene, self.period_s, self.arms, self._drivers, self.model, self.data)
         world.weigh_evidence(self._weigh_evidence)

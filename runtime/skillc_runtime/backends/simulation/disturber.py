@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, assert_never
+from collections.abc import Mapping
+from typing import Any, Protocol, assert_never
 
 import numpy as np
 
+from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.stops import SimulatedStops
 from skillc_runtime.devices.disturbances import (
     Disturbance,
@@ -19,15 +22,31 @@ from skillc_runtime.devices.disturbances import (
 )
 from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_from_rotation
 
-if TYPE_CHECKING:
-    from skillc_runtime.backends.simulation.cell import ModelledCell
+
+class DisturbedCell(Protocol):
+    """What a cell offers to those who disturb it."""
+
+    def push_hand(self, arm: str, force_n: Array) -> None:
+        """Push the hand of an arm with a force (3,) in N in the world from now on; 0 ends it. KeyError without hand."""
+        ...
+
+    def refresh(self) -> None:
+        """Compute what follows from positions in `data` that were changed between two steps."""
+        ...
 
 
 class SimulatedDisturber:
-    """Disturbs a cell; implements `Disturber`. Pushes act in each step, so that they take exactly as long as stated."""
+    """Disturbs a cell; implements `Disturber`. Pushes act in each step, so that they take exactly as long as stated.
 
-    def __init__(self, cell: ModelledCell[Any, Any], stops: SimulatedStops) -> None:
-        self._cell, self._stops = cell, stops
+    `hands` are by arm.
+    """
+
+    def __init__(
+        self, cell: DisturbedCell, scene: SceneSpec, model: Any, data: Any, hands: Mapping[str, ModelledGripper],
+        stops: SimulatedStops,
+    ) -> None:  # fmt: skip
+        self._cell, self._scene, self._model, self._data, self._hands = cell, scene, model, data, hands
+        self._stops = stops
         self._pushes: dict[str, tuple[Push, float]] = {}
 
     def disturb(self, disturbance: Disturbance) -> None:
@@ -35,7 +54,7 @@ class SimulatedDisturber:
         match disturbance:
             case Push(arm=arm):
                 self._check_hand(arm)
-                self._pushes[arm] = disturbance, self._cell.now + disturbance.duration_s
+                self._pushes[arm] = disturbance, float(self._data.time) + disturbance.duration_s
             case Move():
                 self._move(disturbance)
             case Take():
@@ -62,7 +81,7 @@ class SimulatedDisturber:
                 del self._pushes[arm]
 
     def _check_arm(self, arm: str) -> None:
-        if arm not in self._cell.arms:
+        if all(each.individual != arm for each in self._scene.arms):
             raise DisturbanceRefused(f"{arm} is no arm of the cell")
 
     def _check_hand(self, arm: str) -> None:
@@ -74,7 +93,7 @@ class SimulatedDisturber:
     def _move(self, wanted: Move) -> None:
         """Put a thing elsewhere, at rest; nothing else is moved out of its way."""
         if self._hand_with(wanted.thing) is not None:
-            name = self._cell.scene.names[wanted.thing]
+            name = self._scene.names[wanted.thing]
             raise DisturbanceRefused(f"{name} is in a gripper; it can be taken out of the hand")
         self._shift(wanted.thing, np.array(wanted.by_m), wanted.turn_rad)
 
@@ -82,25 +101,23 @@ class SimulatedDisturber:
         """Let a hand lose what it holds, and put that elsewhere; fingers that press on nothing close."""
         hand = self._hand_with(wanted.thing)
         if hand is None:
-            raise DisturbanceRefused(f"{self._cell.scene.names.get(wanted.thing, wanted.thing)} is in no gripper")
-        self._cell.gripper(hand).lose()
+            raise DisturbanceRefused(f"{self._scene.names.get(wanted.thing, wanted.thing)} is in no gripper")
+        hand.lose()
         self._shift(wanted.thing, np.array(wanted.by_m), 0.0)
 
-    def _hand_with(self, thing: str) -> str | None:
+    def _hand_with(self, thing: str) -> ModelledGripper | None:
         """Return the gripper that really holds a thing; None for none."""
-        hands = [arm.gripper.individual for arm in self._cell.scene.arms if arm.gripper is not None]
-        return next((each for each in hands if self._cell.ground_truth.carried_by(each) == thing), None)
+        return next((each for each in self._hands.values() if each.carries == thing), None)
 
     def _shift(self, thing: str, by_m: Array, turn_rad: float) -> None:
         """Move a thing, at rest then, and turn it about the vertical."""
-        cell = self._cell
-        if all(each.individual != thing for each in cell.scene.graspable):
+        if all(each.individual != thing for each in self._scene.graspable):
             raise DisturbanceRefused(f"{thing} is nothing that can be moved")
-        joint = cell.model.joint(part_name(cell.scene.names[thing], "free"))
+        joint = self._model.joint(part_name(self._scene.names[thing], "free"))
         first, velocity = int(joint.qposadr[0]), int(joint.dofadr[0])
-        q = cell.data.qpos[first : first + 7]
+        q = self._data.qpos[first : first + 7]
         before = Pose.of(q[:3], q[3:])
         turned = exp(np.array([0.0, 0.0, turn_rad])) @ before.rotation
         q[:3], q[3:] = before.position + by_m, quaternion_from_rotation(turned)
-        cell.data.qvel[velocity : velocity + 6] = 0.0
-        cell.refresh()
+        self._data.qvel[velocity : velocity + 6] = 0.0
+        self._cell.refresh()
