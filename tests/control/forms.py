@@ -134,7 +134,8 @@ def measurements(count: int) -> list[list[float]]:
         )  # fmt: skip
         measure(sensing, noise)
         dose, tool, (place, origin) = np.zeros((20, 30)), np.array([0.1, 0.05]), chance.uniform(-0.1, 0.1, (2, 3))
-        add_dose(dose, np.linspace(-0.2, 0.2, 30), np.linspace(-0.1, 0.1, 20), origin, base, place, link, tool, 0.01)
+        x, y, world = np.linspace(-0.2, 0.2, 30), np.linspace(-0.1, 0.1, 20), Pose(origin, base)
+        add_dose(dose, x, y, world, place, link, tool, 0.01)
         mass, sines = np.eye(7), Lissajous(*chance.uniform(-1, 1, (3, 3))).at(chance.uniform(0, 5))
         add_payload_mass(mass, hand.lever, J, 0.3)
         kept = np.zeros(7)

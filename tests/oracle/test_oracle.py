@@ -6,6 +6,7 @@ SKILLC_EXAMPLES says how many of each kind are tried.
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 
 import pytest
 
@@ -105,7 +106,7 @@ def test_nothing_wrong_is_said_of_a_scene_from_a_part_of_it(seed: int) -> None:
         assert (first.at_least_s or 0.0) <= cost_of(whole) <= first.plan.duration_s
     else:
         assert cost_of(first) == pytest.approx(cost_of(whole))
-    proven = solve(skills, state, goal, (AStar(),), CancelToken(LONG_S), size=size, prove=True)
+    proven = solve(skills, state, goal, (AStar(),), CancelToken(LONG_S), size=replace(size, proves=True))
     assert cost_of(proven) == pytest.approx(cost_of(whole))
     assert explain_unreachable(skills, state, goal) is None or isinstance(whole, Unsolvable)
 

@@ -56,7 +56,7 @@ def test_a_plan_that_may_not_be_the_shortest_is_labelled_and_with_a_proof_the_sc
     )
     narrow = solve(skills, light, CLEANED, (AStar(),), size=SMALL)
     assert isinstance(narrow, Solved) and narrow.optimal == "optimal for the filtered problem"
-    proven = solve(skills, light, CLEANED, (AStar(),), size=SMALL, prove=True)
+    proven = solve(skills, light, CLEANED, (AStar(),), size=AbstractionSize(10, 2, proves=True))
     assert isinstance(proven, Solved) and proven.optimal == "proven"
     assert proven.plan.duration_s == pytest.approx(0.2 + 12 + 40)
     assert narrow.at_least_s is not None

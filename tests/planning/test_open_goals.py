@@ -47,7 +47,7 @@ def test_of_a_part_of_the_scene_nothing_is_claimed_about_who_was_left_out() -> N
     goal = And((FULL, Not(Holds(ROBOT, AT, Anything()))))
     narrow = solve(library(DRIVE, PICK, LIFT), LAB, goal, size=AbstractionSize(1, 1))
     assert isinstance(narrow, Solved) and narrow.plan.duration_s == 29.5
-    whole = solve(library(DRIVE, PICK, LIFT), LAB, goal, size=AbstractionSize(1, 1), prove=True)
+    whole = solve(library(DRIVE, PICK, LIFT), LAB, goal, size=AbstractionSize(1, 1, proves=True))
     assert isinstance(whole, Solved) and whole.optimal == "proven"
 
 

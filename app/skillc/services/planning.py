@@ -14,6 +14,7 @@ from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import PlanResult
 from skillc_runtime.planning.planners import Planners, find_planners
+from skillc_runtime.planning.problem.neighbourhood import NARROW, PROVING
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve
@@ -63,8 +64,8 @@ def plan_goal(
     goal = assignment.objective.goal
     if measure == "makespan":
         return minimise_makespan(library, assignment.state, goal, planners, cancel, report=report)
-    prove = measure == "proven work"
-    return solve(library, assignment.state, goal, planners.for_work, cancel, prove=prove, report=report)
+    size = PROVING if measure == "proven work" else NARROW
+    return solve(library, assignment.state, goal, planners.for_work, cancel, size=size, report=report)
 
 
 def with_minimal_makespan(loaded: LoadedTask) -> LoadedTask:

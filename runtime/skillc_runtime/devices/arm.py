@@ -79,10 +79,10 @@ class ArmLimits:
     The acceleration is infinite if it is not known.
     """
 
-    range: Array
-    velocity: Array
-    effort: Array
-    acceleration: Array
+    range: Matrix
+    velocity: Vector
+    effort: Vector
+    acceleration: Vector
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from skillc_runtime.execution.plans.progress import measure_progress
 from skillc_runtime.execution.success_facts import Claim
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.locks import DeviceLocks
-from skillc_runtime.execution.tree.run import TreeRun
+from skillc_runtime.execution.tree.run import EarlierTrees, TreeRun
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Listener, Note, PromptsChanged
@@ -118,8 +118,7 @@ class Attempt:
             cell,
             context.listeners,
             context.locks,
-            nodes_before,
-            failures,
+            EarlierTrees(nodes_before, failures),
             context.gate,
             context.step_deadline_s,
         )

@@ -56,8 +56,7 @@ class CoverageMap:
         position (3,) in m, rotation (3, 3): the centre of the undeformed face in the world, x and y along its edges; it
         is below the surface when pressed, with one side above if tilted. tool (2,): its size in m.
         """
-        frame = self._in_surface
-        add_dose(self.dose, self.x, self.y, frame.position, frame.rotation, position, rotation, tool, seconds)
+        add_dose(self.dose, self.x, self.y, self._in_surface, position, rotation, tool, seconds)
 
     def near(self, position: Array, reach_m: float) -> bool:
         """Tell whether a point (3,) m of the world is near the surface's plane, within `reach_m` of its edge."""
@@ -77,8 +76,7 @@ def add_dose(
     dose: OutMatrix,
     x: Vector,
     y: Vector,
-    origin: Vector,
-    turn: Matrix,
+    world: Pose,
     position: Vector,
     rotation: Matrix,
     tool: Vector,
@@ -86,11 +84,11 @@ def add_dose(
 ) -> None:
     """Add `seconds` to the dose (rows, columns) of cells in columns x (columns,) and rows y (rows,), m.
 
-    origin (3,) m and turn (3, 3): the world's pose in the surface; position, rotation and tool as in `CoverageMap.add`.
+    world: its pose in the surface; position, rotation and tool as in `CoverageMap.add`.
     """
     middle, axes = np.empty(3), np.empty((3, 3))
-    times(turn, position, middle)
+    times(world.rotation, position, middle)
     for i in range(3):
-        middle[i] += origin[i]
-    product(turn, rotation, axes)
+        middle[i] += world.position[i]
+    product(world.rotation, rotation, axes)
     add_under(dose, x, y, middle, axes, tool, seconds, TOUCHES_M)

@@ -41,17 +41,16 @@ def solve(
     cancel: CancelToken | None = None,
     without: Sequence[Step] = (),
     *,
-    prove: bool = False,
     size: AbstractionSize | None = NARROW,
     report: ReportProgress = ignore_progress,
 ) -> PlanResult:
     """Return a plan from a version of the world to the goal, validated in the world model.
 
     `without` are steps that the plan may not contain. In a large scene only the part near the goal is considered at
-    first, as large as `size` says; with `prove` the part grows until the plan is proven to be the shortest. If a
-    planner gives up, the next one gets the remaining time, until `cancel` ends the search, by default after DEADLINE_S.
-    A goal that already holds has the empty plan, even if planners cannot express it; for one that does not hold and
-    cannot be expressed, nothing is searched. Planners `report` how far they are, for the part that they plan with.
+    first, as large as `size` says. If a planner gives up, the next one gets the remaining time, until `cancel` ends the
+    search, by default after DEADLINE_S. A goal that already holds has the empty plan, even if planners cannot express
+    it; for one that does not hold and cannot be expressed, nothing is searched. Planners `report` how far they are, for
+    the part that they plan with.
     """
     cancel = cancel or CancelToken(DEADLINE_S)
     chosen = tuple(list_planners() if planners is None else planners)
@@ -77,7 +76,7 @@ def solve(
             if already_holds(goal, state):
                 return Solved(Plan((), 0.0), "proven", "the world as it is")
         with cancelling(cancel):
-            return plan_in_stages(PlanningStages(pose, answer, search, explain, cancel), state, size, prove=prove)
+            return plan_in_stages(PlanningStages(pose, answer, search, explain, cancel), state, size)
     except GoalError as reason:
         return GaveUp(str(reason), searched=False)
     except Cancelled as reason:

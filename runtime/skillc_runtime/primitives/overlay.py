@@ -99,7 +99,7 @@ class OverlayLissajous(AddedMotion):
     in the plane with the normal `plane` (3,) at `across_rate`; `phase` rad is that of the sine along `along`.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - the parameters of the skill, by name
         self,
         cell: Cell,
         *,

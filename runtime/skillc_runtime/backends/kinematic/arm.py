@@ -9,14 +9,14 @@ import numpy as np
 
 from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.arm_sensing import TOOL
-from skillc_runtime.backends.simulation.motors import Servos
+from skillc_runtime.backends.simulation.motors import ServoGains, Servos
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
-from skillc_runtime.devices.arm import ArmState
+from skillc_runtime.devices.arm import ArmLimits, ArmState
 from skillc_runtime.motion.arrays import Matrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, cross, times, transposed_times
-from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.pose import Array, Pose
 
 WRIST = 3
 """The first row of `LastLink` with the axes of the wrist."""
@@ -61,23 +61,21 @@ class KinematicArm(ModelledArm):
     def feel(self, contact: Array) -> None:
         """Let a wrench of contacts (6,) at the tool, N and N m in the world, act, and what is applied to the hand."""
         data, palm, sensing = self._data, self._palm, self._sensing
-        applied, centre, link = data.xfrc_applied[palm], data.xipos[palm], sensing.link
+        applied, centre = data.xfrc_applied[palm], data.xipos[palm]
         add_wrenches(
-            self._wrench, self._readings, contact, applied, centre, link.position, link.rotation, sensing.on_link,
-            sensing.base.rotation,
-        )  # fmt: skip
+            self._wrench, self._readings, contact, applied, centre, sensing.link, sensing.on_link, sensing.base.rotation
+        )
 
     def step(self, period_s: float) -> None:
         """Move the joints for one step as the motors and the wrench on the tool want."""
         if self._measured_at != self._data.time:
             self.state()
         here, motors, limits = self._here, self._motors, self.limits
-        target, fastest, span, J = motors.joints.control, limits.velocity, limits.range, here.jacobian
+        target, J = motors.joints.control, here.jacobian
         if isinstance(motors, Servos):
-            stiffness, damping = motors.gains.stiffness, motors.gains.damping
-            follow_servos(self._q, self._dq, target, stiffness, damping, fastest, span, J, self._wrench, period_s)
+            follow_servos(self._q, self._dq, target, motors.gains, limits, J, self._wrench, period_s)
         else:
-            follow_torques(self._q, self._dq, target, here.mass_matrix, fastest, span, J, self._wrench, period_s)
+            follow_torques(self._q, self._dq, target, here.mass_matrix, limits, J, self._wrench, period_s)
 
     def _update_mass_matrix(self) -> None:
         mujoco.mj_crb(self._model, self._data)
@@ -91,28 +89,27 @@ def add_wrenches(
     contact: Vector,
     applied: Vector,
     centre: Vector,
-    link: Vector,
-    rotation: Matrix,
+    link: Pose,
     on_link: Matrix,
     base_rotation: Matrix,
 ) -> None:
     """Compute in_base (6,), N and N m at the tool centre point in base axes, and readings (9,), the same in wrist axes.
 
-    In the world: contact (6,) at the tool centre point; applied (6,) at centre (3,) m; link (3,) m and rotation (3, 3):
-    the last link; base_rotation (3, 3). on_link (8, 3): see `LastLink`.
+    In the world: contact (6,) at the tool centre point; applied (6,) at centre (3,) m; link: the last link;
+    base_rotation (3, 3). on_link (8, 3): see `LastLink`.
     """
     lever, moment, in_link = np.empty(3), np.empty(3), np.empty((2, 3))
-    times(rotation, on_link[TOOL], lever)
+    times(link.rotation, on_link[TOOL], lever)
     for i in range(3):
-        lever[i] = centre[i] - link[i] - lever[i]
+        lever[i] = centre[i] - link.position[i] - lever[i]
     cross(lever, applied[:3], moment)
     for i in range(3):
         lever[i] = contact[i] + applied[i]
         moment[i] += contact[3 + i] + applied[3 + i]
     transposed_times(base_rotation, lever, in_base[:3])
     transposed_times(base_rotation, moment, in_base[3:])
-    transposed_times(rotation, lever, in_link[0])
-    transposed_times(rotation, moment, in_link[1])
+    transposed_times(link.rotation, lever, in_link[0])
+    transposed_times(link.rotation, moment, in_link[1])
     times(on_link[WRIST : WRIST + 3], in_link[0], readings[:3])
     times(on_link[WRIST : WRIST + 3], in_link[1], readings[3:6])
 
@@ -122,25 +119,22 @@ def follow_servos(
     q: OutVector,
     dq: OutVector,
     target: Vector,
-    stiffness: Vector,
-    damping: Vector,
-    fastest: Vector,
-    span: Matrix,
+    gains: ServoGains,
+    limits: ArmLimits,
     J: Matrix,
     wrench: Vector,
     period: float,
 ) -> None:
     """dq = (kp (target - q) + J^T w) / kv: servos without inertia; q (nv,) rad and dq rad/s change.
 
-    target (nv,): rad; stiffness, damping (nv,): kp N m/rad, kv N m s/rad; fastest (nv,): rad/s; span
-    (nv, 2): rad; J (6, nv) and w (6,), N and N m, in base axes; period: s.
+    target (nv,): rad; gains: kp N m/rad, kv N m s/rad; J (6, nv) and w (6,), N and N m, in base axes; period: s.
     """
     pushed = np.empty(q.size)
     transposed_times(J, wrench, pushed)
     for j in range(q.size):
-        wanted = (stiffness[j] * (target[j] - q[j]) + pushed[j]) / damping[j]
-        speed = min(max(wanted, -fastest[j]), fastest[j])
-        after = min(max(q[j] + period * speed, span[j, 0]), span[j, 1])
+        wanted = (gains.stiffness[j] * (target[j] - q[j]) + pushed[j]) / gains.damping[j]
+        speed = min(max(wanted, -limits.velocity[j]), limits.velocity[j])
+        after = min(max(q[j] + period * speed, limits.range[j, 0]), limits.range[j, 1])
         dq[j] = (after - q[j]) / period
         q[j] = after
 
@@ -151,8 +145,7 @@ def follow_torques(
     dq: OutVector,
     tau: Vector,
     mass: Matrix,
-    fastest: Vector,
-    span: Matrix,
+    limits: ArmLimits,
     J: Matrix,
     wrench: Vector,
     period: float,
@@ -170,7 +163,7 @@ def follow_torques(
     cholesky(factor)
     cholesky_solve(factor, pushed, ddq)
     for j in range(q.size):
-        speed = min(max(dq[j] + period * ddq[j], -fastest[j]), fastest[j])
-        after = min(max(q[j] + period * speed, span[j, 0]), span[j, 1])
+        speed = min(max(dq[j] + period * ddq[j], -limits.velocity[j]), limits.velocity[j])
+        after = min(max(q[j] + period * speed, limits.range[j, 0]), limits.range[j, 1])
         dq[j] = (after - q[j]) / period
         q[j] = after

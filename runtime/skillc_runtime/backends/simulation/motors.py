@@ -119,8 +119,8 @@ class TorqueMotors(Motors):
 class ServoGains:
     """Of position servos, (nv,): stiffness N m/rad, damping N m s/rad."""
 
-    stiffness: Array
-    damping: Array
+    stiffness: Vector
+    damping: Vector
 
 
 class Servos(Motors):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
 
 from skillc_model import tree
 from skillc_model.skills import SkillLibrary
@@ -35,6 +36,19 @@ from skillc_runtime.world.state.transactions import ChangeEvent
 _ALIVE = (RUNNING, Status.IDLE)
 
 
+class EarlierTrees(NamedTuple):
+    """The trees of a task that ran before: this one numbers its nodes from `nodes` + 1, so that all share a recording.
+
+    Calls skip implementations that would fail again according to `failures`, and add their own failures.
+    """
+
+    nodes: int = 0
+    failures: CallFailures | None = None
+
+
+NO_EARLIER = EarlierTrees()
+
+
 class TreeRun:
     """Runs the body of a task, the body of a plan, or a single call.
 
@@ -49,24 +63,22 @@ class TreeRun:
         cell: Cell,
         listeners: Sequence[Listener] = (),
         locks: DeviceLocks | None = None,
-        nodes_before: int = 0,
-        failures: CallFailures | None = None,
+        earlier: EarlierTrees = NO_EARLIER,
         gate: Gate | None = None,
         step_deadline_s: float | None = None,
     ) -> None:
         """Build the tree; nothing starts.
 
-        Runs on the same devices share `locks`. The nodes are numbered from `nodes_before` + 1, so that the events of
-        several runs can share a recording. Calls skip implementations that would fail again according to `failures`,
-        and add their own failures. `gate` holds calls back where the run pauses. A primitive or a wait that has not
-        ended `step_deadline_s` of the run's own time after its start fails.
+        Runs on the same devices share `locks`. `earlier` are the trees of the same task before this one. `gate` holds
+        calls back where the run pauses. A primitive or a wait that has not ended `step_deadline_s` of the run's own
+        time after its start fails.
         """
         self._listeners = Listeners(listeners)
         emit = self._listeners if listeners else None
-        self._context = TreeContext(library, cell, emit, locks or DeviceLocks(), nodes_before, gate, step_deadline_s)
+        self._context = TreeContext(library, cell, emit, locks or DeviceLocks(), earlier.nodes, gate, step_deadline_s)
         self._undo = UndoStack()
         self._stop_listening = cell.world.subscribe(self._emit_world_change) if listeners else None
-        self._root = build_node(body, self._context, LexicalScope(self._undo, failures=failures))
+        self._root = build_node(body, self._context, LexicalScope(self._undo, failures=earlier.failures))
         self._path = ActivePath(self._root)
         self._pause = Pause(self._context)
         self._devices = FactMonitor(cell)

@@ -47,13 +47,11 @@ class PlanningStages:
     cancel: CancelToken
 
 
-def plan_in_stages(
-    stages: PlanningStages, state: WorldState, size: AbstractionSize | None, *, prove: bool
-) -> PlanResult:
+def plan_in_stages(stages: PlanningStages, state: WorldState, size: AbstractionSize | None) -> PlanResult:
     """Return the answer for the smallest part of the scene that has one.
 
-    The first part is as large as `size` says; None is the whole scene. With `prove`, and in a small scene, the part
-    grows until a plan is proven to be optimal or nothing is left out.
+    The first part is as large as `size` says; None is the whole scene. If `size` proves, and in a small scene, the
+    part grows until a plan is proven to be optimal or nothing is left out.
     """
     best: Solved | None = None
     while True:
@@ -68,7 +66,7 @@ def plan_in_stages(
             case Solved():
                 rated = _rate(answer, posed, stages, state)
                 best = _limit_claims(rated, posed)
-                if rated.optimal == "proven" or not (prove or posed.candidate_count <= size.whole):
+                if rated.optimal == "proven" or not (size.proves or posed.candidate_count <= size.whole):
                     return best
             case Unsolvable():
                 why = _explain_unreachable(posed, stages, state)

@@ -10,7 +10,7 @@ not be the cheapest, and if there is none, the scene may still have one: see `ab
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from heapq import nsmallest
 
 from skillc_model.pddl.domain import GuardMeaning, PlanningDomain, RelationMeaning
@@ -29,19 +29,24 @@ MAX_RANKED = 500
 class AbstractionSize:
     """How much of a scene is kept: all objects of types with up to `few`, and neighbours up to `objects` in total.
 
-    For a scene of up to `whole` objects, planning goes on to the whole scene until the plan is proven to be optimal.
+    For a scene of up to `whole` objects, and for any with `proves`, planning goes on to the whole scene until the plan
+    is proven to be optimal.
     """
 
     objects: int
     few: int
     whole: int = 0
+    proves: bool = False
 
     def wider(self) -> AbstractionSize:
         """Return the size to try next."""
-        return AbstractionSize(self.objects * 8, self.few * 8, self.whole)
+        return replace(self, objects=self.objects * 8, few=self.few * 8)
 
 
 NARROW = AbstractionSize(40, 8, 100)
+
+PROVING = replace(NARROW, proves=True)
+"""For plans that are to be proven optimal, however large the scene is."""
 
 AT_ONCE = AbstractionSize(100, 8)
 """For problems that are posed once and not for a larger part."""
