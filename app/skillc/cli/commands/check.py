@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+import msgspec
 
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_scene
@@ -16,6 +17,7 @@ from skillc.cli.console import print_remark
 from skillc.cli.diagnostics_output import FORMS, JSON, exit_code, print_diagnostics
 from skillc.cli.options import PATH, json_option
 from skillc.cli.slow_notice import notice_if_slow
+from skillc.cli.struct_options import struct_options
 from skillc.services.checking import (
     STDIN,
     CheckRequest,
@@ -44,6 +46,21 @@ class FormChoice(click.Choice[str]):
         return super().convert(value, param, ctx)
 
 
+class CheckOptions(msgspec.Struct, frozen=True, kw_only=True):
+    """What is to be checked, and what is to be done about it."""
+
+    paths: tuple[Path, ...]
+    scene: Path | None
+    form: str
+    fix: bool
+    unsafe_fixes: bool
+    diff: bool
+    watch: bool
+    stdin_filename: Path | None
+    cache: bool
+    as_json: bool
+
+
 @click.command(cls=Command, examples=EXAMPLES)
 @click.argument("paths", nargs=-1, type=PATH)
 @click.option("--scene", type=PATH, shell_complete=complete_scene, help="Also check this scene against the libraries.")
@@ -59,44 +76,41 @@ class FormChoice(click.Choice[str]):
 @click.option("--stdin-filename", type=PATH, help="The path of the file that is read from `-`.")
 @click.option("--cache/--no-cache", default=True, show_default=True, help="Reuse the results of unchanged files.")
 @json_option
-def command(
-    paths: tuple[Path, ...],
-    scene: Path | None,
-    form: str,
-    fix: bool,
-    unsafe_fixes: bool,
-    diff: bool,
-    watch: bool,
-    stdin_filename: Path | None,
-    cache: bool,
-    as_json: bool,
-) -> int:
+@struct_options(CheckOptions)
+def command(asked: CheckOptions) -> int:
     """Check the libraries or files at PATHS, by default the project or folder here; `-` reads a file from stdin.
 
     Prints each problem with its place and, where there is one, a fix. Tasks are also checked in their scenes.
     """
+    _refuse_contradictions(asked)
+    request, form = _make_request(asked), JSON if asked.as_json else asked.form
+    if asked.watch:
+        return _watch(request, form)
+    with notice_if_slow("checking .."):
+        if asked.diff:
+            return _show_fixes(request, asked.unsafe_fixes)
+        return _fix(request, asked.unsafe_fixes, form) if asked.fix else _show(check_paths(request), form)
+
+
+def _refuse_contradictions(asked: CheckOptions) -> None:
+    """Raise UsageError if options do not belong together."""
+    if asked.stdin_filename and STDIN not in asked.paths:
+        raise click.UsageError("--stdin-filename names the file of `-`, but `-` is not among the paths")
+    if asked.unsafe_fixes and not (asked.fix or asked.diff):
+        raise click.UsageError("--unsafe-fixes requires --fix or --diff")
+    if asked.as_json and (asked.diff or asked.form != "full"):
+        raise click.UsageError("--json cannot be used with --format or --diff")
+    if asked.watch and (STDIN in asked.paths or asked.fix or asked.diff):
+        raise click.UsageError("--watch cannot be used with `-`, --fix or --diff")
+
+
+def _make_request(asked: CheckOptions) -> CheckRequest:
     from skillc.cli.console import read_stdin
     from skillc.services.library_files import find_scene
 
-    from_stdin = STDIN in paths
-    if stdin_filename and not from_stdin:
-        raise click.UsageError("--stdin-filename names the file of `-`, but `-` is not among the paths")
-    if unsafe_fixes and not (fix or diff):
-        raise click.UsageError("--unsafe-fixes requires --fix or --diff")
-    if as_json and (diff or form != "full"):
-        raise click.UsageError("--json cannot be used with --format or --diff")
-    if watch and (from_stdin or fix or diff):
-        raise click.UsageError("--watch cannot be used with `-`, --fix or --diff")
-    scene = scene and find_scene(scene)
-    stdin = StdinFile(stdin_filename, read_stdin()) if from_stdin else None
-    request = CheckRequest(paths or (Path(),), scene, stdin, cache)
-    form = JSON if as_json else form
-    if watch:
-        return _watch(request, form)
-    with notice_if_slow("checking .."):
-        if diff:
-            return _show_fixes(request, unsafe_fixes)
-        return _fix(request, unsafe_fixes, form) if fix else _show(check_paths(request), form)
+    scene = asked.scene and find_scene(asked.scene)
+    stdin = StdinFile(asked.stdin_filename, read_stdin()) if STDIN in asked.paths else None
+    return CheckRequest(asked.paths or (Path(),), scene, stdin, asked.cache)
 
 
 def _show(result: CheckResult, form: str) -> int:

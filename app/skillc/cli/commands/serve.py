@@ -10,12 +10,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+import msgspec
 
 from skillc.cli.command import Command
 from skillc.cli.options import PATH, grouped_option
 from skillc.cli.serving import DEFAULT_BIND, cell_options, parse_address, require_server
+from skillc.cli.struct_options import struct_options
 
 if TYPE_CHECKING:
+    from skillc.server.listening import Listening
     from skillc.services.backends import BackendName
 
 NETWORK = "Network"
@@ -24,6 +27,16 @@ skillc serve my_project --cell cell.ttl
 skillc serve wiping --cell iiwa_table.ttl --backend kinematic
 skillc serve --bind 0.0.0.0:8421 --host cells.example.org:8421 --tls-cert chain.pem --tls-key key.pem
 """
+
+
+class NetworkOptions(msgspec.Struct, frozen=True, kw_only=True):
+    """How clients reach a server."""
+
+    bind: str
+    names: tuple[str, ...]
+    tls_cert: Path | None
+    tls_key: Path | None
+    proxy: str | None
 
 
 @click.command(cls=Command, examples=EXAMPLES)
@@ -38,19 +51,16 @@ skillc serve --bind 0.0.0.0:8421 --host cells.example.org:8421 --tls-cert chain.
 @grouped_option(NETWORK, "--tls-cert", type=PATH, help="Encrypt with this certificate and its chain (PEM).")
 @grouped_option(NETWORK, "--tls-key", type=PATH, help="The key of the certificate (PEM).")
 @grouped_option(NETWORK, "--behind-proxy", "proxy", metavar="ADDRESS", help="Take requests from this proxy only.")
+@struct_options(NetworkOptions)
 def command(
+    network: NetworkOptions,
     libraries: tuple[Path, ...],
     scenes: tuple[Path, ...],
-    bind: str,
     state: Path,
     backend: BackendName,
     seed: int,
     token_file: Path | None,
     log_file: Path | None,
-    names: tuple[str, ...],
-    tls_cert: Path | None,
-    tls_key: Path | None,
-    proxy: str | None,
 ) -> None:
     """Serve cells with the skills of libraries, by default of the project here.
 
@@ -59,15 +69,21 @@ def command(
     require_server()
     from skillc.cli.console import Terminal
     from skillc.server.cells import choose_cells
-    from skillc.server.listening import Certificate, Listening
     from skillc.server.log import logging_to
     from skillc.server.serve import serve
     from skillc.server.state import open_state
 
-    if (tls_cert is None) != (tls_key is None):
-        raise click.UsageError("give both --tls-cert and --tls-key")
-    certificate = Certificate(tls_cert, tls_key) if tls_cert is not None and tls_key is not None else None
-    listening = Listening(*parse_address(bind), names, certificate, proxy)
+    listening = _make_listening(network)
     served = choose_cells(libraries or (Path(),), scenes, state, backend, seed)
     with logging_to(log_file):
         serve(served, listening, open_state(state, token_file), Terminal())
+
+
+def _make_listening(network: NetworkOptions) -> Listening:
+    from skillc.server.listening import Certificate, Listening
+
+    cert, key = network.tls_cert, network.tls_key
+    if (cert is None) != (key is None):
+        raise click.UsageError("give both --tls-cert and --tls-key")
+    certificate = Certificate(cert, key) if cert is not None and key is not None else None
+    return Listening(*parse_address(network.bind), network.names, certificate, network.proxy)

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+import msgspec
 
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_scene
@@ -20,11 +21,25 @@ from skillc.cli.options import PATH, json_option, store_options
 from skillc.cli.server_access import cell_options, refuse_options
 from skillc.cli.server_completions import complete_individual
 from skillc.cli.server_connection import asks_cell
+from skillc.cli.struct_options import struct_options
 
 if TYPE_CHECKING:
     from skillc.services.scenes import OpenScene
 
 FORMATS = ("turtle", "rdfxml", "jsonld", "ntriples", "trig")
+
+
+class Question(msgspec.Struct, frozen=True, kw_only=True):
+    """What is asked of a world: at most one of these but for `output`, the file of `form`; nothing for all of it."""
+
+    sparql: str | None
+    words: str | None
+    names: tuple[str, ...]
+    other: Path | None
+    graph: Path | None
+    form: str | None
+    output: Path | None
+    history: bool
 
 
 @click.command(cls=Command)
@@ -61,21 +76,15 @@ FORMATS = ("turtle", "rdfxml", "jsonld", "ntriples", "trig")
 @click.option("--history", is_flag=True, help="List who has written what to the world of a cell, the last first.")
 @cell_options
 @json_option
+@struct_options(Question)
 def command(
+    asked: Question,
     scene: Path | None,
-    sparql: str | None,
-    words: str | None,
-    names: tuple[str, ...],
-    other: Path | None,
-    graph: Path | None,
-    form: str | None,
-    output: Path | None,
     edits: tuple[str, ...],
     library: Path | None,
     store: str | None,
     reset: bool,
     everything: bool,
-    history: bool,
     as_json: bool,
 ) -> None:
     """Show SCENE, a file or the name of a shipped scene, or the world that a store holds.
@@ -94,39 +103,58 @@ def command(
 
     `skillc scene` writes scenes.
     """
-    from skillc.cli import cell_questions
-    from skillc.cli.console import Terminal, print_result, print_text
+    if edits:
+        words = " ".join(map(shlex.quote, edits))
+        raise click.UsageError(f"`world` only reads; write `skillc scene edit {scene or 'SCENE'} {words}`")
+    _refuse_contradictions(asked)
+    if asks_cell():
+        all_ = everything and not asked.form
+        refuse_options(diff=asked.other, library=library, store=store, reset=reset, all=all_)
+        if scene is not None:
+            raise click.UsageError("SCENE cannot be named with a cell of a server")
+        _ask_cell(asked, everything, as_json)
+        return
+    if asked.history:
+        raise click.UsageError("--history requires --cell or --server")
+    from skillc.cli.console import Terminal
     from skillc.services import scenes
     from skillc.services.stores import StoreChoice
 
-    choice = StoreChoice(store, reset)
-    if edits:
-        words_of_edits = " ".join(map(shlex.quote, edits))
-        raise click.UsageError(f"`world` only reads; write `skillc scene edit {scene or 'SCENE'} {words_of_edits}`")
-    if sum(map(bool, (sparql is not None, words is not None, names, other, graph, form, history))) > 1:
+    with scenes.open_scene(scene, library, StoreChoice(store, reset), everything, Terminal()) as opened:
+        _answer(opened, asked, everything, as_json)
+
+
+def _refuse_contradictions(asked: Question) -> None:
+    """Raise UsageError if several things are asked at once."""
+    kinds = (asked.sparql is not None, asked.words is not None, asked.names, asked.other, asked.graph, asked.form)
+    if sum(map(bool, (*kinds, asked.history))) > 1:
         raise click.UsageError("--query, --search, --show, --diff, --graph, --export and --history cannot be combined")
-    if output and not form:
+    if asked.output and not asked.form:
         raise click.UsageError("--output requires --export FORMAT")
-    if asks_cell():
-        refuse_options(diff=other, library=library, store=store, reset=reset, all=everything and not form)
-        if scene is not None:
-            raise click.UsageError("SCENE cannot be named with a cell of a server")
-        if graph or form:
-            cell_questions.export_world(form or "graph", everything, graph or output)
-        else:
-            cell_questions.show_world(sparql, names, words, history, as_json)
-        return
-    if history:
-        raise click.UsageError("--history requires --cell or --server")
-    with scenes.open_scene(scene, library, choice, everything, Terminal()) as opened:
-        if graph:
-            scenes.draw_scene(opened, graph)
-            click.echo(graph)
-        elif form:
-            _export(opened, form, output, everything)
-        else:
-            view = _format_view(opened, sparql, other, names, words, as_json)
-            (print_result if as_json or sparql is not None else print_text)(view)
+
+
+def _ask_cell(asked: Question, everything: bool, as_json: bool) -> None:
+    from skillc.cli import cell_questions
+
+    if asked.graph or asked.form:
+        cell_questions.export_world(asked.form or "graph", everything, asked.graph or asked.output)
+    else:
+        cell_questions.show_world(asked.sparql, asked.names, asked.words, asked.history, as_json)
+
+
+def _answer(opened: OpenScene, asked: Question, everything: bool, as_json: bool) -> None:
+    """Answer a question about a scene."""
+    from skillc.cli.console import print_result, print_text
+    from skillc.services import scenes
+
+    if asked.graph:
+        scenes.draw_scene(opened, asked.graph)
+        click.echo(asked.graph)
+    elif asked.form:
+        _export(opened, asked.form, asked.output, everything)
+    else:
+        view = _format_view(opened, asked, as_json)
+        (print_result if as_json or asked.sparql is not None else print_text)(view)
 
 
 def _export(opened: OpenScene, form: str, output: Path | None, everything: bool) -> None:
@@ -140,18 +168,16 @@ def _export(opened: OpenScene, form: str, output: Path | None, everything: bool)
         click.echo(output)
 
 
-def _format_view(
-    opened: OpenScene, sparql: str | None, other: Path | None, names: tuple[str, ...], words: str | None, as_json: bool
-) -> str:
+def _format_view(opened: OpenScene, asked: Question, as_json: bool) -> str:
     """Return the answer to a query, the differences from another scene, or individuals: the named or the found ones."""
     from skillc.cli import scene_output
     from skillc.cli.console import Terminal, page_of
     from skillc.services import scenes
 
-    if sparql is not None:
-        return scene_output.format_answer(scenes.query_scene(opened, sparql), as_json, page_of(sys.stdout))
-    if other is not None:
-        return scene_output.format_diff(scenes.compare_scenes(opened, other, Terminal()), as_json)
-    if names:
-        return scene_output.format_individuals(scenes.describe_individuals(opened, names), opened, as_json)
-    return scene_output.format_elements(scenes.find_individuals(opened, words), opened, as_json)
+    if asked.sparql is not None:
+        return scene_output.format_answer(scenes.query_scene(opened, asked.sparql), as_json, page_of(sys.stdout))
+    if asked.other is not None:
+        return scene_output.format_diff(scenes.compare_scenes(opened, asked.other, Terminal()), as_json)
+    if asked.names:
+        return scene_output.format_individuals(scenes.describe_individuals(opened, asked.names), opened, as_json)
+    return scene_output.format_elements(scenes.find_individuals(opened, asked.words), opened, as_json)
