@@ -4,23 +4,16 @@ from __future__ import annotations
 
 from typing import Self
 
-from skillc_runtime.devices.backend import DeviceStop
-
-
-class NoStops:
-    """Devices that never stop by themselves; implements `DeviceStops`."""
-
-    report: DeviceStop | None = None
-
-    def clear(self) -> None:
-        """Do nothing."""
+from skillc_runtime.devices.backend import NO_STOPS
+from skillc_runtime.devices.capabilities import NO_CAPABILITIES, BackendCapabilities
 
 
 class OwnBackend:
     """The members of `Backend` that are the same for every cell that a test moves through time by itself."""
 
+    capabilities: BackendCapabilities = NO_CAPABILITIES
     broken: str | None = None
-    stops = NoStops()
+    stops = NO_STOPS
 
     @property
     def cell(self) -> Self:

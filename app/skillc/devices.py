@@ -1,17 +1,20 @@
 """What devices are: the protocols that primitives use and back ends fulfil, and how simulated ones are disturbed."""
 
 from skillc_runtime.devices.arm import Arm
-from skillc_runtime.devices.backend import Backend
+from skillc_runtime.devices.backend import Backend, BackendStart, BackendUnavailable
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.camera import PoseCamera
+from skillc_runtime.devices.capabilities import BackendCapabilities
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.disturbances import LoseArm, Move, PressEmergencyStop, Push, Take
 from skillc_runtime.devices.gripper import Gripper
-from skillc_runtime.devices.simulation import Simulation
 
 __all__ = [
     "Arm",
     "Backend",
+    "BackendCapabilities",
+    "BackendStart",
+    "BackendUnavailable",
     "Cell",
     "Gripper",
     "LoseArm",
@@ -20,6 +23,5 @@ __all__ = [
     "PoseCamera",
     "PressEmergencyStop",
     "Push",
-    "Simulation",
     "Take",
 ]

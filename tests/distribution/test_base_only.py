@@ -9,9 +9,9 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from skillc.extras import MODULES
 
 from distribution.base_only import ROOT, call, hidden_modules
+from skillc.extras import MODULES
 
 FORMER = {"fast", "video", "editor"}
 COMMAND = re.compile(r"pip install 'skillc\[([a-z,]+)\]'")

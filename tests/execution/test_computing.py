@@ -12,6 +12,7 @@ from typing import ClassVar
 import pytest
 
 from execution.loops import LatePlanner, StagedCell, Watched, submit
+from skillc_runtime.devices.capabilities import BackendCapabilities
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.repeat import repeat_run
@@ -30,6 +31,11 @@ LIBRARY = Library("execution.test_computing:Thinking").build()
 
 class LockStepCell(StagedCell):
     """A stage whose time passes only in calls."""
+
+    @property
+    def capabilities(self) -> BackendCapabilities:
+        """What it offers."""
+        return BackendCapabilities(lock_step=self)
 
     def advance_period(self) -> None:
         """Let a control period pass."""

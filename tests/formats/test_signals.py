@@ -19,7 +19,7 @@ from skillc.errors import RequestError
 from skillc.services.signal_files import SignalFormat, check_signals, recorded_signals
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.motion.pose import Array, quaternion_from_rotation
 from skillc_runtime.recording.signals.sampler import SignalSampler
 from skillc_runtime.recording.signals.signal import Signal
@@ -39,7 +39,7 @@ class Talk:
         self.said.append(text)
 
 
-def record(cell: Simulation, form: SignalFormat, folder: Path) -> None:
+def record(cell: Backend, form: SignalFormat, folder: Path) -> None:
     with recorded_signals(cell, form, folder, Talk()) as hooks:  # type: ignore[arg-type]
         for _ in range(TICKS):
             cell.advance(0.01)

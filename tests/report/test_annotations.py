@@ -10,6 +10,7 @@ from skillc.services.library_files import SHIPPED
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.film.annotations import SceneAnnotator
 from skillc_runtime.film.camera import CameraView
+from skillc_runtime.film.filmed_cell import find_filmed
 from skillc_runtime.film.props import Prop
 from skillc_runtime.film.rendering import Renderer, RenderingError, check_rendering
 from skillc_runtime.motion.pose import Pose
@@ -25,20 +26,26 @@ def cell() -> KinematicCell:
     return KinematicCell(WorldModel(load_scene(SHIPPED / "sorting" / "panda.ttl", library("sorting").vocabulary)))
 
 
+def annotate(sorting: KinematicCell) -> SceneAnnotator:
+    filmed = find_filmed(sorting)
+    assert filmed is not None
+    return SceneAnnotator(filmed)
+
+
 def push(sorting: KinematicCell, away_m: float) -> None:
     sorting.data.qpos[int(sorting.model.joint("lab:Part-B/free").qposadr[0])] += away_m
     sorting.advance(0.01)
 
 
 def test_parts_and_boxes_are_named_and_furniture_is_not() -> None:
-    tags = {each.text: each.point for each in SceneAnnotator(cell()).sample().tags}
+    tags = {each.text: each.point for each in annotate(cell()).sample().tags}
     assert tags.keys() == {"Part A", "Part B", "Box A", "Box B"}
     assert tags["Part B"] == pytest.approx((0.5, -0.2, 0.682), abs=1e-3)
 
 
 def test_there_is_a_ghost_of_a_part_that_is_elsewhere_and_of_no_other() -> None:
     sorting = cell()
-    annotator = SceneAnnotator(sorting)
+    annotator = annotate(sorting)
     push(sorting, 0.004)
     assert annotator.sample().ghosts == ()
     push(sorting, 0.03)
@@ -50,7 +57,7 @@ def test_there_is_a_ghost_of_a_part_that_is_elsewhere_and_of_no_other() -> None:
 
 def test_a_part_whose_place_is_not_known_has_no_ghost() -> None:
     sorting = cell()
-    annotator = SceneAnnotator(sorting)
+    annotator = annotate(sorting)
     sorting.world.commit([SetProperty(PART_B, BASE_FRAME_ID, "nowhere")], "test", "assumed")
     assert annotator.sample().ghosts == ()
 
@@ -61,7 +68,7 @@ def test_a_ghost_and_a_name_change_the_picture() -> None:
     except RenderingError as error:
         pytest.skip(str(error))
     sorting = cell()
-    annotator = SceneAnnotator(sorting)
+    annotator = annotate(sorting)
     push(sorting, 0.05)
     renderer = Renderer(sorting.model, 160, 120)
     view = CameraView(np.array([0.5, -0.2, 0.63]), 0.5, 50.0, -30.0)

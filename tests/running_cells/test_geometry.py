@@ -45,7 +45,7 @@ def test_the_page_is_tested_with_the_poses_that_mujoco_computes() -> None:
 
 def test_the_geometry_names_what_is_in_the_cell(tmp_path: Path) -> None:
     with open_cell(make_settings(tmp_path, SORTING, "kinematic"), SilentReporter()) as host:
-        model = msgspec.msgpack.decode(host.simulation.geometry.take_model(), type=CellModel)
+        model = msgspec.msgpack.decode(host.devices.geometry.take_model(), type=CellModel)
         part, arm = model.individuals[PART], model.individuals[ARM]
         assert (part.label, part.kind, part.movable) == ("lab:Part-A", "body", True)
         assert (arm.kind, arm.movable, len(model.arms[ARM].joints)) == ("arm", False, 7)
@@ -59,33 +59,33 @@ def test_the_geometry_names_what_is_in_the_cell(tmp_path: Path) -> None:
 
 def test_a_true_surface_stands_where_it_really_is(tmp_path: Path) -> None:
     with open_cell(make_settings(tmp_path, BOARD, "mujoco"), SilentReporter()) as host:
-        model = msgspec.msgpack.decode(host.simulation.geometry.take_model(), type=CellModel)
+        model = msgspec.msgpack.decode(host.devices.geometry.take_model(), type=CellModel)
         true = reality(host).ground_truth.surface_pose(BOARD_IRI)
         assert np.allclose(model.bodies[model.individuals[BOARD_IRI].body].pose[:3], true.position)
 
 
 def test_samples_follow_fingers_and_what_is_moved(tmp_path: Path) -> None:
     with open_cell(make_settings(tmp_path, SORTING, "kinematic"), SilentReporter()) as host:
-        before = host.simulation.sampler.take()
+        before = host.devices.sampler.take()
         host.disturb(Move(PART, (0.1, 0.0, 0.0)), "somebody")
         host.submit("first", OperationRequest(task=SORTING[1]))
-        assert np.isclose(host.simulation.sampler.take().things[PART][0] - before.things[PART][0], 0.1)
+        assert np.isclose(host.devices.sampler.take().things[PART][0] - before.things[PART][0], 0.1)
         run_until(host, 600)
-        after = host.simulation.sampler.take()
+        after = host.devices.sampler.take()
         assert set(before.joints) == {"lab:Hand-1/left_finger", "lab:Hand-1/right_finger"}
         assert after.joints != before.joints, "the hand has opened"
 
 
 def test_coverage_and_forces_are_those_of_a_tool_that_works(tmp_path: Path) -> None:
     with open_cell(make_settings(tmp_path, TABLE, "mujoco"), SilentReporter()) as host:
-        before = msgspec.msgpack.decode(host.simulation.geometry.take_coverage(), type=dict[str, SurfaceCoverage])
+        before = msgspec.msgpack.decode(host.devices.geometry.take_coverage(), type=dict[str, SurfaceCoverage])
         assert before[TABLE_IRI].dose == b""
         host.submit("first", OperationRequest(task=TABLE[1]))
         truth = reality(host).ground_truth
         while truth.coverage(TABLE_IRI).wiped_share < 0.01:
             host.tick()
-        sample = host.simulation.sampler.take()
-        after = msgspec.msgpack.decode(host.simulation.geometry.take_coverage(), type=dict[str, SurfaceCoverage])[
+        sample = host.devices.sampler.take()
+        after = msgspec.msgpack.decode(host.devices.geometry.take_coverage(), type=dict[str, SurfaceCoverage])[
             TABLE_IRI
         ]
         dose = np.frombuffer(after.dose, np.uint8).reshape(after.rows, after.columns)

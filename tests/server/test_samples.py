@@ -30,9 +30,9 @@ def test_a_sample_has_what_moves(tmp_path: Path) -> None:
     with open_cell(make_settings(tmp_path, SORTING, "kinematic"), SilentReporter()) as host:
         host.submit("first", TASK)
         run_until(host, 100)
-        first = host.simulation.sampler.take()
+        first = host.devices.sampler.take()
         run_until(host, 200)
-        second = host.simulation.sampler.take()
+        second = host.devices.sampler.take()
         arm, cell = second.arms[ARM], reality(host)
         assert second.time_s == cell.now > first.time_s
         assert np.allclose(arm.joints, cell.arms[ARM].state().q, atol=0.01) and arm.joints != first.arms[ARM].joints

@@ -19,7 +19,7 @@ from skillc.api.operation_state import Monitor, OperationState
 from skillc.api.planning import Minimise, make_request
 from skillc.api.run import Run
 from skillc.errors import RequestError, ServiceError
-from skillc.services.backends import BackendName
+from skillc.services.backends import BackendName, require_backend
 from skillc.services.files import check_writable
 from skillc.services.planning import prepare_planners, with_minimal_makespan
 from skillc.services.recordings import find_mcap
@@ -62,9 +62,9 @@ def run(
     `task`, `arguments`, `goal`, `scene`, `library` and `minimise` are as in `plan`; `skill` is a call such as
     `Wipe(surface: lab:Table-1)`. With `out` it is recorded in that folder, with a report, figures and, unless `film`
     is false, a film; `signals` adds the signals of its devices as `csv` or `parquet`, `gif` a film that repeats.
-    `seed` determines how the simulation differs from the world model; the backend `kinematic` is faster, without
-    physics. The task fails when it takes longer than `deadline_s` s of the cell's time, a primitive or a wait when it
-    takes longer than `step_deadline_s` s.
+    `backend` is the name of one that is installed: `mujoco`, `kinematic`, which is faster, without physics, or that of
+    a package. `seed` determines how a simulation differs from the world model. The task fails when it takes longer than
+    `deadline_s` s of the cell's time, a primitive or a wait when it takes longer than `step_deadline_s` s.
 
     An interrupt from the keyboard stops the task safely, and is raised again. Errors as of `start`.
     """
@@ -166,7 +166,7 @@ def make_options(
         planners=prepare_planners(True),
         tick_timeout_s=None,
         deadline_s=optional_seconds(deadline_s, "`deadline_s`"),
-        backend=require_choice(backend, BackendName, "the backend"),
+        backend=require_backend(backend),
     )
     check_writable(options.out)
     return options

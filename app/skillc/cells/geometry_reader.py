@@ -1,4 +1,4 @@
-"""Reads the geometry of a simulated cell from its MuJoCo model, and what its tools have worked on."""
+"""Reads the geometry of a cell from the MuJoCo model with which it is drawn, and what its tools have worked on."""
 
 from __future__ import annotations
 
@@ -24,8 +24,10 @@ from skillc.contract.geometry import (
     Vector,
 )
 from skillc.contract.sample import PoseNumbers
-from skillc_runtime.devices.live import ReadBytes
-from skillc_runtime.devices.simulation import DrawnIndividual, IndividualKind, Simulation
+from skillc_runtime.devices.backend import Backend
+from skillc_runtime.devices.drawing import Drawing, DrawnIndividual, IndividualKind
+from skillc_runtime.devices.ground_truth import GroundTruth
+from skillc_runtime.devices.live import LiveSignals
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array, Pose
 
@@ -59,38 +61,43 @@ _KINDS: Mapping[int, JointKind] = {
 class GeometryReader:
     """Reads the geometry of a cell between its ticks, as MessagePack."""
 
-    def __init__(self, simulation: Simulation) -> None:
-        self._simulation = simulation
+    def __init__(self, backend: Backend) -> None:
+        self._backend = backend
         self._model = b""
 
     def take_model(self) -> bytes:
         """Return the encoded geometry, which stays the same."""
-        self._model = self._model or msgspec.msgpack.encode(read_geometry(self._simulation))
+        self._model = self._model or msgspec.msgpack.encode(read_geometry(self._backend))
         return self._model
 
     def take_coverage(self) -> bytes:
         """Return where tools have really worked until now, encoded, by IRI of the surface."""
-        return msgspec.msgpack.encode(read_coverage(self._simulation))
+        return msgspec.msgpack.encode(read_coverage(self._backend))
 
 
-def read_geometry(simulation: Simulation) -> CellModel:
-    """Return the geometry of a cell; its bodies keep their numbers of the model, less that of the world."""
-    model, drawn = simulation.drawing.model, simulation.drawing.individuals
+def read_geometry(backend: Backend) -> CellModel:
+    """Return the geometry of a cell, empty if it cannot be drawn; its bodies keep their numbers of the model."""
+    drawing, live = backend.capabilities.drawing, backend.capabilities.live
+    if drawing is None or live is None:
+        return CellModel(bodies=(), meshes=(), individuals={}, arms={})
+    model, drawn, truth = drawing.model, drawing.individuals, backend.capabilities.truth
     owners = _find_owners(model, drawn)
     meshes = sorted({int(model.geom_dataid[each]) for each in range(model.ngeom) if _shape(model, each) == "mesh"})
     numbers = {mesh: number for number, mesh in enumerate(meshes)}
     return CellModel(
         bodies=tuple(_read_body(model, body, owners[body], numbers) for body in range(model.nbody)),
         meshes=tuple(_read_mesh(model, each) for each in meshes),
-        individuals={iri: _read_individual(simulation, iri, each) for iri, each in drawn.items()},
-        arms={iri: _read_arm(model, simulation, iri) for iri, each in drawn.items() if each.kind == "arm"},
+        individuals={iri: _read_individual(drawing, live, truth, iri) for iri in drawn},
+        arms={iri: _read_arm(drawing, iri) for iri, each in drawn.items() if each.kind == "arm"},
     )
 
 
-def read_coverage(simulation: Simulation) -> dict[str, SurfaceCoverage]:
-    """Return how long tools have really worked on each surface of a cell, by IRI."""
-    truth = simulation.ground_truth
-    return {each: _read_dose(truth.coverage(each)) for each in simulation.drawing.surfaces}
+def read_coverage(backend: Backend) -> dict[str, SurfaceCoverage]:
+    """Return how long tools have really worked on each surface of a cell, by IRI; none if that is not known."""
+    drawing, truth = backend.capabilities.drawing, backend.capabilities.truth
+    if drawing is None or truth is None:
+        return {}
+    return {each: _read_dose(truth.coverage(each)) for each in drawing.surfaces}
 
 
 def _read_dose(coverage: CoverageMap) -> SurfaceCoverage:
@@ -169,36 +176,32 @@ def _read_mesh(model: Any, mesh: int) -> ModelMesh:
     )
 
 
-def _read_individual(simulation: Simulation, iri: str, drawn: DrawnIndividual) -> ModelIndividual:
-    body = int(simulation.drawing.model.body(drawn.body).id)
-    positions, quaternions = (np.frombuffer(read()) for read in _bodies(simulation))
+def _read_individual(drawing: Drawing, live: LiveSignals, truth: GroundTruth | None, iri: str) -> ModelIndividual:
+    drawn = drawing.individuals[iri]
+    body = int(drawing.model.body(drawn.body).id)
+    positions, quaternions = (np.frombuffer(read()) for read in (live.bodies.positions, live.bodies.quaternions))
     there = Pose.of(positions[3 * body : 3 * body + 3], quaternions[4 * body : 4 * body + 4])
-    frame = there.inverse() @ _find_pose(simulation, iri, drawn.kind, there)
+    frame = there.inverse() @ _find_pose(live, truth, iri, drawn.kind, there)
     return ModelIndividual(drawn.label, drawn.kind, body, list_numbers(frame), drawn.movable)
 
 
-def _bodies(simulation: Simulation) -> tuple[ReadBytes, ReadBytes]:
-    return simulation.live.bodies.positions, simulation.live.bodies.quaternions
-
-
-def _find_pose(simulation: Simulation, iri: str, kind: IndividualKind, body: Pose) -> Pose:
-    """Return the true pose of an individual's own frame; that of its body if nothing else is known of it."""
-    truth = simulation.ground_truth
+def _find_pose(live: LiveSignals, truth: GroundTruth | None, iri: str, kind: IndividualKind, body: Pose) -> Pose:
+    """Return the pose of an individual's own frame; that of its body if nothing else is known of it."""
     match kind:
         case "arm":
-            return next(each.base() for each in simulation.live.arms if each.individual == iri)
+            return next(each.base() for each in live.arms if each.individual == iri)
         case "surface":
-            return truth.surface_pose(iri)
+            return body if truth is None else truth.surface_pose(iri)
         case "fixture":
-            return truth.fixture_pose(iri)
+            return body if truth is None else truth.fixture_pose(iri)
         case "gripper" | "base" | "tool" | "body":
             return body
         case _:
             assert_never(kind)
 
 
-def _read_arm(model: Any, simulation: Simulation, iri: str) -> ModelArm:
-    prefix = simulation.drawing.prefixes[iri]
+def _read_arm(drawing: Drawing, iri: str) -> ModelArm:
+    model, prefix = drawing.model, drawing.prefixes[iri]
     names = (model.joint(each).name for each in range(model.njnt))
     return ModelArm(tuple(each for each in names if each.startswith(prefix)))
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 
 from msgspec import structs
 
 from skillc.cells.assigning import assign_request
+from skillc.cells.cell_backend import CellBackend
 from skillc.cells.condition import CellCondition
 from skillc.cells.continuing import decisions_about, find_interrupted, prepare_continuation, take_over
 from skillc.cells.database import DatabaseError
@@ -20,10 +22,8 @@ from skillc.cells.journal.fingerprint import make_fingerprint
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.library import decode_library, load_library
-from skillc.cells.reality import report_devices
 from skillc.cells.recordings import CellRecordings
 from skillc.cells.settings import WORLD, CellSettings
-from skillc.cells.simulation import CellSimulation
 from skillc.cells.snapshot import CellSnapshot, encode_snapshot
 from skillc.cells.submitted import SubmittedOperation
 from skillc.cells.world import restore_world
@@ -31,6 +31,7 @@ from skillc.contract.cell import CellStatus
 from skillc.contract.messages import Edit, Place
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.errors import RequestError
+from skillc.services.backends import DEFAULT_BACKEND
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import Reporter
@@ -81,11 +82,11 @@ class CellHost:
         """Build the cell; SheetError or FrameError if its scene cannot be simulated, DatabaseError of `build_again`."""
         self.settings, self.library = settings, library
         self.world, self._journal, self._reader = world, journal, reader
-        self.simulation = CellSimulation(settings, world, journal, reader)
+        self.devices = CellBackend(settings, world, journal, reader)
         self._evidence = EvidenceKeeper(world, journal, reader)
         origin = CellOrigin(str(scene), settings.seed, settings.backend)
-        self._recordings = CellRecordings(Path(settings.folder), self.simulation, origin, reporter)
-        self.loop = CellLoop(self.simulation.backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
+        self._recordings = CellRecordings(Path(settings.folder), self.devices, origin, reporter)
+        self.loop = CellLoop(self.devices.backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
         self._condition = CellCondition(settings.name, self.loop, journal, reader)
         self._operations: dict[str, SubmittedOperation] = {}
         self._snapshot: tuple[WorldState | None, bytes] = (None, b"")
@@ -155,8 +156,14 @@ class CellHost:
         return self._snapshot[1]
 
     def take_twin(self) -> bytes:
-        """Return what the cell knows now and what its devices report, encoded: a twin of it is built from that."""
-        return encode_snapshot(self._describe_known(report_devices(self.simulation.backend)))
+        """Return what the cell knows now and what its devices report, encoded: a twin of it is built from that.
+
+        The twin of a cell that cannot be built again is simulated from what is known.
+        """
+        checkpoints = self.devices.backend.capabilities.checkpoints
+        if checkpoints is None:
+            return encode_snapshot(replace(self._describe_known(b""), backend=DEFAULT_BACKEND))
+        return encode_snapshot(self._describe_known(checkpoints.save_reported()))
 
     def edit(self, wanted: Edit | Place) -> None:
         """Change the world in one transaction as a person states; RequestError if it is refused: nothing changes."""
@@ -165,15 +172,18 @@ class CellHost:
         edit_world(self.world, wanted, self.loop, self._operations.values())
 
     def disturb(self, disturbance: Disturbance, who: str) -> None:
-        """Let something happen to the simulated cell; RequestError if it is not possible."""
-        if (broken := self.simulation.backend.broken) is not None:
+        """Let something happen to a simulated cell; RequestError if it is not possible."""
+        disturber = self.devices.backend.capabilities.disturber
+        if disturber is None:
+            raise RequestError(f"{self.settings.name} is no simulation: what happens to it cannot be chosen")
+        if (broken := self.devices.backend.broken) is not None:
             raise RequestError(f"nothing moves any more: {broken}")
         try:
             found = resolve_names(disturbance, self.world.snapshot())
-            self.simulation.backend.disturber.disturb(found)
+            disturber.disturb(found)
         except (NoSuchName, DisturbanceRefused) as error:
             raise RequestError(str(error)) from error
-        self.simulation.keeper.has_changed()
+        self.devices.keeper.has_changed()
         event = Disturbed(time=self.loop.backend.clock.now, disturbance=found, tick=self.loop.ticks, who=who)
         for submitted in self._operations.values():
             submitted.publisher(event)
@@ -218,7 +228,7 @@ class CellHost:
         with suppress(NotDurable):
             self._commit()
         self._recordings.close()
-        self.simulation.backend.close()
+        self.devices.backend.close()
 
     def _describe_known(self, devices: bytes) -> CellSnapshot:
         world, writes = self.world, self.world.ledger.list_undoable()
@@ -226,7 +236,7 @@ class CellHost:
 
     def _commit(self) -> None:
         """Make durable what has happened, with the reality in which it did; NotDurable if that is not possible."""
-        self.simulation.keeper.keep(standing=not self.loop.runs)
+        self.devices.keeper.keep(standing=not self.loop.runs)
         self._evidence.keep()
         self._journal.commit()
 
@@ -258,8 +268,8 @@ class CellHost:
         prepared, plan = continuation.prepared, self.loop.start_preparation
         start = plan if prepared is None else prepare_after(prepared, plan)
         self._journal.add_operation(operation, request)
-        beginning = self.simulation.begin(self._operations)
-        self.loop.backend = self.simulation.backend
+        beginning = self.devices.begin(self._operations)
+        self.loop.backend = self.devices.backend
         self._recordings.note_company(operation)
         recorders = self._recordings.begin(operation, request, self.library, beginning, self.loop.ticks)
         publisher = Publisher(operation, (self._journal.record, *recorders))

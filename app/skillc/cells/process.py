@@ -77,7 +77,8 @@ def main(requests: socket.socket, stops: socket.socket) -> int:
 
 def _load_laws(host: CellHost, requests: socket.socket) -> None:
     """Load the control laws of a cell with arms before it ticks; the first process of a version compiles them."""
-    if not host.simulation.backend.live.arms:
+    live = host.devices.backend.capabilities.live
+    if live is None or not live.arms:
         return
     if not has_stored_code():
         send_frame(requests, Preparing(reason="the control laws are compiled"))

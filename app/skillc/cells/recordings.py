@@ -24,7 +24,7 @@ from skillc_runtime.recording.states import State
 from skillc_runtime.scene.load import load_sheets
 
 if TYPE_CHECKING:
-    from skillc.cells.simulation import Beginning, CellSimulation
+    from skillc.cells.cell_backend import Beginning, CellBackend
 
 MOVING: frozenset[State] = frozenset({"running", "pausing", "paused", "stopping"})
 """The states of an operation in which its signals are recorded: before, nothing moves because of it."""
@@ -33,10 +33,10 @@ MOVING: frozenset[State] = frozenset({"running", "pausing", "paused", "stopping"
 class CellRecordings:
     """Records the operations of a cell. The loop never waits; what cannot be written is reported, not raised."""
 
-    def __init__(self, folder: Path, simulation: CellSimulation, origin: CellOrigin, reporter: Reporter) -> None:
+    def __init__(self, folder: Path, devices: CellBackend, origin: CellOrigin, reporter: Reporter) -> None:
         """`folder` is that of the cell."""
-        self._folder, self._simulation, self._origin, self._reporter = folder, simulation, origin, reporter
-        self._sheets = load_sheets(simulation.backend.cell.world.snapshot().vocabulary)
+        self._folder, self._devices, self._origin, self._reporter = folder, devices, origin, reporter
+        self._sheets = load_sheets(devices.backend.cell.world.snapshot().vocabulary)
         self._going: dict[str, RecordingFile] = {}
         self._ending: list[RecordingFile] = []
 
@@ -47,7 +47,7 @@ class CellRecordings:
 
         The operation begins as `beginning` says, with the tick of that number.
         """
-        world = self._simulation.backend.cell.world
+        world = self._devices.backend.cell.world
         start = KnownStart(world.snapshot(), world.ledger.writes, ticks, beginning.checkpoint, beginning.obstacle)
         task = request.task or request.goal or request.call or ""
         settings = msgspec.to_builtins(request)
@@ -55,7 +55,7 @@ class CellRecordings:
         path = recording_file(self._folder, operation)
         try:
             path.parent.mkdir(exist_ok=True)
-            self._going[operation] = RecordingFile(path, describe, self._simulation.recorded)
+            self._going[operation] = RecordingFile(path, describe, self._devices.recorded)
         except OSError as error:
             self._reporter.say(f"warning: {path} cannot be written: {error.strerror or error}")
             return ()
@@ -74,7 +74,7 @@ class CellRecordings:
             return
         if recording.problem is not None and not submitted.run.ended:
             self.end(operation)
-            submitted.publisher(Note(time=self._simulation.backend.clock.now, message=f"warning: {recording.problem}"))
+            submitted.publisher(Note(time=self._devices.backend.clock.now, message=f"warning: {recording.problem}"))
         else:
             recording.sample(submitted.run.state in MOVING)
 

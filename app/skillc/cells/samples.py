@@ -14,7 +14,9 @@ from skillc_runtime.devices.live import LiveArm, LiveSensors
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation, rotation_from_quaternion
 
 if TYPE_CHECKING:
-    from skillc_runtime.devices.simulation import Simulation
+    from skillc_runtime.devices.backend import Backend
+    from skillc_runtime.devices.drawing import Drawing
+    from skillc_runtime.devices.live import LiveSignals
 
 
 FEWEST_N = 0.05
@@ -24,30 +26,35 @@ FEWEST_N = 0.05
 class Sampler:
     """Takes samples of a cell between its ticks; that costs nothing while nobody wants one."""
 
-    def __init__(self, name: str, simulation: Simulation) -> None:
-        self._name, self._simulation = name, simulation
+    def __init__(self, name: str, backend: Backend) -> None:
+        self._name, self._backend = name, backend
         self._poses: dict[str, Callable[[], Pose]] | None = None
-        self._joints = dict(_find_joints(simulation))
+        self._live, self._drawing = backend.capabilities.live, backend.capabilities.drawing
+        self._joints = dict(_find_joints(self._drawing, self._live))
 
     def take(self) -> Sample:
         """Return the present instant."""
         if self._poses is None:
             self._poses = dict(self._find_poses())
-        simulation, positions = self._simulation, self._simulation.drawing.posture().joints.tolist()
+        positions = () if self._drawing is None else self._drawing.posture().joints.tolist()
+        live_arms = () if self._live is None else self._live.arms
         return Sample(
             cell=self._name,
-            time_s=simulation.clock.now,
-            arms={each.individual: self._sample_arm(each) for each in simulation.live.arms},
+            time_s=self._backend.clock.now,
+            arms={each.individual: self._sample_arm(each) for each in live_arms},
             things={each: list_numbers(read()) for each, read in self._poses.items()},
             joints={name: positions[address] for name, address in self._joints.items()},
-            forces=dict(_sample_forces(simulation.live.sensors)),
+            forces={} if self._live is None else dict(_sample_forces(self._live.sensors)),
         )
 
     def _find_poses(self) -> Iterator[tuple[str, Callable[[], Pose]]]:
-        """Yield what has a true pose in order of IRI, bases among it, and how to read that."""
-        cell, truth = self._simulation.cell, self._simulation.ground_truth
+        """Yield what has a true pose, or a base that reports its own, in order of IRI, and how to read that."""
+        cell, truth = self._backend.cell, self._backend.capabilities.truth
+        reads: list[Callable[[str], Pose]] = [lambda base: cell.base(base).pose]
+        if truth is not None:
+            reads.insert(0, truth.body_pose)
         for each in sorted(cell.world.snapshot().individuals):
-            for read in (truth.body_pose, lambda base: cell.base(base).pose):
+            for read in reads:
                 with suppress(KeyError):
                     read(each)
                     yield each, partial(read, each)
@@ -56,14 +63,15 @@ class Sampler:
     def _sample_arm(self, arm: LiveArm) -> ArmSample:
         joints, speeds = np.frombuffer(arm.measured()).reshape(2, arm.joints).tolist()
         wrench = None if arm.wrench is None else tuple(np.frombuffer(arm.wrench()).tolist())
-        tool = self._simulation.cell.arm(arm.individual).measured.pose
+        tool = self._backend.cell.arm(arm.individual).measured.pose
         return ArmSample(tuple(joints), tuple(speeds), list_numbers(arm.base()), list_numbers(tool), wrench)
 
 
-def _find_joints(simulation: Simulation) -> Iterator[tuple[str, int]]:
+def _find_joints(drawing: Drawing | None, live: LiveSignals | None) -> Iterator[tuple[str, int]]:
     """Yield the name of each joint with one position that is not an arm's, and where that is among all positions."""
-    drawing = simulation.drawing
-    arms = tuple(drawing.prefixes[each.individual] for each in simulation.live.arms)
+    if drawing is None or live is None:
+        return
+    arms = tuple(drawing.prefixes[each.individual] for each in live.arms)
     for number in range(drawing.model.njnt):
         joint = drawing.model.joint(number)
         if len(joint.qpos0) == 1 and not joint.name.startswith(arms):

@@ -172,11 +172,11 @@ class CellService:
             case TakeSnapshot(devices=devices):
                 return self._host.take_twin() if devices else self._host.take_snapshot()
             case TakeSample():
-                return msgspec.msgpack.encode(self._host.simulation.sampler.take())
+                return msgspec.msgpack.encode(self._host.devices.sampler.take())
             case TakeGeometry():
-                return self._host.simulation.geometry.take_model()
+                return self._host.devices.geometry.take_model()
             case TakeCoverage():
-                return self._host.simulation.geometry.take_coverage()
+                return self._host.devices.geometry.take_coverage()
             case _:
                 assert_never(message)
 

@@ -82,7 +82,7 @@ class ModelArm(msgspec.Struct, frozen=True):
 
 
 class CellModel(msgspec.Struct, frozen=True):
-    """The geometry of a cell as it really is in the simulation; individuals and arms are by IRI."""
+    """The geometry of a cell as it really is, empty if it cannot be drawn; individuals and arms are by IRI."""
 
     bodies: tuple[ModelBody, ...]
     meshes: tuple[ModelMesh, ...]

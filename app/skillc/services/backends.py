@@ -1,33 +1,69 @@
-"""The backends in whose cells tasks can run; each is imported for its first cell."""
+"""The back ends in whose cells tasks can run: entry points of installed packages, each imported for its first cell."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, TypeAlias, assert_never
+from importlib.metadata import EntryPoint, entry_points
+from typing import TYPE_CHECKING, TypeAlias
+
+from skillc.errors import RequestError, ServiceError
 
 if TYPE_CHECKING:
-    from skillc_runtime.devices.simulation import Simulation
+    from skillc_runtime.devices.backend import Backend, MakeBackend
     from skillc_runtime.world.state.model import WorldModel
 
-BackendName: TypeAlias = Literal["mujoco", "kinematic"]
+GROUP = "skillc.backends"
+"""The group of entry points with the functions that make cells, by the name of the back end."""
+
+BackendName: TypeAlias = str
+"""The name of a back end that is installed, or was where a cell or a recording comes from."""
+
+DEFAULT_BACKEND = "mujoco"
+"""The back end of runs, of trials, and of the twins of cells that cannot be built again."""
 
 
-def make_backend(name: BackendName, world: WorldModel, seed: int, saved: bytes | None = None) -> Simulation:
-    """Return a cell in lock step; with physics reality differs from the facts, as `seed` determines.
+def list_backends() -> tuple[str, ...]:
+    """Return the names of all back ends that are installed, sorted."""
+    return tuple(sorted(entry_points(group=GROUP).names))
 
-    All is as in the cell that was `saved`, if there was one. SheetError or FrameError if facts are missing or
-    contradict the models, CheckpointError if what was saved cannot be read.
+
+def require_backend(name: object) -> BackendName:
+    """Return the name of a back end that is installed; RequestError for any other, with those that are."""
+    if isinstance(name, str):
+        return _find_entry(name).name
+    raise RequestError(f"the backend is a name such as {DEFAULT_BACKEND!r}, not {name!r}")
+
+
+def make_backend(name: BackendName, world: WorldModel, seed: int, saved: bytes | None = None) -> Backend:
+    """Return a cell of a back end; where it is simulated, reality differs from the facts as `seed` determines.
+
+    All is as in the cell that was `saved`, if there was one. RequestError if the back end is not installed,
+    ServiceError if it cannot be used; SheetError or FrameError if facts are missing or contradict the models,
+    CheckpointError if what was saved cannot be read.
     """
-    from skillc_runtime.backends.simulation.checkpoint import decode_checkpoint
+    from skillc_runtime.devices.backend import BackendStart, BackendUnavailable
 
-    checkpoint = None if saved is None else decode_checkpoint(saved)
-    match name:
-        case "mujoco":
-            from skillc_runtime.backends.mujoco.cell import SimulatedCell
+    make = _load(_find_entry(name))
+    try:
+        return make(world, BackendStart(seed, saved))
+    except BackendUnavailable as error:
+        raise ServiceError(f"the backend {name} cannot be used: {error}") from error
 
-            return SimulatedCell(world, seed, checkpoint=checkpoint)
-        case "kinematic":
-            from skillc_runtime.backends.kinematic.cell import KinematicCell
 
-            return KinematicCell(world, checkpoint=checkpoint)
-        case _:
-            assert_never(name)
+def _find_entry(name: str) -> EntryPoint:
+    found = [each for each in entry_points(group=GROUP) if each.name == name]
+    if not found:
+        there = ", ".join(list_backends()) or "none"
+        how = f"install the package that has the entry point `{name}` of `{GROUP}`"
+        raise RequestError(f"there is no backend `{name}`; there are: {there}. To use another one, {how}")
+    if len({each.value for each in found}) > 1:
+        owners = " and ".join(sorted(each.dist.name if each.dist is not None else each.value for each in found))
+        raise RequestError(f"there are two backends `{name}`, of {owners}: uninstall one of the packages")
+    return found[0]
+
+
+def _load(entry: EntryPoint) -> MakeBackend:
+    try:
+        make: MakeBackend = entry.load()
+    except (ImportError, AttributeError) as error:
+        raise ServiceError(f"the backend {entry.name} ({entry.value}) cannot be imported: {error}") from error
+    return make

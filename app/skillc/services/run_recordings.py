@@ -19,7 +19,7 @@ from skillc.services.reporting import Reporter
 from skillc.services.schemas import read_schema
 from skillc_model.codec import dumps
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.recording.envelope import Recorder
 from skillc_runtime.recording.mcap.contents import LIBRARY, NOT_REPEATABLE, SCENE, SETTINGS, START, RunContents
@@ -99,18 +99,28 @@ def _drop_description(schema: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in schema.items() if name != "description" or not isinstance(value, str)}
 
 
-def make_recorded_cell(simulation: Simulation) -> RecordedCell | None:
-    """Return what of a cell is recorded; None if it has no devices that have signals."""
-    tap, names = SignalTap(simulation.live), name_devices(simulation.cell.world.snapshot())
+def make_recorded_cell(backend: Backend) -> RecordedCell | None:
+    """Return what of a cell is recorded besides events; None if it offers no signals, or has no devices with any."""
+    live, drawing = backend.capabilities.live, backend.capabilities.drawing
+    if live is None:
+        return None
+    tap, names = SignalTap(live), name_devices(backend.cell.world.snapshot())
     signals = tap.layout.describe(lambda device: names[device])
-    return RecordedCell(tap, signals, simulation.drawing.model) if signals else None
+    return RecordedCell(tap, signals, None if drawing is None else drawing.model) if signals else None
+
+
+def find_obstacle(backend: Backend) -> str:
+    """Return why a run in a new cell cannot be repeated from its recording; empty if it can."""
+    if backend.capabilities.lock_step is None:
+        return "its cell has a time of its own"
+    return ""
 
 
 @contextmanager
 def recorded_in(
     folder: Path,
     describe: Callable[[], RunContents],
-    simulation: Simulation | None,
+    backend: Backend | None,
     reporter: Reporter,
 ) -> Iterator[tuple[Recorder, ...]]:
     """Record a run in a `with` statement in a folder; yields who gets the events.
@@ -119,7 +129,7 @@ def recorded_in(
     """
     with writing_to(folder):
         folder.mkdir(parents=True, exist_ok=True)
-        cell = None if simulation is None else make_recorded_cell(simulation)
+        cell = None if backend is None else make_recorded_cell(backend)
         recording = RecordingFile(folder / RECORDING, describe, cell)
         recording.sample()
     try:

@@ -27,7 +27,7 @@ def write_run(
     with writing_to(folder):
         write_result(folder, result)
         filmed = None
-        if film is not None:
+        if film is not None and record.truth is not None:
             moments = find_moments(record.wipings, record.trees, record.choices, record.state, record.truth)
             story = make_story(moments, record.trees, record.choices, library, result, record.state)
             filmed = _write_film(film, folder, story, reporter)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from skillc.errors import RequestError, ServiceError
 from skillc.services.reporting import Reporter
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
@@ -21,6 +21,7 @@ from skillc_runtime.execution.execute import Execution
 
 if TYPE_CHECKING:
     from skillc_runtime.film.film import Film
+    from skillc_runtime.film.filmed_cell import FilmedCell
 
 PRIMITIVE_LOOKS = "primitive"
 
@@ -61,21 +62,28 @@ def check_film(looks: str, film: bool, gif: bool) -> None:
         raise RequestError("--gif writes a film, which --no-film leaves out")
 
 
-def make_samples(simulation: Simulation, looks: str, filmed: bool, loop: bool = False) -> RunSamples:
-    """Return what to sample: the film with the meshes of that name, also as a loop if that is wanted.
+def make_samples(backend: Backend, film: Film | None = None) -> RunSamples:
+    """Return what to sample in a cell, for a film if there is to be one."""
+    return RunSamples(film, RunTrace(backend))
 
-    ServiceError if there are no such meshes.
+
+def begin_film(backend: Backend, looks: str, loop: bool, reporter: Reporter) -> Film | None:
+    """Return a film of a cell with the meshes of that name, also as a loop if that is wanted.
+
+    None if the cell cannot be drawn, which is reported. ServiceError if there are no such meshes.
     """
-    if not filmed:
-        return RunSamples(None, RunTrace(simulation))
     from skillc_runtime.film.film import Film
+    from skillc_runtime.film.filmed_cell import find_filmed
 
-    spec = None if looks == PRIMITIVE_LOOKS else _describe_with_meshes(simulation, looks)
-    return RunSamples(Film(simulation, spec, loop), RunTrace(simulation))
+    cell = find_filmed(backend)
+    if cell is None:
+        reporter.say("no film: this backend cannot be drawn")
+        return None
+    return Film(cell, None if looks == PRIMITIVE_LOOKS else _describe_with_meshes(cell, looks), loop)
 
 
 def report_run(
-    execution: Execution[Simulation],
+    execution: Execution[Backend],
     choices: ChoiceListener,
     library: SkillLibrary,
     samples: RunSamples,
@@ -83,17 +91,17 @@ def report_run(
     reporter: Reporter,
 ) -> RunResult:
     """Make the result of a run, and write it with the report, and a film if it was sampled, to a folder, if any."""
-    simulation = execution.backend
+    backend = execution.backend
     trees = [attempt.tree for attempt in execution.attempts]
-    state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
+    state, truth = backend.cell.world.snapshot(), backend.capabilities.truth
     record = RunRecord(trees, choices, state, truth, samples.trace)
     works, began_s = measure_work(record), samples.trace.began_s
-    result = summarise_run(execution, choices, library, record.wipings, simulation, works, began_s)
+    result = summarise_run(execution, choices, library, record.wipings, backend, works, began_s)
     if folder is None:
         return RunResult(result)
     from skillc.services.run_report import write_run  # what draws takes long to import
 
-    drawings = tuple(make_wiping_drawing(wiping, state, truth) for wiping in record.wipings)
+    drawings = () if truth is None else tuple(make_wiping_drawing(each, state, truth) for each in record.wipings)
     try:
         write_run(folder, result, record, library, samples.film, reporter)
     except ServiceError as error:
@@ -102,13 +110,13 @@ def report_run(
     return RunResult(result, drawings)
 
 
-def _describe_with_meshes(simulation: Simulation, looks: str) -> Any:
+def _describe_with_meshes(cell: FilmedCell, looks: str) -> Any:
     """Return the `mujoco.MjSpec` of a cell with the meshes of that name. ServiceError if there are none."""
     from skillc_runtime.film.look_meshes import add_looks
     from skillc_runtime.film.looks import LooksError, read_looks
 
     try:
-        wanted = read_looks(simulation.cell.world.snapshot(), simulation.drawing.prefixes, looks)
-        return add_looks(simulation.drawing.describe_model(), wanted)
+        wanted = read_looks(cell.world.snapshot(), cell.drawing.prefixes, looks)
+        return add_looks(cell.drawing.describe_model(), wanted)
     except LooksError as error:
         raise ServiceError(str(error)) from error

@@ -1,4 +1,4 @@
-"""Runs a task in simulation: planning beside the building of the cell, execution, recording, film and report."""
+"""Runs a task in a cell: planning beside the building of the cell, execution, recording, film and report."""
 
 from __future__ import annotations
 
@@ -16,14 +16,22 @@ from skillc.services.cell_checks.starting import find_start_problem
 from skillc.services.operating import RunMonitor, operate
 from skillc.services.recorded_run import RecordingOptions, recorded_run
 from skillc.services.reporting import Reporter
-from skillc.services.run_recordings import KnownStart, describe_contents, recorded_in
-from skillc.services.run_result import PRIMITIVE_LOOKS, RunResult, RunSamples, check_film, make_samples, report_run
+from skillc.services.run_recordings import KnownStart, describe_contents, find_obstacle, recorded_in
+from skillc.services.run_result import (
+    PRIMITIVE_LOOKS,
+    RunResult,
+    RunSamples,
+    begin_film,
+    check_film,
+    make_samples,
+    report_run,
+)
 from skillc.services.signal_files import SignalFormat, check_signals, recorded_signals
 from skillc.services.store_polling import StorePoller
 from skillc.services.task_loading import LoadedTask
 from skillc.services.unstarted_runs import end_unstarted
 from skillc.services.watchdog.process import TICK_TIMEOUT_S
-from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.summary import summarise_start
 from skillc_runtime.execution.assignment import Assignment, NotStarted
@@ -104,15 +112,16 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
         gate.step("into", ())
     with _start_planning(task, task.assignment, FailedSteps(task.library), options) as planning:
         try:
-            monitor.say("planning, and building the simulation")
+            monitor.say("planning, and building the cell")
             cell = make_backend(options.backend, task.world, options.seed, options.saved)
-            samples = make_samples(cell, options.looks, options.out is not None and options.film, options.gif)
+            filmed = options.film and options.out is not None
+            film = begin_film(cell, options.looks, options.gif, reporter) if filmed else None
         except (SheetError, FrameError, StoreError) as error:
             return end_unstarted(task, options.out, options.seed, "refused", _find_refusal(planning, error), reporter)
         except KeyboardInterrupt as interrupt:
             return end_unstarted(task, options.out, options.seed, "stopped", str(interrupt) or "interrupted", reporter)
         with closing(cell):
-            return _Run(task, options, cell, samples, gate, monitor, reporter).carry_out(planning)
+            return _Run(task, options, cell, make_samples(cell, film), gate, monitor, reporter).carry_out(planning)
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +130,7 @@ class _Run:
 
     task: LoadedTask
     options: RunOptions
-    cell: Simulation
+    cell: Backend
     samples: RunSamples
     gate: Gate
     monitor: RunMonitor
@@ -165,7 +174,8 @@ class _Run:
             "step": options.step,
             "pause_at": options.pause_at,
         }
-        name, start = task.assignment.name, KnownStart(state, checkpoint=options.saved or b"")
+        name, obstacle = task.assignment.name, find_obstacle(self.cell)
+        start = KnownStart(state, checkpoint=options.saved or b"", obstacle=obstacle)
         describe = partial(describe_contents, run_id, name, task.library, start, origin, settings)
         return recorded_in(folder, describe, self.cell, self.reporter)
 

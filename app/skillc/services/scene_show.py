@@ -10,11 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from skillc.contract.world import PlacedThing
+from skillc.services.backends import make_backend
 from skillc.services.files import writing_to
 from skillc.services.scenes import OpenScene
 from skillc.services.top_view import Outline, draw_top_view
-from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.variation import exact_variation
 from skillc_runtime.film.camera import CameraView
 from skillc_runtime.film.framing import posed
 from skillc_runtime.film.picture_files import write_picture
@@ -42,6 +41,9 @@ from skillc_runtime.world.state.world_state import WorldState
 WIDTH, HEIGHT = 1200, 900
 AZIMUTH_DEG, ELEVATION_DEG = 130.0, -30.0
 """The camera looks at the scene from its front left."""
+
+DRAWN_BY = "kinematic"
+"""The backend whose cell is exactly as the facts say."""
 
 AWAY = 1.4
 """The distance of the camera from the middle of the scene, as a multiple of the scene's diagonal."""
@@ -134,13 +136,15 @@ def _colour(state: WorldState, thing: str) -> str:
 def _render(scene: OpenScene, png: Path) -> None:
     """Render the scene as it is believed to be, from a corner above it."""
     state = scene.state
-    cell = SimulatedCell(WorldModel(state), reality=lambda spec, _: exact_variation(spec))
+    cell = make_backend(DRAWN_BY, WorldModel(state), 0)
+    drawing = cell.capabilities.drawing
+    assert drawing is not None, "a simulation can be drawn"
     surfaces = (each for each in sorted(state.instances(SURFACE)) if _size(state, each))
     props = tuple(prop for each in surfaces for prop in make_props(pose(state, each), size(state, each)))
-    model = workshop_model(cell.drawing)
+    model = workshop_model(drawing)
     renderer = Renderer(model, WIDTH, HEIGHT, props, "still")
     try:
-        write_picture(png, renderer.picture(posed(model, cell.drawing.posture()), _camera(scene)))
+        write_picture(png, renderer.picture(posed(model, drawing.posture()), _camera(scene)))
     finally:
         renderer.close()
         cell.close()

@@ -13,7 +13,7 @@ from skillc.errors import RequestError, ServiceError
 from skillc.extras import require
 from skillc.services.files import writing_to
 from skillc.services.reporting import Reporter
-from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.execution.attempt import TICK_S
 from skillc_runtime.recording.signals.files import (
     CSV,
@@ -54,7 +54,7 @@ def read_signal_dictionary(folder: Path | None) -> SignalDictionary:
 
 @contextmanager
 def recorded_signals(
-    simulation: Simulation, form: SignalFormat | None, folder: Path | None, reporter: Reporter
+    backend: Backend, form: SignalFormat | None, folder: Path | None, reporter: Reporter
 ) -> Iterator[tuple[Callable[[], None], ...]]:
     """Record signals in a `with` statement; yields what is to be called in every tick: nothing without a format.
 
@@ -71,7 +71,7 @@ def recorded_signals(
 
     with writing_to(folder):
         folder.mkdir(parents=True, exist_ok=True)
-        sampler = SignalSampler(simulation, make_sink)
+        sampler = SignalSampler(backend, make_sink)
     with closing(sampler):
         yield (sampler.sample,)
     if sampler.problem is not None:

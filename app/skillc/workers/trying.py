@@ -13,6 +13,7 @@ from skillc.cells.snapshot import CellSnapshot
 from skillc.contract.jobs import CheckTrials, RecordTrial, RunTrial
 from skillc.errors import ServiceError
 from skillc.services.assignments import assign_task
+from skillc.services.backends import DEFAULT_BACKEND
 from skillc.services.libraries import find_task
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import SilentReporter
@@ -21,7 +22,7 @@ from skillc.services.stores import load_world
 from skillc.services.trial_runs import make_experiment
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.trials.disturbance import PushableCell
+from skillc_runtime.evaluation.trials.disturbance import TrialCell
 from skillc_runtime.evaluation.trials.experiment import NotRecorded, TrialRunner
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.execution.attempt import CellOrigin
@@ -64,10 +65,10 @@ def record_trial(job: RecordTrial, known: CellSnapshot) -> TaskResult:
 
 
 @contextmanager
-def _recording(job: RecordTrial, library: SkillLibrary, cell: PushableCell) -> Iterator[tuple[Listener, ...]]:
+def _recording(job: RecordTrial, library: SkillLibrary, cell: TrialCell) -> Iterator[tuple[Listener, ...]]:
     """Record a trial in its folder as an MCAP file; yields who gets the events."""
     task, reporter, run = job.request.task, SilentReporter(), make_run_id(job.request.task)
-    start, origin = KnownStart(cell.world.snapshot()), CellOrigin(job.scene, job.seed, "mujoco")
+    start, origin = KnownStart(cell.world.snapshot()), CellOrigin(job.scene, job.seed, DEFAULT_BACKEND)
     describe = partial(describe_contents, run, task, library, start, origin, {})
     with recorded_in(Path(job.folder), describe, cell, reporter) as recorders:
         yield (Publisher(run, recorders),)

@@ -4,14 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Literal, Protocol
+
+from skillc_runtime.devices.capabilities import NO_CAPABILITIES, BackendCapabilities
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
+    from skillc_runtime.world.state.model import WorldModel
 
 
 class BackendBroken(RuntimeError):
     """A cell can never move again; the message says why."""
+
+
+class BackendUnavailable(Exception):
+    """A cell cannot be made, because a device does not answer or a program is missing; the message says what to do."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +46,18 @@ class DeviceStops(Protocol):
         ...
 
 
+class NoStops:
+    """Devices that never stop by themselves; implements `DeviceStops`."""
+
+    report: DeviceStop | None = None
+
+    def clear(self) -> None:
+        """Do nothing."""
+
+
+NO_STOPS = NoStops()
+
+
 class Clock(Protocol):
     """The clock of a cell."""
 
@@ -51,8 +70,14 @@ class Clock(Protocol):
 class Backend(Protocol):
     """Owns the time of a cell. In lock step time passes only in `advance`; with a control thread `advance` waits.
 
-    Devices are arms, grippers and bases, by IRI; None stands for all of the cell.
+    Devices are arms, grippers and bases, by IRI; None stands for all of the cell. A class that is derived from this
+    one has what is implemented here; another one needs all of it.
     """
+
+    @property
+    def capabilities(self) -> BackendCapabilities:
+        """What it offers besides, always the same; nothing."""
+        return NO_CAPABILITIES
 
     @property
     def cell(self) -> Cell:
@@ -67,12 +92,12 @@ class Backend(Protocol):
     @property
     def broken(self) -> str | None:
         """Why the cell cannot go on, for example because the simulation diverged; None while it can."""
-        ...
+        return None
 
     @property
     def stops(self) -> DeviceStops:
         """Why devices have stopped by themselves."""
-        ...
+        return NO_STOPS
 
     def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
         """Whether devices neither move nor push; true of a broken cell, whose time stands still."""
@@ -87,33 +112,27 @@ class Backend(Protocol):
         ...
 
     def close(self) -> None:
-        """End the threads of the backend; idempotent."""
-        ...
+        """End the threads of the backend, and give its devices back; idempotent."""
 
 
-@runtime_checkable
-class Judge(Protocol):
-    """What a backend can do besides that knows the truth of its cell, as a simulation does."""
+@dataclass(frozen=True, slots=True)
+class BackendStart:
+    """How a cell begins: the seed by which a simulation differs from the facts, and what was saved, None for nothing.
 
-    @property
-    def has_physics(self) -> bool:
-        """Whether it computes contact and weight, so that what idealised devices read of them counts as verified."""
-        ...
+    Only what its `checkpoints` have saved is given to a back end.
+    """
 
-    @property
-    def things_lie_still(self) -> bool:
-        """Whether nothing that no hand holds falls, rolls, tips or slides."""
-        ...
-
-    def find_false_claims(self) -> tuple[str, ...]:
-        """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each."""
-        ...
+    seed: int = 0
+    saved: bytes | None = None
 
 
-@runtime_checkable
-class LockStep(Protocol):
-    """A backend whose time passes only in calls: between them nothing moves, for however long."""
+class MakeBackend(Protocol):
+    """Builds a cell from the facts of a world model: what an entry point of the group `skillc.backends` names."""
 
-    def advance_period(self) -> None:
-        """Run one control period; ControlError or BackendBroken as `advance`, but the world model is not written."""
+    def __call__(self, world: WorldModel, start: BackendStart) -> Backend:
+        """Return the cell, at rest.
+
+        SheetError or FrameError if facts are missing or contradict each other, CheckpointError if what was saved cannot
+        be read, BackendUnavailable if a device or a program is missing.
+        """
         ...

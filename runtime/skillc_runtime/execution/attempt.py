@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.devices.backend import Backend, Judge
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PlannedSteps, PreparedTask
 from skillc_runtime.execution.broken_calls import BrokenCall
@@ -193,8 +193,8 @@ class Attempt:
 
     def _things_lie(self) -> bool:
         """Whether nothing falls or rolls, as far as that is known, or has done so for long enough."""
-        backend = self._context.backend
-        if not isinstance(backend, Judge) or backend.things_lie_still:
+        judge = self._context.backend.capabilities.judge
+        if judge is None or judge.things_lie_still:
             return True
         self._falling_ticks += 1
         return self._falling_ticks > round(FALL_S / TICK_S)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from itertools import count
 
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.devices.backend import Backend, LockStep
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.execution.attempt import TICK_S, CellOrigin, RunContext
 from skillc_runtime.execution.device_claims import ClaimedLocks, DeviceClaims
@@ -137,7 +137,8 @@ class CellLoop:
     def is_computing(self) -> bool:
         """Whether time stands still until what skills compute is done."""
         moving = [run for run in self.runs if run.needs_time]
-        return bool(moving) and all(run.computing for run in moving) and isinstance(self.backend, LockStep)
+        stands = self.backend.capabilities.lock_step is not None
+        return stands and bool(moving) and all(run.computing for run in moving)
 
     def tick(self) -> bool:
         """Do one tick; return whether anything happened. If not, at most planning goes on, and time stands still.

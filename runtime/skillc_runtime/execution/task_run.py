@@ -6,7 +6,6 @@ from contextlib import nullcontext
 from dataclasses import replace
 from typing import Literal
 
-from skillc_runtime.devices.backend import Judge
 from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.attempt import Attempt, AttemptResult, RunContext
 from skillc_runtime.execution.conclusion import (
@@ -253,7 +252,7 @@ class TaskRun(RunStatus):
 
     def _finish(self, state: EndState, failure: Failure | None) -> None:
         world = self._context.backend.cell.world
-        judge = backend if isinstance(backend := self._context.backend, Judge) else None
+        judge = self._context.backend.capabilities.judge
         arms, with_physics = self._claims.devices_of(self.id), judge is not None and judge.has_physics
         self._claims.remove(self.id)
         self.state = self.end = state

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.film.filmed_cell import FilmedCell
 from skillc_runtime.film.props import Prop
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import RigidBody, read_bodies
@@ -59,8 +59,8 @@ NO_ANNOTATIONS = Annotations()
 class SceneAnnotator:
     """Makes the annotations of each frame: ghosts of what a skill can move, names of that and of containers."""
 
-    def __init__(self, simulation: Simulation) -> None:
-        self._world, self._truth = simulation.cell.world, simulation.ground_truth
+    def __init__(self, cell: FilmedCell) -> None:
+        self._world, self._truth = cell.world, cell.truth
         state = self._world.snapshot()
         bodies = read_bodies(state)
         self._movable = tuple(each for each in bodies if each.movable)

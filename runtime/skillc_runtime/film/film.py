@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.film.annotations import Annotations
 from skillc_runtime.film.camera import CameraView
 from skillc_runtime.film.captions import STRIP_PIXELS, Caption, FilmEnding, StripText, caption_at, draw_strip
+from skillc_runtime.film.filmed_cell import FilmedCell
 from skillc_runtime.film.force_marks import ForceMarks
 from skillc_runtime.film.frames import FRAMES_PER_S, Frame, FrameSampler
 from skillc_runtime.film.framing import Framing, posed
@@ -80,15 +80,15 @@ class FilmFiles:
 class Film:
     """Samples frames of a run and renders them, from one camera that frames the work."""
 
-    def __init__(self, simulation: Simulation, spec: Any | None = None, loop: bool = False) -> None:
+    def __init__(self, cell: FilmedCell, spec: Any | None = None, loop: bool = False) -> None:
         """Film a cell, with a `loop` also as film.gif, a short film that repeats.
 
         `spec` describes the model to render, with the same joints, if it is not that of the cell.
         """
-        self._drawing, self._truth, self._spec = simulation.drawing, simulation.ground_truth, spec
+        self._drawing, self._truth, self._spec = cell.drawing, cell.truth, spec
         self._loop = loop
-        self._sampler = FrameSampler(simulation)
-        self._state = simulation.cell.world.snapshot()
+        self._sampler = FrameSampler(cell)
+        self._state = cell.world.snapshot()
         self._arms = sorted(self._state.instances(ARM_DEVICE))
         present = filter(self._truth.is_present, sorted(self._state.instances(SURFACE)))
         self._props = tuple(

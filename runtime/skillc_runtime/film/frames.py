@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from skillc_runtime.devices.simulation import Posture, Simulation
+from skillc_runtime.devices.drawing import Posture
 from skillc_runtime.film.annotations import Annotations, SceneAnnotator
+from skillc_runtime.film.filmed_cell import FilmedCell
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.terms import ARM_DEVICE, HAS_GRIPPER, SURFACE
 
@@ -55,10 +56,10 @@ class FrameSampler:
     So a run of any length makes a film of limited length, at a speed that is known at its end.
     """
 
-    def __init__(self, simulation: Simulation) -> None:
-        self._clock, self._drawing, self._truth = simulation.clock, simulation.drawing, simulation.ground_truth
-        self._annotator = SceneAnnotator(simulation)
-        state = simulation.cell.world.snapshot()
+    def __init__(self, cell: FilmedCell) -> None:
+        self._clock, self._drawing, self._truth = cell.clock, cell.drawing, cell.truth
+        self._annotator = SceneAnnotator(cell)
+        state = cell.world.snapshot()
         grippers = {arm: sorted(state.objects(arm, HAS_GRIPPER)) for arm in sorted(state.instances(ARM_DEVICE))}
         self._hands = {arm: found[0] for arm, found in grippers.items() if found}
         self._surfaces = [each for each in sorted(state.instances(SURFACE)) if self._truth.is_present(each)]

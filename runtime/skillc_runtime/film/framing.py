@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.devices.simulation import Drawing, Posture
+from skillc_runtime.devices.drawing import Drawing, Posture
 from skillc_runtime.film.camera import CameraView, blend_views, choose_view
 from skillc_runtime.film.frames import Frame
 from skillc_runtime.motion.pose import Array

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from skillc_runtime.devices.simulation import Drawing
+from skillc_runtime.devices.drawing import Drawing
 from skillc_runtime.motion.pose import Array
 
 SLAB_M, SLAB_PIXELS = 1.0, 256

@@ -4,22 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
 
 import msgspec
 
 from skillc.errors import ServiceError
-from skillc.services.backends import BackendName, make_backend
+from skillc.services.backends import make_backend
 from skillc.services.replaying.inputs import RunInputs, build_beginning, read_inputs
 from skillc.services.reporting import Reporter
-from skillc_runtime.backends.simulation.checkpoint import CheckpointError
-from skillc_runtime.devices.simulation import Simulation
+from skillc.services.run_recordings import find_obstacle
+from skillc_runtime.devices.backend import Backend
+from skillc_runtime.devices.checkpoints import CheckpointError
 from skillc_runtime.execution.consistency import check_events
 from skillc_runtime.execution.repeat import Difference, NotRepeatable, Repetition, repeat_run
 from skillc_runtime.recording.events import Event, Listener
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
+
+BUILT_BY_PROGRAM = "a program built its cell"
 
 
 class DifferentEvent(msgspec.Struct, frozen=True):
@@ -63,9 +66,8 @@ def check_run(run: Path, library: Path | None, reporter: Reporter) -> ReplayChec
     impossible = check_events(inputs.events, inputs.library, inputs.world)
     if impossible is not None:
         return ReplayCheck(run=str(run), events=count, impossible=str(impossible), note="the events are impossible")
-    if inputs.start.backend not in get_args(BackendName):
-        note = f"its cell is no simulation ({inputs.start.backend or 'a program built it'})"
-        return ReplayCheck(run=str(run), events=count, note=note)
+    if not inputs.start.backend:
+        return ReplayCheck(run=str(run), events=count, note=BUILT_BY_PROGRAM)
     reporter.say("the events are possible with the library; running again from the seed, requests and plans")
     try:
         difference, same = _repeat(inputs)
@@ -87,29 +89,33 @@ def _repeat(inputs: RunInputs) -> tuple[DifferentEvent | None, int]:
 
 def repeat(
     inputs: RunInputs,
-    cell: Simulation,
+    cell: Backend,
     listeners: Sequence[Listener] = (),
     after_tick: Sequence[Callable[[], None]] = (),
 ) -> Repetition:
     """Run again in a cell that `build_cell` returned; arguments and errors as of `repeat_run`."""
     ticks = inputs.beginning.ticks if inputs.beginning is not None else 0
-    disturb = cell.disturber.disturb
+    disturber = cell.capabilities.disturber
+    disturb = None if disturber is None else disturber.disturb
     return repeat_run(inputs.events, inputs.library, cell, listeners, after_tick, disturb, ticks)
 
 
-def build_cell(inputs: RunInputs) -> Simulation:
-    """Return the cell of a recorded run as it was at its start. ServiceError if it is no simulation or impossible."""
+def build_cell(inputs: RunInputs) -> Backend:
+    """Return the cell of a recorded run as it was at its start. ServiceError if that is not possible."""
     start = inputs.start
-    name = next((each for each in get_args(BackendName) if each == start.backend), None)
-    if name is None:
-        raise ServiceError(f"the cell of the run is no simulation ({start.backend or 'a program built it'})")
+    if not start.backend:
+        raise ServiceError(f"the run cannot be repeated: {BUILT_BY_PROGRAM}")
     beginning, world = inputs.beginning, WorldModel(inputs.world)
     if beginning is not None:
         world = build_beginning(beginning, inputs.library, Path(start.scene))
     try:
-        return make_backend(name, world, start.seed, beginning.simulation if beginning is not None else None)
+        cell = make_backend(start.backend, world, start.seed, beginning.simulation if beginning is not None else None)
     except (SheetError, FrameError, CheckpointError) as error:
         raise ServiceError(f"the scene of the run cannot be simulated: {error}") from error
+    if obstacle := find_obstacle(cell):  # a real cell must not move because somebody looks at a recording
+        cell.close()
+        raise ServiceError(f"the run cannot be repeated: {obstacle}")
+    return cell
 
 
 def _describe(found: Difference) -> DifferentEvent:

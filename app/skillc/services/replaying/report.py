@@ -10,7 +10,7 @@ from skillc.services.files import writing_to
 from skillc.services.replaying.check import build_cell, repeat
 from skillc.services.replaying.inputs import read_inputs
 from skillc.services.reporting import Reporter
-from skillc.services.run_result import PRIMITIVE_LOOKS, RunResult, check_film, make_samples, report_run
+from skillc.services.run_result import PRIMITIVE_LOOKS, RunResult, begin_film, check_film, make_samples, report_run
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.execution.execute import describe_execution
@@ -38,7 +38,8 @@ def report_recorded(
         raise ServiceError(f"no report can be made of {run}: {inputs.obstacle}, so it cannot be repeated")
     reporter.say(f"running {inputs.start.task} again from its seed, requests and plans")
     with closing(build_cell(inputs)) as cell:
-        samples, choices = make_samples(cell, looks, film, gif), ChoiceListener()
+        filming = begin_film(cell, looks, gif, reporter) if film else None
+        samples, choices = make_samples(cell, filming), ChoiceListener()
         try:
             repeated = repeat(inputs, cell, (choices,), (samples.sample,))
         except NotRepeatable as error:

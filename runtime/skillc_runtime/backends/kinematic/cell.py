@@ -12,16 +12,22 @@ from skillc_runtime.backends.kinematic.riders import Riders
 from skillc_runtime.backends.kinematic.touch import Touch
 from skillc_runtime.backends.simulation.camera import EXACT_INSPECTION, SimulatedCamera
 from skillc_runtime.backends.simulation.cell import ModelledCell
-from skillc_runtime.backends.simulation.checkpoint import Checkpoint
+from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_checkpoint
 from skillc_runtime.backends.simulation.contact_bits import SOLID
 from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
 from skillc_runtime.backends.simulation.saved_cell import read_scene_again
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation, exact_variation
+from skillc_runtime.devices.backend import BackendStart
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import AT, DEVICE_STATE
+
+
+def make_backend(world: WorldModel, start: BackendStart) -> KinematicCell:
+    """Return a cell without physics; it is `MakeBackend`."""
+    return KinematicCell(world, checkpoint=read_checkpoint(start))
 
 
 class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):

@@ -12,11 +12,17 @@ from skillc_runtime.backends.mujoco.divergence import DivergenceMonitor
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
 from skillc_runtime.backends.mujoco.stillness import lie_still
 from skillc_runtime.backends.simulation.cell import ModelledCell
-from skillc_runtime.backends.simulation.checkpoint import Checkpoint
+from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_checkpoint
 from skillc_runtime.backends.simulation.saved_cell import read_scene_again
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation, draw_variation
+from skillc_runtime.devices.backend import BackendStart
 from skillc_runtime.world.state.model import WorldModel
+
+
+def make_backend(world: WorldModel, start: BackendStart) -> SimulatedCell:
+    """Return a cell with physics; it is `MakeBackend`."""
+    return SimulatedCell(world, start.seed, checkpoint=read_checkpoint(start))
 
 
 class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):

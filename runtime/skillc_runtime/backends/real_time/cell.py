@@ -11,21 +11,18 @@ from collections.abc import Callable, Collection, Sequence
 from math import inf
 from threading import Event, Thread
 from time import monotonic
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from skillc_runtime.backends.real_time.locked import CellLock, locked
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.devices.arm_driver import ArmDriver
-from skillc_runtime.devices.backend import BackendBroken, DeviceStops, LockStep
+from skillc_runtime.devices.backend import Backend, BackendBroken, DeviceStops
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.camera import PoseCamera
+from skillc_runtime.devices.capabilities import BackendCapabilities, LockStep
 from skillc_runtime.devices.cell import Cell, Watchdog
-from skillc_runtime.devices.disturbances import Disturber
 from skillc_runtime.devices.gripper import Gripper
-from skillc_runtime.devices.ground_truth import GroundTruth
-from skillc_runtime.devices.live import LiveSignals
 from skillc_runtime.devices.sensors import Button, Camera
-from skillc_runtime.devices.simulation import Drawing, Simulation
 from skillc_runtime.world.state.model import WorldModel
 
 CATCH_UP_S = 0.1
@@ -40,11 +37,12 @@ STALL_S = 60.0
 BRAKING_S = 2.0
 """After a stop from outside, devices are commanded until they are at rest, or for this time; then they hold still."""
 
+T = TypeVar("T")
 DRIVER_PARTS = ("measured", "motion", "compliance")
 
 
-class LockStepCell(LockStep, Simulation, Cell, Protocol):
-    """A simulated cell in lock step, one control period at a time."""
+class LockStepCell(LockStep, Backend, Cell, Protocol):
+    """A cell in lock step, one control period at a time."""
 
     @property
     def period_s(self) -> float:
@@ -65,7 +63,7 @@ class LockStepCell(LockStep, Simulation, Cell, Protocol):
 
 
 class RealTimeCell:
-    """A cell whose time passes with the wall clock, implementing `Cell` and `Simulation`.
+    """A cell whose time passes with the wall clock, implementing `Cell` and `Backend`.
 
     `advance` waits. If the machine is too slow, the cell's time falls behind the wall clock; no control period is left
     out. The world model is only written in the threads that call `advance` and `close`.
@@ -87,11 +85,8 @@ class RealTimeCell:
         self._stopped_at: float | None = None
         self.world: WorldModel = cell.world
         self.watchdog: Watchdog = locked(cell.watchdog, self._turn)
-        self.ground_truth: GroundTruth = locked(cell.ground_truth, self._turn)
-        self.drawing: Drawing = locked(cell.drawing, self._turn)
         self.stops: DeviceStops = locked(cell.stops, self._turn)
-        self.disturber: Disturber = locked(cell.disturber, self._turn)
-        self.live: LiveSignals = cell.live
+        self.capabilities = self._offer(cell.capabilities)
         self._thread = Thread(target=self._run, name="control", daemon=True)
         self._thread.start()
 
@@ -139,22 +134,6 @@ class RealTimeCell:
         """Return a button; KeyError if the cell has no such button."""
         return locked(self._simulated.button(individual), self._turn)
 
-    @property
-    def has_physics(self) -> bool:
-        """Whether contact and weight are computed."""
-        return self._simulated.has_physics
-
-    @property
-    def things_lie_still(self) -> bool:
-        """Whether nothing that no hand holds falls, rolls, tips or slides."""
-        with self._turn:
-            return self._simulated.things_lie_still
-
-    def find_false_claims(self) -> tuple[str, ...]:
-        """Return what the world model claims of what is where, and who holds what, that is not so; a sentence each."""
-        with self._turn:
-            return self._simulated.find_false_claims()
-
     def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
         """Whether devices, all if None, neither move nor push."""
         with self._turn:
@@ -191,6 +170,20 @@ class RealTimeCell:
         self._thread.join(STALL_S)
         self._broken = self._broken or "the cell is closed"
         self._simulated.publish()
+
+    def _offer(self, inside: BackendCapabilities) -> BackendCapabilities:
+        """Return what the cell inside offers, one call at a time; by the wall clock no run is repeated."""
+
+        def lock(part: T | None) -> T | None:
+            return None if part is None else locked(part, self._turn)
+
+        return BackendCapabilities(
+            judge=lock(inside.judge),
+            truth=lock(inside.truth),
+            drawing=lock(inside.drawing),
+            disturber=lock(inside.disturber),
+            live=inside.live,
+        )
 
     def _wait_for_arrival(self) -> None:
         """Wait until the awaited time has come or the cell is broken; break it if no period has run for too long."""

@@ -32,10 +32,12 @@ from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
 from skillc_runtime.backends.simulation.stops import SimulatedStops
 from skillc_runtime.backends.simulation.touch_recorder import TouchRecorder
 from skillc_runtime.backends.simulation.truth import SimulatedTruth
+from skillc_runtime.backends.simulation.twin import keep_reported
 from skillc_runtime.backends.simulation.variation import Variation
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.devices.backend import BackendBroken
+from skillc_runtime.devices.capabilities import BackendCapabilities
 from skillc_runtime.devices.device_map import DeviceMap
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.motion.coverage import CoverageMap
@@ -52,7 +54,7 @@ G = TypeVar("G", bound=ModelledGripper)
 
 
 class ModelledCell(ABC, Generic[A, G]):
-    """A cell in lock step, implementing `Cell` and `Simulation`; subclasses make arms and grippers, and move all of it.
+    """A cell in lock step, implementing `Cell` and `Backend`; subclasses make arms and grippers, and move all of it.
 
     `variation` is how reality differs from the facts of `scene`. Between calls of `advance` all measurements are of the
     present instant. The world model has the state of each arm: `Idle` at the start, `Fault` once it is broken.
@@ -108,6 +110,10 @@ class ModelledCell(ABC, Generic[A, G]):
         self.disturber = SimulatedDisturber(self, scene, self.model, self.data, self._hands, self.stops)
         self.drawing = ModelDrawing(scene, variation, self.model, self.data)
         self.live = make_live_signals(scene, self.period_s, self.arms, self._drivers, self.model, self.data)
+        self.capabilities = BackendCapabilities(
+            lock_step=self, judge=self, truth=self.ground_truth, drawing=self.drawing, disturber=self.disturber,
+            checkpoints=self, live=self.live,
+        )  # fmt: skip
         world.weigh_evidence(self._weigh_evidence)
         self._report_idle()
 
@@ -209,6 +215,10 @@ class ModelledCell(ABC, Generic[A, G]):
         """Return the true state of the cell as an encoded checkpoint, from which it can be built again."""
         cell = save_cell(self.scene, self.model, self.data, self._bases, self._grippers, self.coverage)
         return encode_checkpoint(cell)
+
+    def save_reported(self) -> bytes:
+        """Return only what devices report of themselves, from which a twin of the cell is built."""
+        return keep_reported(self.save(), self.drawing.prefixes.values())
 
     def stop_all(self, reason: str) -> None:
         """Stop all devices; arms report the reason as a fault."""

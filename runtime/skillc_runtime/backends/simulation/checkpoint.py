@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import msgspec
 
+from skillc_runtime.devices.backend import BackendStart
+from skillc_runtime.devices.checkpoints import CheckpointError
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 
 PoseNumbers = tuple[float, float, float, float, float, float, float]
 """A pose: position in m, then the unit quaternion (w, x, y, z)."""
-
-
-class CheckpointError(ValueError):
-    """The saved state of a cell cannot be read."""
 
 
 class SavedGrip(msgspec.Struct, frozen=True):
@@ -66,6 +64,11 @@ def decode_checkpoint(encoded: bytes) -> Checkpoint:
         return msgspec.msgpack.decode(encoded, type=Checkpoint)
     except msgspec.MsgspecError as error:
         raise CheckpointError(str(error)) from error
+
+
+def read_checkpoint(start: BackendStart) -> Checkpoint | None:
+    """Return from where a cell goes on; CheckpointError if that cannot be read."""
+    return None if start.saved is None else decode_checkpoint(start.saved)
 
 
 def list_numbers(of: Pose) -> PoseNumbers:

@@ -9,7 +9,7 @@ from skillc_runtime.backends.simulation.model_builder import describe_model
 from skillc_runtime.backends.simulation.names import box_geom_name, part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation
-from skillc_runtime.devices.simulation import Posture
+from skillc_runtime.devices.drawing import Posture
 
 
 class ModelDrawing:

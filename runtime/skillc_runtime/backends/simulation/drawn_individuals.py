@@ -9,7 +9,7 @@ import mujoco
 
 from skillc_runtime.backends.simulation.names import base_body_name, part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
-from skillc_runtime.devices.simulation import DrawnIndividual
+from skillc_runtime.devices.drawing import DrawnIndividual
 
 
 def find_drawn(scene: SceneSpec) -> Iterator[tuple[str, DrawnIndividual]]:

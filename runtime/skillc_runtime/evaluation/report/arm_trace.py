@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillc_runtime.devices.arm_driver import ArmDriver
-from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.terms import ARM_DEVICE
 
@@ -66,12 +66,12 @@ class ArmPath:
 class ArmTrace:
     """Samples every arm of a cell, in arrays that grow by doubling."""
 
-    def __init__(self, simulation: Simulation) -> None:
-        self._clock, self._next = simulation.clock, 0.0
+    def __init__(self, backend: Backend) -> None:
+        self._clock, self._next = backend.clock, 0.0
         self._drivers: dict[str, ArmDriver] = {}
-        for arm in sorted(simulation.cell.world.snapshot().instances(ARM_DEVICE)):
+        for arm in sorted(backend.cell.world.snapshot().instances(ARM_DEVICE)):
             with suppress(KeyError):
-                self._drivers[arm] = simulation.cell.arm(arm)
+                self._drivers[arm] = backend.cell.arm(arm)
         self._rows = {arm: np.empty((FIRST_ROWS, COLUMNS)) for arm in self._drivers}
         self._count = 0
 

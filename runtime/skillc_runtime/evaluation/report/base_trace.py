@@ -6,8 +6,8 @@ from contextlib import suppress
 
 import numpy as np
 
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.base import MobileBase
-from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.terms import MOBILE_ROBOT
 
@@ -18,12 +18,12 @@ PERIOD_S = 0.1
 class BaseTrace:
     """Samples every mobile base of a cell."""
 
-    def __init__(self, simulation: Simulation) -> None:
-        self._clock, self._next = simulation.clock, 0.0
+    def __init__(self, backend: Backend) -> None:
+        self._clock, self._next = backend.clock, 0.0
         self._bases: dict[str, MobileBase] = {}
-        for robot in sorted(simulation.cell.world.snapshot().instances(MOBILE_ROBOT)):
+        for robot in sorted(backend.cell.world.snapshot().instances(MOBILE_ROBOT)):
             with suppress(KeyError):
-                self._bases[robot] = simulation.cell.base(robot)
+                self._bases[robot] = backend.cell.base(robot)
         self._rows: dict[str, list[list[float]]] = {robot: [] for robot in self._bases}
 
     def sample(self) -> None:

@@ -74,7 +74,7 @@ def _is_pushing(arm: str, samples: ArmPath, record: RunRecord) -> bool:
 
 def _find_guidance(arm: str, samples: ArmPath, record: RunRecord) -> Guidance | None:
     """Return how a person guided an arm in this time."""
-    for each in record.truth.guidances():
+    for each in () if record.truth is None else record.truth.guidances():
         inside = (each.times >= samples.time[0]) & (each.times <= samples.time[-1])
         if each.arm == arm and inside.any():
             return Guidance(each.place, each.forces[inside], each.times[inside], arm)

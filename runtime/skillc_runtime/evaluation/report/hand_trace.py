@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.ground_truth import GroundTruth
-from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.state.terms import ARM_DEVICE, CONTAIN, HAS_GRIPPER, MANIPULATABLE
 from skillc_runtime.world.state.world_state import WorldState
@@ -62,19 +62,21 @@ class HandPath:
 class HandTrace:
     """Samples every gripper of a cell; `start` is the world model and `lay` the true pose of each thing at the start.
 
+    Where the truth is not known there are no samples.
+
     Only bodies that a skill can move are in `lay`, by IRI.
     """
 
-    def __init__(self, simulation: Simulation) -> None:
-        self._clock, self._truth = simulation.clock, simulation.ground_truth
-        self.start: WorldState = simulation.cell.world.snapshot()
-        self.lay = _true_poses(self.start, self._truth)
+    def __init__(self, backend: Backend) -> None:
+        self._clock, self._truth = backend.clock, backend.capabilities.truth
+        self.start: WorldState = backend.cell.world.snapshot()
+        self.lay = {} if self._truth is None else _true_poses(self.start, self._truth)
         self._rows: dict[str, list[list[float]]] = {hand: [] for hand in _hands(self.start)}
         self._next = 0.0
 
     def sample(self) -> None:
         """Sample all hands if that is due."""
-        if self._clock.now < self._next:
+        if self._truth is None or self._clock.now < self._next:
             return
         self._next = self._clock.now + PERIOD_S
         for hand, rows in self._rows.items():

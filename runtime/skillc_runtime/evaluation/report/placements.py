@@ -24,9 +24,11 @@ NO_TARGETS: Mapping[str, tuple[float, float]] = MappingProxyType({})
 
 
 def measure_placements(
-    world: WorldModel, truth: GroundTruth, targets: Mapping[str, tuple[float, float]] = NO_TARGETS
+    world: WorldModel, truth: GroundTruth | None, targets: Mapping[str, tuple[float, float]] = NO_TARGETS
 ) -> tuple[PlacementResult, ...]:
     """Return where each thing that was moved is believed to be and really is, in order of IRI.
+
+    Where things really are is left out where the `truth` is not known.
 
     `targets` are the places (x, y) in m in the world where things should be, by IRI.
     """
@@ -44,7 +46,7 @@ def _movable(state: WorldState) -> list[str]:
 def _measure(
     world: WorldModel,
     state: WorldState,
-    truth: GroundTruth,
+    truth: GroundTruth | None,
     thing: str,
     write: DecidingWrite,
     target: tuple[float, float] | None,
@@ -77,9 +79,9 @@ def _believed(state: WorldState, thing: str) -> Pose | None:
         return None
 
 
-def _true(truth: GroundTruth, thing: str) -> Pose | None:
+def _true(truth: GroundTruth | None, thing: str) -> Pose | None:
     try:
-        return truth.body_pose(thing)
+        return None if truth is None else truth.body_pose(thing)
     except KeyError:
         return None
 

@@ -81,6 +81,8 @@ def _ends(values: Array) -> Array:
 
 
 def _find_switching(push: PushRecord, record: RunRecord) -> float | None:
+    if record.truth is None:
+        return None
     for button in (each for each in push.on if record.state.is_a(each, BUTTON)):
         rows = record.truth.pressing(button)
         switched = rows[(rows[:, 2] > 0) & (rows[:, 0] >= push.start_s) & (rows[:, 0] <= push.end_s), 0]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from skillc_runtime.devices.ground_truth import Recording
+from skillc_runtime.devices.ground_truth import GroundTruth, Recording
 from skillc_runtime.evaluation.metrics.intervals import Interval
 from skillc_runtime.evaluation.report.arm_trace import ArmPath
 from skillc_runtime.evaluation.report.run_record import RunRecord
@@ -102,13 +102,15 @@ def find_force_source(arm: str, record: RunRecord) -> ForceSource:
 
 def _find_true_force(on: Sequence[str], arm: str, scope: Interval, record: RunRecord) -> Array | None:
     """Return times and forces (n, 2) of the simulator in an interval: on a button, else of the held tool."""
+    if record.truth is None:
+        return None
     start, end = scope
     for button in (each for each in on if record.state.is_a(each, BUTTON)):
         rows = record.truth.pressing(button)
         inside = rows[(rows[:, 0] >= start) & (rows[:, 0] <= end), :2]
         return inside if len(inside) else None
     for tool in record.held_by(arm, start, end):
-        held = _recording(tool, record).between(start, end)
+        held = _recording(tool, record.truth).between(start, end)
         if len(held.time):
             return np.column_stack([held.time, held.force])
     return None
@@ -122,9 +124,9 @@ def _find_contact(samples: ArmPath, along: Array, force_n: float, truth: Array |
     return float(rows[touching[0], 0]) if touching.size else None
 
 
-def _recording(tool: str, record: RunRecord) -> Recording:
+def _recording(tool: str, truth: GroundTruth) -> Recording:
     try:
-        return record.truth.recording(tool)
+        return truth.recording(tool)
     except KeyError:
         return Recording(np.empty((0, 25)))
 

@@ -23,12 +23,15 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True)
 class RunRecord:
-    """The trees of all attempts with the chosen implementations, the world model at the end, the truth, and samples."""
+    """The trees of all attempts with the chosen implementations, the world model at the end, the truth, and samples.
+
+    `truth` is None where it is not known: then only what devices measure is reported.
+    """
 
     trees: Sequence[NodeOutcome]
     choices: ChoiceListener
     state: WorldState
-    truth: GroundTruth
+    truth: GroundTruth | None
     trace: RunTrace
 
     @cached_property

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.evaluation.report.arm_trace import ArmTrace
 from skillc_runtime.evaluation.report.base_trace import BaseTrace
 from skillc_runtime.evaluation.report.hand_trace import HandTrace
@@ -11,9 +11,9 @@ from skillc_runtime.evaluation.report.hand_trace import HandTrace
 class RunTrace:
     """Samples a cell; `sample` is to be called in every tick. `began_s` is the time of the cell at the start, in s."""
 
-    def __init__(self, simulation: Simulation) -> None:
-        self.began_s = simulation.clock.now
-        self.arms, self.hands, self.bases = ArmTrace(simulation), HandTrace(simulation), BaseTrace(simulation)
+    def __init__(self, backend: Backend) -> None:
+        self.began_s = backend.clock.now
+        self.arms, self.hands, self.bases = ArmTrace(backend), HandTrace(backend), BaseTrace(backend)
 
     def sample(self) -> None:
         """Sample what is due."""

@@ -101,9 +101,12 @@ def _draw_depth(axes: Axes, drawing: SearchDrawing) -> None:
 
 def _find_hole(search: Search, record: RunRecord) -> Array | None:
     """Return where the fixture that the search is about really is, (2,) mm in the plane."""
+    truth = record.truth
+    if truth is None:
+        return None
     for each in search.push.on:
         try:
-            place = record.truth.fixture_pose(each).position
+            place = truth.fixture_pose(each).position
         except KeyError:
             continue
         return np.asarray(search.in_plane(place[None])[0])

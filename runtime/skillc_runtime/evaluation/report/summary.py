@@ -9,7 +9,7 @@ from typing import Any, Literal
 from msgspec import structs
 
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets
 from skillc_runtime.evaluation.report.placements import measure_placements
 from skillc_runtime.evaluation.report.result import ChoiceResult, FailedCall, StepResult, TaskResult, TouchResult
@@ -28,16 +28,16 @@ from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, H
 from skillc_runtime.world.state.world_state import WorldState
 
 
-def summarise_start(task: str, simulation: Simulation) -> TaskResult:
+def summarise_start(task: str, backend: Backend) -> TaskResult:
     """Return what is known of the result of a task when it starts."""
-    state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
+    state, truth = backend.cell.world.snapshot(), backend.capabilities.truth
     return TaskResult(
         task=task,
         status="interrupted",
         robots=tuple(_robots(state)),
         controllers=tuple(_controllers(state)),
-        seed=truth.seed,
-        variation=truth.variation,
+        seed=0 if truth is None else truth.seed,
+        variation="" if truth is None else truth.variation,
     )
 
 
@@ -46,7 +46,7 @@ def summarise_run(
     choices: Mapping[int, ImplementationChosen],
     library: SkillLibrary,
     wipings: Sequence[Wiping],
-    simulation: Simulation,
+    backend: Backend,
     works: tuple[WorkResult, ...] = (),
     began_s: float = 0.0,
 ) -> TaskResult:
@@ -54,12 +54,12 @@ def summarise_run(
 
     The task began at `began_s` of its cell.
     """
-    state, truth = simulation.cell.world.snapshot(), simulation.ground_truth
+    state, truth = backend.cell.world.snapshot(), backend.capabilities.truth
     handlings = find_handlings((each.tree for each in execution.attempts), choices, state)
-    judged = tuple(rate_wiping(wiping, state, truth) for wiping in wipings)
-    took_s, wall = simulation.clock.now - began_s, execution.wall_time_s
+    judged = () if truth is None else tuple(rate_wiping(wiping, state, truth) for wiping in wipings)
+    took_s, wall = backend.clock.now - began_s, execution.wall_time_s
     result = structs.replace(
-        summarise_start(execution.task, simulation),
+        summarise_start(execution.task, backend),
         status=_find_status(execution),
         verified=execution.verified,
         facts=execution.facts,
@@ -69,9 +69,9 @@ def summarise_run(
         real_time_factor=took_s / wall if wall else 0.0,
         wiping=judged[0] if judged else None,
         wipings=judged,
-        placements=measure_placements(simulation.cell.world, truth, find_targets(handlings)),
+        placements=measure_placements(backend.cell.world, truth, find_targets(handlings)),
         works=works,
-        touches=tuple(TouchResult(**asdict(each)) for each in truth.contacts()),
+        touches=() if truth is None else tuple(TouchResult(**asdict(each)) for each in truth.contacts()),
         replanned=tuple(each.reason for each in execution.attempts[:-1]),
         failure=describe_failure(execution.failure) if execution.failure else None,
         cause=execution.failure,

@@ -37,7 +37,8 @@ def _take(figures: Iterator[WorkFigure]) -> Iterator[WorkFigure]:
 
 
 def _draw_wipings(record: RunRecord) -> Iterator[WorkFigure]:
-    drawings = tuple(make_wiping_drawing(each, record.state, record.truth) for each in record.wipings)
+    truth, wipings = record.truth, record.wipings
+    drawings = () if truth is None else tuple(make_wiping_drawing(each, record.state, truth) for each in wipings)
     if drawings:
         overlaid = any(each.overlay_period_s is not None for each in drawings)
         yield WorkFigure(
@@ -87,6 +88,8 @@ def _draw_guidances(record: RunRecord) -> Iterator[WorkFigure]:
 
 
 def _draw_handlings(record: RunRecord) -> Iterator[WorkFigure]:
+    if record.truth is None:
+        return
     drawings = make_handling_drawings(record.handlings, record.trace.hands, record.state, record.truth)
     across = choose_axes(drawings)
     for drawing in drawings:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from math import cos, pi, sin
 from typing import Protocol
 
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.cell import Cell
-from skillc_runtime.devices.disturbances import Take
+from skillc_runtime.devices.disturbances import Disturber, Take
+from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.devices.rng import rng_for
-from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording.events import Event, ImplementationChosen
@@ -31,8 +32,18 @@ TAKE_M = 0.3
 """How far to the side a person puts what they take."""
 
 
-class PushableCell(Simulation, Cell, Protocol):
-    """A simulated cell in which a person can push an arm."""
+class TrialCell(Backend, Cell, Protocol):
+    """A simulated cell whose truth is known, and in which a person can push an arm."""
+
+    @property
+    def ground_truth(self) -> GroundTruth:
+        """The true state of the cell."""
+        ...
+
+    @property
+    def disturber(self) -> Disturber:
+        """Lets things happen to the cell that no skill does."""
+        ...
 
     def push_hand(self, arm: str, force_n: Array) -> None:
         """Push the hand of an arm with a force (3,) in N in the world from now on; 0 ends it."""
@@ -45,7 +56,7 @@ class PushDisturbance:
     It is a listener, which learns when that begins; call `update` after every tick. `pushed` if it has pushed.
     """
 
-    def __init__(self, simulation: PushableCell) -> None:
+    def __init__(self, simulation: TrialCell) -> None:
         self._simulation = simulation
         self._arms = simulation.cell.world.snapshot().instances(ARM_DEVICE)
         self._pushes: dict[str, tuple[float, Array]] = {}
@@ -77,7 +88,7 @@ class TakeDisturbance:
     Call `update` after every tick. `taken` if it has.
     """
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, simulation: TrialCell) -> None:
         self._simulation = simulation
         self._hands = sorted({hand for _, hand in simulation.cell.world.snapshot().pairs(HAS_GRIPPER)})
         self._rng = rng_for("", simulation.ground_truth.seed, 7)

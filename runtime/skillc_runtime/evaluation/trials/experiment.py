@@ -19,7 +19,7 @@ from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
-from skillc_runtime.evaluation.trials.disturbance import PushableCell, PushDisturbance, TakeDisturbance
+from skillc_runtime.evaluation.trials.disturbance import PushDisturbance, TakeDisturbance, TrialCell
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.evaluation.trials.trial_cell import make_trial_cell
 from skillc_runtime.execution.assignment import (
@@ -55,7 +55,7 @@ class Experiment:
     disturbance: Disturbance
 
 
-RecordTrial: TypeAlias = Callable[[PushableCell], AbstractContextManager[Sequence[Listener]]]
+RecordTrial: TypeAlias = Callable[[TrialCell], AbstractContextManager[Sequence[Listener]]]
 """Records what happens in the cell of a trial in a `with` statement, which yields who gets the events."""
 
 
@@ -91,7 +91,7 @@ class TrialRunner:
         with recording(cell) as listeners:
             return self._run(self._prepared, cell, listeners).result
 
-    def _run(self, prepared: PreparedTask, cell: PushableCell, listeners: Sequence[Listener] = ()) -> _Executed:
+    def _run(self, prepared: PreparedTask, cell: TrialCell, listeners: Sequence[Listener] = ()) -> _Executed:
         choices, push, take = ChoiceListener(), PushDisturbance(cell), TakeDisturbance(cell)
         disturbances: Sequence[Listener] = (push,) if self._disturbance == "push" else ()
         update = take.update if self._disturbance == "take" else push.update
@@ -114,7 +114,7 @@ class _Executed:
     pushed: bool
     taken: bool
 
-    def measure(self, cell: PushableCell) -> Trial:
+    def measure(self, cell: TrialCell) -> Trial:
         """Return the trial with what was measured, while the cell is as it was at its end."""
         result, state, truth = self.result, self.evidence.state, self.evidence.truth
         return Trial(

@@ -28,7 +28,8 @@ class SampleMessages:
     """Makes the messages of blocks of samples, one after the other."""
 
     def __init__(self, cell: RecordedCell) -> None:
-        self._layout, self._picture = cell.tap.layout, ScenePicture(cell.model)
+        self._layout = cell.tap.layout
+        self._picture = None if cell.model is None else ScenePicture(cell.model)
         self._units = tuple(each.unit for each in cell.signals)
         self._is_shown = False
 
@@ -38,6 +39,8 @@ class SampleMessages:
         columns = encode_columns(self._layout.rows_of(block), self._units)
         yield SIGNALS, first_ns, SignalBlock(first_ns, self._layout.period_ns, block.rows, columns)
         faces = tuple(self._layout.faces_of(block))
+        if self._picture is None:
+            return
         for time_s, positions, quaternions in block.poses:
             moment = round(time_s * 1e9)
             where = np.frombuffer(positions).reshape(-1, 3), np.frombuffer(quaternions).reshape(-1, 4)

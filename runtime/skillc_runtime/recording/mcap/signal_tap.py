@@ -100,11 +100,11 @@ class SignalTap:
 
 @dataclass(frozen=True, slots=True)
 class RecordedCell:
-    """What of a cell is recorded: the `signals` of a tap, and what it looks like, an `mujoco.MjModel`."""
+    """What of a cell is recorded: the `signals` of a tap, and what it looks like: an `mujoco.MjModel`, or None."""
 
     tap: SignalTap
     signals: tuple[Signal, ...]
-    model: Any
+    model: Any | None
 
 
 class SampleLayout:

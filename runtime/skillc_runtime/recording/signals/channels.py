@@ -11,9 +11,9 @@ import numpy as np
 
 from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.devices.arm_driver import ArmDriver
+from skillc_runtime.devices.backend import Backend, Clock
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.ground_truth import GroundTruth
-from skillc_runtime.devices.simulation import Simulation
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.recording.signals.signal import Origin, Signal
 from skillc_runtime.world.state.terms import (
@@ -39,25 +39,40 @@ class Channel:
     read: Callable[[], Array]
 
 
-def find_channels(simulation: Simulation) -> Iterator[Channel]:
-    """Yield the channels of all arms, hands, bases, tools and movable things of a cell, in order of IRI."""
-    cell, truth, state = simulation.cell, simulation.ground_truth, simulation.cell.world.snapshot()
+def find_channels(backend: Backend) -> Iterator[Channel]:
+    """Yield the channels of all arms and bases of a cell, and as far as the truth is known of hands, tools and things.
+
+    They are in order of IRI.
+    """
+    cell, truth, state = backend.cell, backend.capabilities.truth, backend.cell.world.snapshot()
     names = name_devices(state)
     for arm in _known(state, ARM_DEVICE):
         with suppress(KeyError):
             feels = any(state.is_a(each, FORCE_TORQUE_SENSOR) for each in state.objects(arm, HAS_SENSOR))
             yield from _of_arm(Columns(names[arm], arm), cell.arm(arm), feels)
-        for hand in sorted(state.objects(arm, HAS_GRIPPER)):
-            with suppress(KeyError):
-                truth.hand(hand)
-                yield from _of_hand(Columns(names[hand], hand), hand, truth)
+        if truth is not None:
+            yield from _of_hands(arm, truth, state, names)
     for base in _known(state, MOBILE_ROBOT):
         with suppress(KeyError):
             yield _of_base(Columns(names[base], base), cell.base(base))
+    if truth is not None:
+        yield from _of_things(truth, backend.clock, state, names)
+
+
+def _of_hands(arm: str, truth: GroundTruth, state: WorldState, names: Mapping[str, str]) -> Iterator[Channel]:
+    """Yield the channels of the hands of an arm."""
+    for hand in sorted(state.objects(arm, HAS_GRIPPER)):
+        with suppress(KeyError):
+            truth.hand(hand)
+            yield from _of_hand(Columns(names[hand], hand), hand, truth)
+
+
+def _of_things(truth: GroundTruth, clock: Clock, state: WorldState, names: Mapping[str, str]) -> Iterator[Channel]:
+    """Yield the channels of tools and movable things."""
     for tool in _known(state, TOOL):
         with suppress(KeyError):
             truth.mean_force_n(tool, 0.0)
-            yield _of_tool(Columns(names[tool], tool), tool, simulation)
+            yield _of_tool(Columns(names[tool], tool), tool, truth, clock)
     for thing in _known(state, MANIPULATABLE):
         with suppress(KeyError):
             truth.body_pose(thing)
@@ -139,8 +154,8 @@ def _of_base(columns: Columns, base: MobileBase) -> Channel:
     return Channel(columns.pose("sensor", "base", "the centre of the base"), lambda: _pose_row(base.pose))
 
 
-def _of_tool(columns: Columns, tool: str, simulation: Simulation) -> Channel:
-    truth, clock, before = simulation.ground_truth, simulation.clock, [simulation.clock.now]
+def _of_tool(columns: Columns, tool: str, truth: GroundTruth, clock: Clock) -> Channel:
+    before = [clock.now]
 
     def read() -> Array:
         since, before[0] = before[0], clock.now

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from skillc_runtime.devices.simulation import Simulation
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.recording.signals.channels import find_channels
 from skillc_runtime.recording.signals.signal import CLOCK, Signal, SignalSink
 
@@ -20,9 +20,9 @@ class SignalSampler:
     An error of the sink never stops the robot: sampling ends, and `problem` says why.
     """
 
-    def __init__(self, simulation: Simulation, make_sink: MakeSink) -> None:
-        self._clock = simulation.clock
-        self._channels = tuple(find_channels(simulation))
+    def __init__(self, backend: Backend, make_sink: MakeSink) -> None:
+        self._clock = backend.clock
+        self._channels = tuple(find_channels(backend))
         self.signals = (CLOCK, *(signal for channel in self._channels for signal in channel.signals))
         self._row = np.empty(len(self.signals))
         self._sink = make_sink(self.signals)

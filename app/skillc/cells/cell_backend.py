@@ -1,4 +1,4 @@
-"""The simulation of a cell, and who reads it: an operation that has it alone begins where it can be begun again."""
+"""The back end of a cell, and who reads it: an operation that has it alone begins where it can be begun again."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from skillc.cells.reality import RealityKeeper, build_again
 from skillc.cells.samples import Sampler
 from skillc.cells.settings import CellSettings
 from skillc.services.backends import make_backend
-from skillc.services.run_recordings import make_recorded_cell
-from skillc_runtime.devices.simulation import Simulation
+from skillc.services.run_recordings import find_obstacle, make_recorded_cell
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.primitives.standing_bases import place_standing_bases
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -22,14 +22,14 @@ from skillc_runtime.world.state.model import WorldModel
 
 @dataclass(frozen=True, slots=True)
 class Beginning:
-    """The checkpoint from which a simulation was built when an operation began; `obstacle` is why there is none."""
+    """The checkpoint from which a cell was built when an operation began; `obstacle` is why there is none."""
 
     checkpoint: bytes = b""
     obstacle: str = ""
 
 
-class CellSimulation:
-    """The simulation of a cell. `backend`, and who reads it, are others after `begin`."""
+class CellBackend:
+    """The back end of a cell. `backend`, and who reads it, are others after `begin` where it can be built again."""
 
     def __init__(self, settings: CellSettings, world: WorldModel, journal: CellJournal, reader: JournalReader) -> None:
         """Build it as it was when the cell ended; errors of `build_again`."""
@@ -37,16 +37,19 @@ class CellSimulation:
         self._use(build_again(settings.backend, world, settings.seed, reader))
 
     def begin(self, others: Collection[str]) -> Beginning:
-        """Build the simulation again from its true state, as whoever repeats the operation that begins now.
+        """Build a simulation again from its true state, as whoever repeats the operation that begins now.
 
         Motors, controllers and noise carry nothing over then that a checkpoint does not have. That is not possible
         while `others` go on.
         """
         if others:
             return Beginning(obstacle=f"the operation {min(others)} went on in the cell when it began")
-        if self.backend.disturber.acts:
+        capabilities = self.backend.capabilities
+        if capabilities.checkpoints is None:
+            return Beginning(obstacle=find_obstacle(self.backend) or "its cell cannot be built again as it was")
+        if capabilities.disturber is not None and capabilities.disturber.acts:
             return Beginning(obstacle="the cell was being disturbed when it began")
-        checkpoint = self.backend.save()
+        checkpoint = capabilities.checkpoints.save()
         try:
             backend = make_backend(self._settings.backend, self._world, self._settings.seed, checkpoint)
         except (SheetError, FrameError) as error:
@@ -55,7 +58,7 @@ class CellSimulation:
         self._use(backend)
         return Beginning(checkpoint)
 
-    def _use(self, backend: Simulation) -> None:
+    def _use(self, backend: Backend) -> None:
         self.backend = backend
         self.keeper = RealityKeeper(backend, self._journal)
         self.sampler, self.geometry = Sampler(self._settings.name, backend), GeometryReader(backend)
