@@ -28,6 +28,31 @@ WITH_ONTOLOGY = ("check", "compile", "doc", "graph", "plan", "run", "world")
 """The commands that read libraries or scenes."""
 
 
+class BackendType(click.ParamType[str]):
+    """The name of a back end that is installed."""
+
+    name = "name"
+
+    def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return the name; a usage error with those that there are for another one."""
+        from skillc.services.backends import require_backend
+        from skillc.services.errors import RequestError
+
+        try:
+            return require_backend(value)
+        except RequestError as error:
+            self.fail(str(error), param, ctx)
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """Return the names that begin so."""
+        from skillc.services.backends import list_backends
+
+        return [CompletionItem(each) for each in list_backends() if each.startswith(incomplete)]
+
+
+BACKEND = BackendType()
+
+
 def grouped_option(group: str, *names: str, **settings: Any) -> Callable[[Function], Function]:
     """Return a decorator that adds an option in the section `group` of the help."""
     return click.option(*names, cls=GroupedOption, group=group, **settings)

@@ -8,8 +8,11 @@ from typing import Any, TypeVar
 
 import click
 
-from skillc.cli.options import FOLDER, PATH
+<<<<<<< HEAD
 from skillc.extras import require
+=======
+from skillc.cli.options import BACKEND, FOLDER, PATH
+>>>>>>> 62bf0d85 (Command line and manifest take the name of any back end that is installed; another one is refused with those that are)
 
 DEFAULT_BIND = "127.0.0.1:8421"
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -30,10 +33,10 @@ def cell_options(function: Function) -> Function:
         ),
         click.option(
             "--backend",
-            type=click.Choice(("mujoco", "kinematic")),
+            type=BACKEND,
             default="mujoco",
             show_default=True,
-            help="Simulate with physics, or with ideal motion and contact.",
+            help="Run cells of this backend: `mujoco` has physics, `kinematic` ideal contact; packages add others.",
         ),
         click.option(
             "--seed", default=0, show_default=True, help="Seed of the differences between world model and simulation."

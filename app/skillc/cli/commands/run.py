@@ -16,6 +16,7 @@ import click
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_scene, complete_task
 from skillc.cli.options import (
+    BACKEND,
     EXECUTION,
     FOLDER,
     OUTPUT,
@@ -78,10 +79,11 @@ skillc run clean_table --pause-at Wipe
 @grouped_option(
     EXECUTION,
     "--backend",
-    type=click.Choice(["mujoco", "kinematic"]),
+    type=BACKEND,
     default="mujoco",
     show_default=True,
-    help="Simulate with physics, or with ideal motion and contact: faster, but contact is not verified then.",
+    help="Run in a cell of this backend: `mujoco` simulates with physics, `kinematic` with ideal motion and contact, "
+    "faster, but contact is not verified then; packages add others.",
 )
 @grouped_option(
     EXECUTION,

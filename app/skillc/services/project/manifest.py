@@ -38,7 +38,7 @@ class RunSettings(Settings, frozen=True):
 
     out: str | None = None
     seed: int | None = None
-    backend: Literal["mujoco", "kinematic"] | None = None
+    backend: str | None = None
     pace: str | None = None
     deadline: float | None = None
     tick_timeout: float | None = None
