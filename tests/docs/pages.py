@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from docs.installing import install, use
 from skillc.cli.main import skillc
 
 ROOT = Path(__file__).parents[2]
@@ -86,6 +87,11 @@ class Reader:
         match words:
             case ["cd", folder]:
                 self.monkeypatch.chdir(folder)
+                return "", 0
+            case ["pip", "install", "."]:
+                site = Path("site-packages").absolute()
+                install(Path(), site)
+                use(site, self.monkeypatch)
                 return "", 0
             case ["skillc", *arguments]:
                 if arguments[0] == "report" or (arguments[0] == "run" and "--out" in arguments):

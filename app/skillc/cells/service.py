@@ -37,9 +37,10 @@ from skillc.contract.messages import (
     TakeSnapshot,
 )
 from skillc.errors import DiagnosticsError, RequestError, ServiceError
+from skillc.services.backends import check_pace
 from skillc.services.diagnosis import diagnose
 from skillc_runtime.execution.cell_loop import NotDurable, Request, TooManyRequests
-from skillc_runtime.execution.pace import FAST, Pace
+from skillc_runtime.execution.pace import FAST, REAL, Pace
 
 IDLE_S = 0.2
 """How long the loop waits for requests while nothing runs, in s of wall time."""
@@ -66,7 +67,7 @@ class CellService:
 
     def __init__(self, host: CellHost, inbox: Inbox, outbox: Outbox) -> None:
         self._host, self._inbox, self._outbox = host, inbox, outbox
-        self._pace = Pace()
+        self._pace = Pace(FAST if host.devices.backend.capabilities.lock_step is not None else REAL)
         self._assigner = Assigner(inbox.wake)
         self._requested_end = "the server of the cell is gone"
         self._ending: str | None = None
@@ -188,7 +189,7 @@ class CellService:
             case Give(operation=operation, command=command):
                 return _Pending(number, self._host.request(operation, command))
             case SetPace(factor=factor):
-                self._pace.change(FAST if factor is None else factor)
+                self._set_pace(FAST if factor is None else factor)
                 return _Pending(number, durable=False)
             case Acknowledge():
                 self._host.acknowledge()
@@ -204,6 +205,12 @@ class CellService:
             case _:
                 assert_never(message)
         return _Pending(number)
+
+    def _set_pace(self, factor: float) -> None:
+        """Change the pace; RequestError for one that the cell cannot have."""
+        check_pace(self._host.devices.backend, factor)
+        if self._host.devices.backend.capabilities.lock_step is not None:
+            self._pace.change(factor)
 
     def _end(self, reason: str) -> None:
         """Interrupt all operations; the loop ends when everything is at rest."""

@@ -35,8 +35,8 @@ class BackendType(click.ParamType[str]):
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return the name; a usage error with those that there are for another one."""
+        from skillc.errors import RequestError
         from skillc.services.backends import require_backend
-        from skillc.services.errors import RequestError
 
         try:
             return require_backend(value)

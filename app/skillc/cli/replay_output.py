@@ -18,7 +18,8 @@ def format_check(found: ReplayCheck, page: TerminalPage) -> list[str]:
 def _describe_possible(found: ReplayCheck, page: TerminalPage) -> list[str]:
     if found.impossible is not None:
         return page.wrap(found.impossible, "bad", hanging="  ")
-    return page.wrap(f"{found.events} events, each possible after those before it")
+    checked = "each possible after those before it" if found.checked else "not checked"
+    return page.wrap(f"{found.events} events, {checked}")
 
 
 def _describe_repetition(found: ReplayCheck, page: TerminalPage) -> Iterator[str]:

@@ -8,11 +8,8 @@ from typing import Any, TypeVar
 
 import click
 
-<<<<<<< HEAD
-from skillc.extras import require
-=======
 from skillc.cli.options import BACKEND, FOLDER, PATH
->>>>>>> 62bf0d85 (Command line and manifest take the name of any back end that is installed; another one is refused with those that are)
+from skillc.extras import require
 
 DEFAULT_BIND = "127.0.0.1:8421"
 Function = TypeVar("Function", bound=Callable[..., Any])

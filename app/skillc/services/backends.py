@@ -6,6 +6,7 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import TYPE_CHECKING, TypeAlias
 
 from skillc.errors import RequestError, ServiceError
+from skillc_runtime.execution.pace import FAST, REAL
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.backend import Backend, MakeBackend
@@ -47,6 +48,12 @@ def make_backend(name: BackendName, world: WorldModel, seed: int, saved: bytes |
         return make(world, BackendStart(seed, saved))
     except BackendUnavailable as error:
         raise ServiceError(f"the backend {name} cannot be used: {error}") from error
+
+
+def check_pace(backend: Backend, factor: float) -> None:
+    """Raise RequestError if a cell cannot have a pace: one with a time of its own is neither slower nor faster."""
+    if backend.capabilities.lock_step is None and factor not in (REAL, FAST):
+        raise RequestError(f"the pace cannot be {factor:g}: the cell has a time of its own, that of the wall clock")
 
 
 def _find_entry(name: str) -> EntryPoint:

@@ -8,7 +8,7 @@ from typing import Protocol
 
 from skillc_runtime.execution.cell_loop import CellLoop, TooManyRequests
 from skillc_runtime.execution.execute import WAIT_S, drive
-from skillc_runtime.execution.pace import Pace
+from skillc_runtime.execution.pace import REAL, Pace
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import Event
@@ -41,12 +41,17 @@ class RunMonitor(Protocol):
 
 
 def operate(loop: CellLoop, run: TaskRun, monitor: RunMonitor, heartbeat: Callable[[], None]) -> None:
-    """Tick a loop until a run has ended; `heartbeat` is called again and again, also while no tick is due."""
+    """Tick a loop until a run has ended; `heartbeat` is called again and again, also while no tick is due.
+
+    A cell with a time of its own has no other pace.
+    """
+
+    pace = monitor.pace if loop.backend.capabilities.lock_step is not None else Pace(REAL)
 
     def attend() -> bool:
         heartbeat()
         now = loop.backend.clock.now
-        wait_s = _find_wait(run, now, monitor.pace)
+        wait_s = _find_wait(run, now, pace)
         commands = monitor.attend(run, now, wait_s)
         for command in commands:
             _request(loop, run, command, monitor)

@@ -10,7 +10,7 @@ from pathlib import Path
 from time import perf_counter
 
 from skillc.errors import RequestError, ServiceError
-from skillc.services.backends import BackendName, make_backend
+from skillc.services.backends import BackendName, check_pace, make_backend
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.cell_checks.starting import find_start_problem
 from skillc.services.operating import RunMonitor, operate
@@ -101,8 +101,8 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
     """Plan, run and report a task; if it cannot start, its status is `refused`.
 
     KeyboardInterrupt stops a task that has not begun, and breaks off one that runs. RequestError for a breakpoint
-    that does not exist. ServiceError if the report's folder cannot be created, there are no meshes of that name, or no
-    process can be started.
+    that does not exist, and for a pace that the cell cannot have. ServiceError if the report's folder cannot be
+    created, there are no meshes of that name, or no process can be started.
     """
     gate = Gate(parse_breakpoints(options.pause_at, task.library))
     problem = find_start_problem(task, reporter)
@@ -121,6 +121,7 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
         except KeyboardInterrupt as interrupt:
             return end_unstarted(task, options.out, options.seed, "stopped", str(interrupt) or "interrupted", reporter)
         with closing(cell):
+            check_pace(cell, monitor.pace.factor)
             return _Run(task, options, cell, make_samples(cell, film), gate, monitor, reporter).carry_out(planning)
 
 

@@ -120,7 +120,7 @@ export interface components {
         };
         /**
          * CellModel
-         * @description The geometry of a cell as it really is in the simulation; individuals and arms are by IRI.
+         * @description The geometry of a cell as it really is, empty if it cannot be drawn; individuals and arms are by IRI.
          */
         CellModel: {
             bodies: components["schemas"]["ModelBody"][];
@@ -2144,7 +2144,8 @@ export interface components {
          *         claim is false. `false_claims` are sentences about what the world model claims of things at the end that is not so
          *         in the simulator. `plan` is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one
          *         entry for each surface that was wiped, `wiping` is the first of them; `placements` has one for each thing that was
-         *         moved, `works` one for each other piece of work, `touches` one for each contact of a link, a hand or a base.
+         *         moved, `works` one for each other piece of work, `touches` one for each contact of a link, a hand or a base. What
+         *         only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its clock.
          */
         TaskResult: {
             task: string;
@@ -2179,6 +2180,8 @@ export interface components {
             seed?: number;
             /** @default  */
             variation?: string;
+            /** @default true */
+            simulated?: boolean;
             /** @default null */
             wiping?: components["schemas"]["WipingResult"] | null;
             /** @default [] */

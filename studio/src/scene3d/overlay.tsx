@@ -5,7 +5,7 @@ import { MoveForm } from "./MoveForm";
 import type { Mover } from "./mover";
 import "./scene.css";
 import { Toolbar, type ToolbarProps } from "./Toolbar";
-import type { Displacement, SceneActions, SceneHandle } from "./types";
+import type { CellModel, Displacement, SceneActions, SceneHandle } from "./types";
 
 export interface Overlay {
   root: HTMLElement;
@@ -52,6 +52,12 @@ export function makeOverlay(element: HTMLElement, canvas: HTMLElement): Overlay 
       root.remove();
     },
   };
+}
+
+/** Say why there is nothing to see; nothing if there is. */
+export function sayWhyEmpty(model: CellModel | null): string {
+  if (model === null) return "The shapes of the cell are not there yet.";
+  return model.bodies.length === 0 ? "Cells of this backend cannot be drawn." : "";
 }
 
 /** Show the controls of a view in an overlay; `onMove` does something with what is chosen, and where. */

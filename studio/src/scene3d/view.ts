@@ -12,7 +12,7 @@ import { placeBodies, poseOf } from "./kinematics";
 import { LabelLayer, type Box } from "./labels";
 import { Lines } from "./lines";
 import { Mover } from "./mover";
-import { makeOverlay, showControls, type Overlay } from "./overlay";
+import { makeOverlay, sayWhyEmpty, showControls, type Overlay } from "./overlay";
 import { listen } from "./pointer";
 import { sketch } from "./sketch";
 import { Stage } from "./stage";
@@ -224,7 +224,7 @@ export class SceneView implements SceneHandle {
   private update(): void {
     const { model, sample, believed, selected } = this.sources;
     const options = this.options.value;
-    this.overlay.say(model.value === null ? "The shapes of the cell are not there yet." : "");
+    this.overlay.say(sayWhyEmpty(model.value));
     this.overlay.setHalves(options.reality === "beside");
     if (model.value === null || this.bodies === null) return;
     this.poses = placeBodies(model.value, sample.value);

@@ -36,13 +36,14 @@ class DifferentEvent(msgspec.Struct, frozen=True):
 class ReplayCheck(msgspec.Struct, frozen=True, kw_only=True):
     """What the check of a run found.
 
-    `impossible` is why an event cannot follow those before it, None if all can. `repeated` is how many events were the
-    same when the run was repeated, None if it was not repeated, and `note` says why not. `difference` is the first
-    event that was another one.
+    `checked` if it was looked whether events can follow those before them; `impossible` is why one cannot, None if all
+    can. `repeated` is how many events were the same when the run was repeated, None if it was not repeated, and `note`
+    says why not. `difference` is the first event that was another one.
     """
 
     run: str
     events: int
+    checked: bool = True
     impossible: str | None = None
     repeated: int | None = None
     note: str = ""
@@ -62,7 +63,7 @@ def check_run(run: Path, library: Path | None, reporter: Reporter) -> ReplayChec
     inputs = read_inputs(run, library, reporter)
     count = len(inputs.events)
     if inputs.obstacle:  # what others did meanwhile is not recorded, and an event may follow from that
-        return ReplayCheck(run=str(run), events=count, note=inputs.obstacle)
+        return ReplayCheck(run=str(run), events=count, checked=False, note=inputs.obstacle)
     impossible = check_events(inputs.events, inputs.library, inputs.world)
     if impossible is not None:
         return ReplayCheck(run=str(run), events=count, impossible=str(impossible), note="the events are impossible")

@@ -15,7 +15,6 @@ from skillc_runtime.backends.simulation.camera import SimulatedCamera
 from skillc_runtime.backends.simulation.cargo import Cargo
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, encode_checkpoint
 from skillc_runtime.backends.simulation.claims import find_false_claims
-from skillc_runtime.backends.simulation.device_stopper import DeviceStopper
 from skillc_runtime.backends.simulation.disturber import SimulatedDisturber
 from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.driver_factory import make_driver
@@ -39,6 +38,7 @@ from skillc_runtime.control.watchdog import HeartbeatWatchdog
 from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.devices.capabilities import BackendCapabilities
 from skillc_runtime.devices.device_map import DeviceMap
+from skillc_runtime.devices.device_stopper import DeviceStopper
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array

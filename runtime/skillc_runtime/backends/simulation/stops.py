@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from skillc_runtime.backends.simulation.device_stopper import DeviceStopper
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.devices.backend import DeviceStop, StopPersists
+from skillc_runtime.devices.device_stopper import DeviceStopper
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import DEVICE_STATE

@@ -116,7 +116,8 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     claim is false. `false_claims` are sentences about what the world model claims of things at the end that is not so
     in the simulator. `plan` is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one
     entry for each surface that was wiped, `wiping` is the first of them; `placements` has one for each thing that was
-    moved, `works` one for each other piece of work, `touches` one for each contact of a link, a hand or a base.
+    moved, `works` one for each other piece of work, `touches` one for each contact of a link, a hand or a base. What
+    only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its clock.
     """
 
     task: str
@@ -136,6 +137,7 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     real_time_factor: float = 0.0
     seed: int = 0
     variation: str = ""
+    simulated: bool = True
     wiping: WipingResult | None = None
     wipings: tuple[WipingResult, ...] = ()
     placements: tuple[PlacementResult, ...] = ()

@@ -38,6 +38,7 @@ def summarise_start(task: str, backend: Backend) -> TaskResult:
         controllers=tuple(_controllers(state)),
         seed=0 if truth is None else truth.seed,
         variation="" if truth is None else truth.variation,
+        simulated=truth is not None,
     )
 
 

@@ -30,12 +30,27 @@ def list_table_rows(result: TaskResult) -> list[tuple[str, str]]:
         *planned,
         *shorten_rows([(format_fact(fact.fact), format_evidence(fact)) for fact in result.facts]),
         *_robot_rows(result),
-        ("reality", f"{result.variation} (seed {result.seed})" if result.variation else "as the facts say"),
+        *_reality_rows(result),
         *shorten_rows([("unwanted contact", str(touch)) for touch in result.touches]),
         *shorten_rows([("planned again", why) for why in result.replanned]),
         *(row for wiping in result.wipings for row in _wiping_rows(wiping, len(result.wipings) > 1)),
         *list_work_rows(result.works),
         *shorten_rows([(str(each.thing), format_placement(each)) for each in result.placements]),
+        *_time_rows(result),
+    ]
+
+
+def _reality_rows(result: TaskResult) -> list[tuple[str, str]]:
+    """Return a row about how a simulation differed from the facts."""
+    differs = f"{result.variation} (seed {result.seed})" if result.variation else "as the facts say"
+    return [("reality", differs)] if result.simulated else []
+
+
+def _time_rows(result: TaskResult) -> list[tuple[str, str]]:
+    """Return rows about how long a run took; a real cell has no speed of its own."""
+    if not result.simulated:
+        return [("time", f"{result.sim_time_s:.1f} s")]
+    return [
         ("time", f"{result.sim_time_s:.1f} s simulated in {result.wall_time_s:.1f} s"),
         ("speed", f"{result.real_time_factor:.1f} x real time"),
     ]

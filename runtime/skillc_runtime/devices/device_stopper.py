@@ -1,12 +1,30 @@
-"""Brings the devices of a simulated cell to rest, and tells whether they are."""
+"""Brings the devices of a cell to rest, and tells whether they are."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from typing import Protocol
 
-from skillc_runtime.backends.simulation.base import SimulatedBase
-from skillc_runtime.backends.simulation.gripper import ModelledGripper
-from skillc_runtime.control.driver import CompliantArmDriver
+from skillc_runtime.devices.arm_driver import ArmDriver
+from skillc_runtime.devices.base import MobileBase
+from skillc_runtime.devices.gripper import Gripper
+
+
+class StoppableArm(ArmDriver, Protocol):
+    """An arm's driver with what its cell needs."""
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether reference and joints are at rest and no skill pushes."""
+        ...
+
+    def abort(self, reason: str) -> None:
+        """Stop; the reason is reported as a fault."""
+        ...
+
+    def secure(self) -> bool:
+        """Come to rest, stop pushing and restore all releases; tell whether any were left."""
+        ...
 
 
 class DeviceStopper:
@@ -17,9 +35,9 @@ class DeviceStopper:
 
     def __init__(
         self,
-        arms: Mapping[str, CompliantArmDriver],
-        grippers: Mapping[str, ModelledGripper],
-        bases: Mapping[str, SimulatedBase],
+        arms: Mapping[str, StoppableArm],
+        grippers: Mapping[str, Gripper],
+        bases: Mapping[str, MobileBase],
         names: Mapping[str, str],
     ) -> None:
         self._arms, self._grippers, self._bases, self._names = arms, grippers, bases, names
@@ -27,7 +45,7 @@ class DeviceStopper:
 
     def at_rest(self, devices: Collection[str] | None = None) -> bool:
         """Tell whether arms and bases neither move nor push."""
-        moving: dict[str, CompliantArmDriver | SimulatedBase] = {**self._arms, **self._bases}
+        moving: dict[str, StoppableArm | MobileBase] = {**self._arms, **self._bases}
         return all(
             each.at_rest or name in self.lost for name, each in moving.items() if devices is None or name in devices
         )
