@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from backends.backend import BACKENDS, Backend
-from skillc_runtime.devices.arm import JointPosition, JointVelocity, Mode, ModeRefused, Torque
+from skillc_runtime.devices.arm import ArmLoad, JointPosition, JointVelocity, Mode, ModeRefused, NotOffered, Torque
 from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.segments import MotionLimits
@@ -229,3 +229,70 @@ def test_it_lets_go_when_it_stops_in_contact(backend: Backend) -> None:
     assert mean_force(backend, 0.05) < 10.0 / 3
     assert not backend.driver.compliance.commanded_wrench.any()
     assert backend.driver.compliance.commanded_stiffness.all()
+
+
+def test_its_own_model_has_the_flange_where_it_is(backend: Backend) -> None:
+    """The tool stays where it was in the flange, however the joints move; an arm without a model of its own says so."""
+    state = backend.arm.state()
+    flange = backend.arm.flange_at(state.q)
+    if flange is None:
+        return
+    in_flange = flange.inverse() @ state.tool
+    go(backend, beside(backend, 0.0, 0.04, 0.03), 1.5)
+    with backend.at_once():
+        state = backend.arm.state()
+        moved = backend.arm.flange_at(state.q)
+    assert moved is not None
+    assert np.abs(moved.position - flange.position).max() > 0.02
+    expected = moved @ in_flange
+    np.testing.assert_allclose(state.tool.position, expected.position, atol=1e-6)
+    np.testing.assert_allclose(state.tool.rotation, expected.rotation, atol=1e-6)
+
+
+def test_the_tool_centre_point_follows_the_load_and_returns_on_release(backend: Backend) -> None:
+    with backend.at_once():
+        before = backend.arm.state().tool
+        before = Pose(before.position.copy(), before.rotation.copy())
+        down = Pose(np.array([0.0, 0.0, 0.05]), np.eye(3))
+        backend.arm.set_load(ArmLoad(0.2, np.zeros(3), down, down))
+        held = (before.inverse() @ backend.arm.state().tool).position
+        backend.arm.set_load(None)
+        after = backend.arm.state().tool.position.copy()
+    np.testing.assert_allclose(held, down.position, atol=1e-6)
+    np.testing.assert_allclose(after, before.position, atol=1e-6)
+
+
+def test_what_it_measures_is_dated_by_its_own_clock(backend: Backend) -> None:
+    stamps = backend.watch(0.05, lambda: backend.arm.measured_s)
+    known = [each for each in stamps if each is not None]
+    assert len(known) in (0, len(stamps)) and len(stamps) > 3
+    assert known == sorted(known)
+    assert not known or known[-1] > known[0]
+
+
+def test_it_is_tared_in_free_space_or_says_that_it_cannot_be(backend: Backend) -> None:
+    if not backend.arm.capabilities.feels_force:
+        with pytest.raises(NotOffered, match="sensor"):
+            backend.arm.tare()
+        return
+    press(backend, 8.0)
+    with backend.at_once():
+        assert np.linalg.norm(backend.arm.state().wrench[:3]) > 4.0
+        backend.arm.tare()
+        np.testing.assert_allclose(backend.arm.state().wrench, 0.0, atol=1e-9)
+
+
+def test_brakes_hold_it_whatever_is_commanded(backend: Backend) -> None:
+    try:
+        backend.arm.set_brakes(True)
+    except NotOffered:
+        assert not backend.arm.braked
+        return
+    backend.arm.set_brakes(False)
+    go(backend, beside(backend, 0.0, 0.01, 0.0), 0.6)
+    assert backend.driver.motion.done, "released brakes hold nothing"
+    start = backend.arm.state().q.copy()
+    backend.arm.set_brakes(True)
+    go(backend, beside(backend, 0.0, 0.03, 0.0), 0.3)
+    assert backend.arm.braked
+    assert np.abs(backend.arm.state().q - start).max() < 2e-3

@@ -5,7 +5,7 @@ import pytest
 from cells import ARM, GRIPPER, LAB, world
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.arm import Payload
+from skillc_runtime.devices.arm import ArmLoad
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
@@ -47,7 +47,8 @@ def test_a_hanging_mass_that_nobody_announced_pulls_down_and_an_announced_one_do
     name = there.scene.names[GRIPPER[SCENE]]
     palm = there.model.body(f"{name}/palm")
     in_link = Pose.of(there.model.body(f"{name}/palm").pos, there.model.body(f"{name}/palm").quat).apply(palm.ipos)
-    simulated.carry(Payload(2.0, in_link), Pose(np.zeros(3), np.eye(3)))
+    here, centre = Pose(np.zeros(3), np.eye(3)), simulated.fixed_tool.inverse().apply(in_link)
+    simulated.set_load(ArmLoad(2.0, centre, here, here))
     there.advance(0.3)
     np.testing.assert_allclose(driver.measured.wrench, 0.0, atol=0.02)
 

@@ -72,6 +72,23 @@ class ModeRefused(Exception):
     """An arm cannot switch to a mode and stays in its present one; the message says why."""
 
 
+class NotOffered(Exception):
+    """An arm cannot do what is asked for, and stays as it is; the message says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class ArmLoad:
+    """What an arm's hand holds: its mass in kg, with its centre (3,) in m in its own frame, which is at `held`.
+
+    tool: the tool centre point then. Both poses are in the frame of the tool centre point of the empty hand.
+    """
+
+    mass_kg: float
+    centre: Array
+    held: Pose
+    tool: Pose
+
+
 @dataclass(frozen=True, slots=True)
 class ArmLimits:
     """Limits of joints: range (nv, 2) rad, velocity (nv,) rad/s, effort (nv,) N m, acceleration (nv,) rad/s^2.
@@ -98,7 +115,8 @@ class Capabilities:
 class Arm(Protocol):
     """An arm that is read and commanded once a control period; it holds still if commands stop.
 
-    `tests/backends` tests every implementation.
+    A class that is derived from this one has what is implemented here: what an arm may lack. `tests/backends` tests
+    every implementation.
     """
 
     @property
@@ -122,3 +140,33 @@ class Arm(Protocol):
     def command(self, command: Command) -> None:
         """Take a command for the next control period; TypeError for another kind than `interface`."""
         ...
+
+    def set_load(self, load: ArmLoad | None) -> None:
+        """Count this as held from now on, by the next `state` at the latest; None for the empty hand.
+
+        Called on grasp and release. `state` is at the tool centre point of the load, and without its weight.
+        """
+        ...
+
+    @property
+    def measured_s(self) -> float | None:
+        """When the last `state` was measured, in s of the arm's own clock; None if the arm dates nothing."""
+        return None
+
+    def flange_at(self, q: Array) -> Pose | None:
+        """Return the flange in base for joints q (nv,) in rad by the arm's own model; None if it has none."""
+        return None
+
+    def tare(self) -> None:
+        """Let the wrench that is measured now be 0 from now on, while nothing touches the tool; NotOffered."""
+        raise NotOffered("the arm has no sensor that can be tared")
+
+    @property
+    def braked(self) -> bool:
+        """Whether the brakes hold the joints; commands have no effect then."""
+        return False
+
+    def set_brakes(self, on: bool) -> None:
+        """Engage or release the brakes of an arm at rest; NotOffered without any."""
+        if on:
+            raise NotOffered("the arm has no brakes that can be engaged")

@@ -32,7 +32,7 @@ class SimulatedArm(ModelledArm):
         if self._feels_force and gripper is not None:
             time_s, noise = facts.sheet.number("forceTorqueTime"), make_wrist_noise(facts, seed)
             self._wrist = Wrist(model, data, gripper, time_s, self._gain, self._readings, noise)
-            self.carry_nothing()
+            self.set_load(None)
 
     def after_step(self) -> None:
         """Filter the wrist sensor; to be called once per step."""

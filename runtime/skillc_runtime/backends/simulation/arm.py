@@ -23,7 +23,7 @@ from skillc_runtime.backends.simulation.motors import Joints, Motors, ServoGains
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.noise import Noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
-from skillc_runtime.devices.arm import ArmLimits, ArmState, Capabilities, Command, Mode
+from skillc_runtime.devices.arm import Arm, ArmLimits, ArmLoad, ArmState, Capabilities, Command, Mode, NotOffered
 from skillc_runtime.motion.numerics.compiled import bind
 from skillc_runtime.motion.pose import Array, Pose
 
@@ -42,7 +42,7 @@ class Payload:
 NO_PAYLOAD = Payload(0.0, np.zeros(3))
 
 
-class ModelledArm:
+class ModelledArm(Arm):
     """One arm of a cell that is computed from a MuJoCo model, implementing `Arm`; subclasses move it.
 
     It reads positions, motion axes and bias forces in `data`, so it is called after they have been computed. There is
@@ -70,7 +70,8 @@ class ModelledArm:
         q_first = int(model.jnt_qposadr[joints[0]])
         actuator = _actuator_of(joints[0], model)
         self._dofs = slice(first, first + count)
-        self._q, self._dq = data.qpos[q_first : q_first + count], data.qvel[self._dofs]
+        self._q_span = slice(q_first, q_first + count)
+        self._q, self._dq = data.qpos[self._q_span], data.qvel[self._dofs]
         self._bias = data.qfrc_bias[self._dofs]
         self._base = _root_body(model, model.jnt_bodyid[joints[0]], part_name(name, ""))
         self._link = int(model.site_bodyid[model.site(part_name(name, "flange")).id])
@@ -89,6 +90,8 @@ class ModelledArm:
         self._sensing = self._make_sensing()
         self._measure = bind(measure, self._sensing)
         self._speed_noise = noise
+        self._measured_s, self._braked = float(data.time), False
+        self._zero, self._is_tared = np.zeros(6), False
         self._configure(NO_PAYLOAD, self.fixed_tool)
         self._q[:] = start
         self._motors = self._make_motors(facts, slice(actuator, actuator + count), steps_per_command)
@@ -127,26 +130,73 @@ class ModelledArm:
         """Return the present state, in the arm's base frame."""
         noise = self._speed_noise
         self._measure(self._quiet if noise is None else noise.row())
+        self._measured_s = float(self._data.time)
+        if self._is_tared:
+            self._here.wrench[:] -= self._zero_in_base()
         if self._data.time >= self._next_mass_time:
             self._update_mass_matrix()
         return self._state
 
     def command(self, command: Command) -> None:
         """Take a command for the next step; TypeError for another kind than `interface`."""
-        self._motors.command(command)
+        if not self._braked:
+            self._motors.command(command)
 
     def before_step(self) -> None:
         """Set the actuators as commanded, or so that the arm holds still if commands have stopped."""
         self._motors.before_step()
 
-    def carry(self, payload: Payload, tool_in_fixed: Pose) -> None:
-        """Configure a held object: its payload, and the tool centre point in the frame of the gripper's own."""
-        self._configure(payload, self.fixed_tool @ tool_in_fixed)
+    def set_load(self, load: ArmLoad | None) -> None:
+        """Count this as held from now on; None for the empty hand."""
+        if load is None:
+            self._carrying[:] = 0.0
+            self._configure(NO_PAYLOAD, self.fixed_tool)
+        else:
+            payload = Payload(load.mass_kg, (self.fixed_tool @ load.held).apply(load.centre))
+            self._configure(payload, self.fixed_tool @ load.tool)
 
-    def carry_nothing(self) -> None:
-        """Configure the empty gripper."""
-        self._carrying[:] = 0.0
-        self._configure(NO_PAYLOAD, self.fixed_tool)
+    @property
+    def measured_s(self) -> float:
+        """When the last state was measured, in s: the clock of a simulated arm is that of its cell."""
+        return self._measured_s
+
+    def flange_at(self, q: Array) -> Pose:
+        """Return the flange in base for joints q (nv,) in rad."""
+        data = mujoco.MjData(self._model)
+        data.qpos[:] = self._data.qpos
+        data.qpos[self._q_span] = q
+        mujoco.mj_kinematics(self._model, data)
+        link, base = (_live_body(data, body) for body in (self._link, self._base))
+        return base.inverse() @ link @ self._flange
+
+    def tare(self) -> None:
+        """Let the wrench of the force-torque sensor be 0 from now on; NotOffered without one."""
+        if not self._feels_force:
+            raise NotOffered("the arm has no force-torque sensor")
+        wrist = self._hand.in_base[3:6]
+        force, moment = wrist @ self._here.wrench[:3], wrist @ self._here.wrench[3:]
+        self._zero[:3] += force
+        self._zero[3:] += moment + np.cross(self._lever(), force)
+        self._is_tared = True
+
+    @property
+    def braked(self) -> bool:
+        """Whether the arm stands still whatever is commanded."""
+        return self._braked
+
+    def set_brakes(self, on: bool) -> None:
+        """Hold the joints still from now on, or let commands take effect again."""
+        self._braked = on
+
+    def _lever(self) -> Array:
+        """Return the way (3,) in m from the flange to the tool centre point, along the axes of the flange."""
+        at = self._flange.inverse() @ self._tool
+        return at.position
+
+    def _zero_in_base(self) -> Array:
+        """Return the wrench (6,) of the sensor that counts as 0, at the tool centre point, along the base's axes."""
+        wrist, force = self._hand.in_base[3:6], self._zero[:3]
+        return np.concatenate([wrist.T @ force, wrist.T @ (self._zero[3:] - np.cross(self._lever(), force))])
 
     def _make_sensing(self) -> ArmSensing:
         data, hand, here = self._data, self._hand, self._here
@@ -186,7 +236,7 @@ class ModelledArm:
         return Servos(joints, facts.modes, timestep, gains, steps_per_command)
 
     def _configure(self, payload: Payload, tool: Pose) -> None:
-        self.payload, self._next_mass_time = payload, 0.0
+        self.payload, self._tool, self._next_mass_time = payload, tool, 0.0
         self._hand.configure(tool, self._flange.rotation, payload.centre)
         np.multiply(self._model.opt.gravity, -payload.mass_kg, out=self._weight)
 

@@ -7,13 +7,14 @@ from typing import Any
 
 import mujoco
 
-from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
+from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.checkpoint import SavedGrip, SavedGripper, list_numbers, make_pose
 from skillc_runtime.backends.simulation.contact_bits import HANDLE, PAD
 from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
 from skillc_runtime.backends.simulation.gripper_geoms import find_handles, find_pads
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
+from skillc_runtime.devices.arm import ArmLoad
 from skillc_runtime.devices.gripper import CLOSED_FURTHER_M
 from skillc_runtime.devices.ground_truth import HandSample
 from skillc_runtime.motion.pose import Array, Pose
@@ -178,7 +179,7 @@ class ModelledGripper(ABC):
         self.drop()
         if self._holding:
             self._holding = ""
-            self._arm.carry_nothing()
+            self._arm.set_load(None)
 
     def lose(self) -> None:
         """Let what the palm carries go, as `drop`; the fingers close on with their force, which tells of the loss."""
@@ -219,8 +220,8 @@ class ModelledGripper(ABC):
         self._in_tool_centre, self._payload_kg = in_tool_centre, mass_kg
         block = self._model.body(part_name(self._names[thing], "block")).id
         centre = self._pose(block).inverse().apply(self._data.subtree_com[block])
-        payload = Payload(mass_kg, (self._arm.fixed_tool @ in_tool_centre).apply(centre))
-        self._arm.carry(payload, in_tool_centre @ working_face(self._things[thing].size))
+        tool = in_tool_centre @ working_face(self._things[thing].size)
+        self._arm.set_load(ArmLoad(mass_kg, centre, in_tool_centre, tool))
 
     def _has_closed_further(self) -> bool:
         """Whether the fingers have closed so far since they took hold that what they held is not between them."""
