@@ -16,7 +16,8 @@ class LiveArm:
     """An arm with `joints` joints, in its base frame, whose pose in the world `base` returns.
 
     measured (2, joints): angles in rad, speeds in rad/s. wrench (6,): N and N m, on the tool, by a force-torque
-    sensor; None without one. reference (8, 3): the rows of `Reference`; NaN while the joints are controlled.
+    sensor; None without one. reference (8, 3): the rows of `Reference`; NaN while the joints are controlled. stamp
+    (1,): when that was measured, in s of the arm's own clock; None if it has none but the cell's.
     """
 
     individual: str
@@ -25,6 +26,7 @@ class LiveArm:
     wrench: ReadBytes | None
     reference: ReadBytes
     base: Callable[[], Pose]
+    stamp: ReadBytes | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,16 +49,25 @@ class LiveBodies:
     quaternions: ReadBytes
 
 
+def _read_nothing() -> bytes:
+    return b""
+
+
+NO_SENSORS, NO_BODIES = LiveSensors(0, _read_nothing, ()), LiveBodies(_read_nothing, _read_nothing)
+"""What a real cell has of the sensors and the model of a simulation."""
+
+
 @dataclass(frozen=True, slots=True)
 class LiveSignals:
     """What a cell offers: the time in s, arms in order of IRI, sensors, bodies; `listeners` are called in each period.
 
-    `period_s` is the control period. Listeners are called after the controllers; they must neither wait nor raise.
+    `period_s` is the control period; that of a device with its own time may vary. Listeners are called after the
+    controllers; they must neither wait nor raise.
     """
 
     period_s: float
     now: Callable[[], float]
     arms: Sequence[LiveArm]
-    sensors: LiveSensors
-    bodies: LiveBodies
+    sensors: LiveSensors = NO_SENSORS
+    bodies: LiveBodies = NO_BODIES
     listeners: list[Callable[[], None]] = field(default_factory=list)

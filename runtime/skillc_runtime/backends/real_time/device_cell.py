@@ -13,10 +13,12 @@ from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.backend import Backend, BackendBroken, DeviceStop, StopPersists
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.camera import PoseCamera
+from skillc_runtime.devices.capabilities import BackendCapabilities
 from skillc_runtime.devices.cell import Cell, Watchdog
 from skillc_runtime.devices.device_map import DeviceMap, NoSuchDevice
 from skillc_runtime.devices.device_stopper import DeviceStopper, StoppableArm
 from skillc_runtime.devices.gripper import Gripper
+from skillc_runtime.devices.live import LiveSignals
 from skillc_runtime.devices.sensors import Button, Camera
 from skillc_runtime.world.state.model import WorldModel
 
@@ -36,6 +38,7 @@ DRIVER_PARTS = ("measured", "motion", "compliance")
 class CellDevices:
     """The devices of a cell, by IRI; each is called by one thread at a time.
 
+    `live` is what is recorded of them in each period, by whoever calls its listeners; None for nothing.
     `find_fault` returns why a device cannot go on, for example because it does not answer; None while all can. `close`
     gives the devices back.
     """
@@ -46,6 +49,7 @@ class CellDevices:
     cameras: Mapping[str, PoseCamera] = field(default_factory=dict)
     buttons: Mapping[str, Button] = field(default_factory=dict)
     inspection: Camera | None = None
+    live: LiveSignals | None = None
     find_fault: Callable[[], str | None] = lambda: None
     close: Callable[[], None] = lambda: None
 
@@ -67,6 +71,7 @@ class DeviceCell(Backend, Cell):
         self._bases = DeviceMap("mobile base", devices.bases, names)
         self._cameras = DeviceMap("camera", devices.cameras, names)
         self._buttons = DeviceMap("button", devices.buttons, names)
+        self._capabilities = BackendCapabilities(live=devices.live)
         self._stopper = DeviceStopper(devices.arms, devices.grippers, devices.bases, names)
         self._turn, self._closing = CellLock(), Event()
         self._began = self._due = monotonic()
@@ -77,6 +82,11 @@ class DeviceCell(Backend, Cell):
         self._watchdog: Watchdog = locked(self._heartbeats, self._turn)
         self._thread = Thread(target=self._watch, name="watch devices", daemon=True)
         self._thread.start()
+
+    @property
+    def capabilities(self) -> BackendCapabilities:
+        """What it offers besides running its devices."""
+        return self._capabilities
 
     @property
     def now(self) -> float:
@@ -121,7 +131,7 @@ class DeviceCell(Backend, Cell):
     def clear(self) -> None:
         """Forget a fault, because somebody has acknowledged it; StopPersists, and nothing has changed."""
         with self._turn:
-            if (fault := self._devices.find_fault()) is not None:
+            if (fault := self._find_fault()) is not None:
                 raise StopPersists(fault)
             self._fault = None
 
@@ -191,6 +201,13 @@ class DeviceCell(Backend, Cell):
             with self._turn:
                 if self._heartbeats.expired(self.now):
                     self._stopper.abort("the tree is not ticked any more")
-                if self._fault is None and (fault := self._devices.find_fault()) is not None:
+                if self._fault is None and (fault := self._find_fault()) is not None:
                     self._fault, self._is_told = fault, False
                     self._stopper.abort(fault)
+
+    def _find_fault(self) -> str | None:
+        """Return why a device cannot go on; a look that fails is a fault as well, since nobody else would notice."""
+        try:
+            return self._devices.find_fault()
+        except Exception as error:  # noqa: BLE001  the boundary to the devices
+            return f"the look at the devices has failed: {error!r}"

@@ -78,6 +78,14 @@ class SignalTap:
     def _begin_block(self) -> None:
         self._content, self._poses, self._due = bytearray(), [], 0
 
+    def _expect(self) -> float:
+        """Return when the next sample of the block is due, in s; the present time without a block.
+
+        The samples of a block are a period apart: where a device with its own time gets away from that, another begins.
+        """
+        rows = len(self._content) // self._row_bytes
+        return self._first_s + rows * self._live.period_s if rows else self._live.now()
+
     def _sample(self) -> None:
         """Copy what is there in one control period; this is all that most periods cost."""
         if not self._due:
@@ -92,6 +100,8 @@ class SignalTap:
         if len(self._content) >= BLOCK_ROWS * self._row_bytes:
             self.flush()
         now, bodies = self._live.now(), self._live.bodies
+        if abs(now - self._expect()) > self._live.period_s / 2:
+            self.flush()
         if not self._content:
             self._first_s = now
         self._due = self._per_pose
@@ -153,10 +163,12 @@ def _reads(arm: LiveArm) -> Iterator[Callable[[], bytes]]:
     yield arm.reference
     if arm.wrench is not None:
         yield arm.wrench
+    if arm.stamp is not None:
+        yield arm.stamp
 
 
 def _width(arm: LiveArm) -> int:
-    return 2 * arm.joints + 24 + (0 if arm.wrench is None else 6)
+    return 2 * arm.joints + 24 + (0 if arm.wrench is None else 6) + (arm.stamp is not None)
 
 
 def _convert_arm(arm: LiveArm, base: Pose, content: Array) -> Iterator[Array]:
@@ -165,7 +177,9 @@ def _convert_arm(arm: LiveArm, base: Pose, content: Array) -> Iterator[Array]:
     yield content[:, :joints]
     yield content[:, joints : joints + 3] @ base.rotation.T + base.position
     if arm.wrench is not None:
-        yield (content[:, joints + 24 :].reshape(-1, 2, 3) @ base.rotation.T).reshape(-1, 6)
+        yield (content[:, joints + 24 : joints + 30].reshape(-1, 2, 3) @ base.rotation.T).reshape(-1, 6)
+    if arm.stamp is not None:
+        yield content[:, -1:]
 
 
 def _describe_arm(columns: Columns, arm: LiveArm) -> Iterator[Signal]:
@@ -178,6 +192,8 @@ def _describe_arm(columns: Columns, arm: LiveArm) -> Iterator[Signal]:
         what = "on the tool, by the force-torque sensor"
         yield from columns.make("sensor", [f"force_{axis}" for axis in XYZ], "N", WORLD, f"force {what}")
         yield from columns.make("sensor", [f"torque_{axis}" for axis in XYZ], "N m", WORLD, f"torque {what}")
+    if arm.stamp is not None:
+        yield from columns.make("sensor", ["measured"], "s", "", "when that was measured, by the arm's own clock")
 
 
 def _describe_tool(columns: Columns) -> Iterator[Signal]:
