@@ -92,15 +92,23 @@ def _name(kind: Any, complete: bool = False) -> str:
     if kind in PLAIN:
         return PLAIN[kind]
     assert is_dataclass(kind) or issubclass(kind, msgspec.Struct), kind
-    schema = f'Schemas["{_find_component(kind)}"]'
+    schema = f'Schemas["{_name_components()[kind]}"]'
     return f"Required<{schema}>" if complete and not _omits_defaults(kind) else schema
 
 
 @cache
-def _find_component(kind: type) -> str:
-    """Return the name of a struct in the OpenAPI document, where two may have the same name in Python."""
-    schemas, _ = msgspec.json.schema_components((*TYPES, kind), ref_template="{name}")
-    return str(schemas[-1]["$ref"])
+def _name_components() -> dict[type, str]:
+    """Return the names of structs in the OpenAPI document, where two may have the same name in Python."""
+    kinds = tuple({each for kind in TYPES for each in _list_structs(kind)})
+    schemas, _ = msgspec.json.schema_components((*TYPES, *kinds), ref_template="{name}")
+    return {kind: str(schema["$ref"]) for kind, schema in zip(kinds, schemas[len(TYPES) :], strict=True)}
+
+
+def _list_structs(kind: Any) -> Iterator[type]:
+    if is_dataclass(kind) or (isinstance(kind, type) and issubclass(kind, msgspec.Struct)):
+        yield kind
+    for each in get_args(kind):
+        yield from _list_structs(each)
 
 
 def _omits_defaults(kind: type) -> bool:
