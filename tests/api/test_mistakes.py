@@ -39,7 +39,7 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     "task and goal": (lambda: skillc.plan("contact:press_button", goal="x"), "cannot be used with"),
     "number for a task": (lambda: skillc.run(42), "the task must be a text, not 42"),  # type: ignore[arg-type]
     "nothing": (lambda: skillc.run(), "name either a TASK"),
-    "wrong seed": (lambda: skillc.run("contact:press_button", seed=1.5), "the seed must be a whole number"),  # type: ignore[arg-type]
+    "wrong seed": (lambda: skillc.run("contact:press_button", seed=1.5), "`seed` must be a whole number"),  # type: ignore[arg-type]
     "wrong backend": (lambda: skillc.run("contact:press_button", backend="real"), 'the backend must be "mujoco"'),  # type: ignore[arg-type]
     "wrong pace": (lambda: skillc.start("contact:press_button", pace="slow"), "`slow` is no pace"),
     "wrong folder": (lambda: skillc.run("contact:press_button", out="broken.skill"), "cannot write to"),
@@ -59,6 +59,11 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         lambda: skillc.run("contact:press_button", signals="xml", out="o"),  # type: ignore[arg-type]
         '`signals` must be "csv" or "parquet"',
     ),
+    "places in one text": (
+        lambda: skillc.start("contact:press_button", breakpoints="Press"),
+        "`breakpoints` must be a sequence of texts",
+    ),
+    "no flag": (lambda: skillc.run("contact:press_button", film="no"), "`film` must be True or False"),  # type: ignore[arg-type]
     "minimise": (lambda: skillc.plan("contact:press_button", minimise="time"), '"work" or "makespan"'),  # type: ignore[arg-type]
 }
 

@@ -12,8 +12,9 @@ from random_cells.writing import TASK, write_cell
 from skillc.services.cell_checks.checks import check_cell
 from skillc.services.cell_checks.postures import read_hand_reaches
 from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import TaskRequest, load_task
+from skillc.services.task_loading import load_task
 from skillc_runtime.motion.pose import Pose
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.frames import relocation_changes
@@ -79,5 +80,5 @@ def test_nothing_is_out_of_reach_in_a_cell_that_can_be_solved(seed: int, tmp_pat
     case = draw_case(seed)
     assert case.trouble == "none"
     write_cell(case.believed, tmp_path)
-    with load_task(TaskRequest(f"{tmp_path}:{TASK}"), SilentReporter()) as task:
+    with load_task(RunSpec(task=f"{tmp_path}:{TASK}"), SilentReporter()) as task:
         assert found(task.assignment.state) == []

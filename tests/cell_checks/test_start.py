@@ -67,7 +67,7 @@ def test_a_task_that_does_not_use_it_runs_with_a_warning(tmp_path: Path) -> None
 def test_a_device_that_the_cell_does_not_have_is_named(tmp_path: Path) -> None:
     spare = "lab:Spare a skillc:WsgGripper ; skillc:hasSheet skillc:wsg50-sheet .\n"
     (tmp_path / "cell.ttl").write_text(str(random_cell(Random(0))) + spare, "utf-8")
-    arguments = ["--scene", str(tmp_path / "cell.ttl"), "--skill", "ActuateGripper(gripper: lab:Spare, opening: 2 cm)"]
+    arguments = ["--scene", str(tmp_path / "cell.ttl"), "--call", "ActuateGripper(gripper: lab:Spare, opening: 2 cm)"]
     result = CliRunner().invoke(skillc, ["run", *arguments, "--backend", "kinematic", "--json"])
     answer = json.loads(result.stdout)
     assert answer["status"] == "failed"

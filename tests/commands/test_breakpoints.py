@@ -1,4 +1,4 @@
-"""What `--pause-at` takes: skills of the library, and lines with a call; anything else is refused with what is near."""
+"""What `--breakpoints` takes: skills of the library, and lines with a call; others are refused with what is near."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ def test_a_shell_completes_commands_tasks_and_diagnostics(shell: str, tmp_path: 
     assert any(each.startswith("trials") for each in complete(shell, "skillc tri", tmp_path))
     tasks = complete(shell, "skillc run clean_t", tmp_path)
     assert [each.replace(":", "\t").split("\t")[0] for each in tasks] == ["clean_table"]
-    assert "--pause-at" in "\n".join(complete(shell, "skillc run --pau", tmp_path))
+    assert "--breakpoints" in "\n".join(complete(shell, "skillc run --break", tmp_path))
     assert complete(shell, "skillc explain unknown-cl", tmp_path)[0].startswith("unknown-class")
 
 

@@ -20,10 +20,11 @@ from docs.pages import ROOT
 from operating.monitors import Monitor
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import TaskRequest, load_task
+from skillc.services.task_loading import load_task
 from skillc_runtime.film.film import FILM
 from skillc_runtime.film.picture_files import LOOP_EVERY, LoopPictures
 from skillc_runtime.film.rendering import Picture
+from skillc_runtime.recording.run_spec import RunSpec
 
 PICTURES, RUNS = ROOT / "docs/pictures", ROOT / "out/pictures"
 SIZE, QUALITY = (960, 540), 88
@@ -81,8 +82,8 @@ def read_film(task: str) -> Sequence[Picture]:
     """Return the pictures of the film of a task, which runs if it has not yet."""
     folder = RUNS / task.replace(":", "_")
     if not (folder / FILM).exists():
-        with load_task(TaskRequest(task).with_defaults(), SilentReporter()) as loaded:
-            run_task(loaded, RunOptions(folder), Monitor(), SilentReporter())
+        with load_task(RunSpec(task=task), SilentReporter()) as loaded:
+            run_task(loaded, RunOptions(RunSpec(out=str(folder))), Monitor(), SilentReporter())
     with av.open(str(folder / FILM)) as film:
         return [frame.to_ndarray(format="rgb24") for frame in film.decode(video=0)]
 

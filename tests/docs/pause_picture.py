@@ -16,11 +16,12 @@ from skillc.cli.run_display import compose_display
 from skillc.cli.run_view import view_run
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import TaskRequest, load_task
+from skillc.services.task_loading import load_task
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.commands import Command, Pause, Stop
 from skillc_runtime.recording.events import StateChanged
+from skillc_runtime.recording.run_spec import RunSpec
 
 PICTURE = ROOT / "docs/pictures/paused.svg"
 TASK, WIDTH, PRESSED_S, PAUSED_S = "clean_desk", 92, 16.0, 1.0
@@ -43,7 +44,7 @@ def draw() -> str:
         return ()
 
     monitor = Monitor(pause_in_contact)
-    with load_task(TaskRequest(TASK), SilentReporter()) as task:
+    with load_task(RunSpec(task=TASK), SilentReporter()) as task:
         run_task(task, RunOptions(), monitor, SilentReporter())
     return render(lines)
 

@@ -9,12 +9,13 @@ from types import ModuleType
 import pytest
 
 from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import LoadedTask, TaskRequest, load_task
+from skillc.services.task_loading import LoadedTask, load_task
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import Plan, Solved
 from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
+from skillc_runtime.recording.run_spec import RunSpec
 
 pytestmark = pytest.mark.reasoner
 
@@ -29,7 +30,7 @@ def unified() -> ModuleType:
 
 @cache
 def loaded(task: str) -> LoadedTask:
-    with load_task(TaskRequest(task), SilentReporter()) as found:
+    with load_task(RunSpec(task=task), SilentReporter()) as found:
         return found
 
 

@@ -15,13 +15,14 @@ import numpy as np
 from ends.breaking import FOR_EVER_S, Swinging
 from skillc.services.recorded_run import RecordedRun, RecordingOptions, recorded_run
 from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import LoadedTask, TaskRequest, load_task
+from skillc.services.task_loading import LoadedTask, load_task
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.real_time.cell import RealTimeCell
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.execution.assignment import PreparedTask, prepare_task
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.events import FORMAT, TaskStarted
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.model import WorldModel
 
 LIBRARY = Path(__file__).with_name("blocking.skill")
@@ -68,7 +69,7 @@ def only_swing(cell: RealTimeCell, run: RecordedRun) -> None:
 
 
 def main(folder: Path, timeout_s: float, how: str) -> None:
-    request = TaskRequest(f"{LIBRARY}:{'sleep' if how == 'alive' else how}")
+    request = RunSpec(task=f"{LIBRARY}:{'sleep' if how == 'alive' else how}")
     options = RecordingOptions(folder, timeout_s)
     with (
         load_task(request, SilentReporter()) as task,

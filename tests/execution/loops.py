@@ -20,7 +20,7 @@ from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import Event, StateChanged, TaskEnded
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 from tree.library import Library, world
 from tree.stage import Script, Stage
 
@@ -153,7 +153,7 @@ class Watched:
 
 
 def submit(
-    loop: CellLoop, assignment: Assignment, settings: RunSettings | None = None, gate: Gate | None = None
+    loop: CellLoop, assignment: Assignment, settings: RunSpec | None = None, gate: Gate | None = None
 ) -> Watched:
     """Submit a run to a loop."""
     events: list[Event] = []
@@ -162,7 +162,7 @@ def submit(
 
 def staged(
     body: tree.Node,
-    settings: RunSettings | None = None,
+    settings: RunSpec | None = None,
     *,
     library: Library | None = None,
     looks: tuple[int, ...] = (),

@@ -24,7 +24,7 @@ from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import Event, NodeEnded, Requested, StateChanged, TaskEnded, WorldChanged
 from skillc_runtime.recording.publisher import Publisher
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty
 from tree.library import FLAGS, ON
 from tree.strategies import Play, plays
@@ -62,17 +62,17 @@ class Drawn:
     """A task, how it is run, and what is requested before which tick of the driver."""
 
     play: Play
-    settings: RunSettings
+    settings: RunSpec
     looks: int
     breakpoints: tuple[str, ...]
     requests: tuple[tuple[int, Command], ...]
 
 
 SETTINGS = st.builds(
-    RunSettings,
-    st.booleans(),
-    st.sampled_from((None, None, 0.3, 2.0)),
-    st.booleans(),
+    RunSpec,
+    approve=st.booleans(),
+    deadline_s=st.sampled_from((None, None, 0.3, 2.0)),
+    ask_after_failure=st.booleans(),
     step_deadline_s=st.sampled_from((None, None, None, 0.1)),
 )
 TICKS = st.one_of(st.integers(0, 20), st.integers(0, 300))
@@ -113,7 +113,7 @@ def drive(
     ran: Ran,
     loop: CellLoop,
     assignment: Assignment,
-    settings: RunSettings,
+    settings: RunSpec,
     gate: Gate,
     requests: Sequence[tuple[int, Command]],
     most_ticks: int,

@@ -10,7 +10,7 @@ from execution.loops import StagedCell, Watched, staged
 from skillc_model import tree
 from skillc_model.conditions import Literal
 from skillc_runtime.execution.attempt import TICK_S
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 from tree.library import here
 
 LATE = {
@@ -27,7 +27,7 @@ def waiting(ticks: int, limit: str, limit_ticks: int, since: float) -> tuple[Sta
     settings: dict[str, Any] = {} if limit == "timeout" else {limit: limit_s}
     if limit == "timeout":
         wait = tree.Timeout(seconds=Literal(limit_s), child=wait, source=here())
-    return staged(wait, RunSettings(**settings), since_s=since)
+    return staged(wait, RunSpec(**settings), since_s=since)
 
 
 @pytest.mark.parametrize("limit", LATE)

@@ -10,11 +10,11 @@ from plans.depot import contain, iri, library
 from skillc_runtime.execution.conclusion import MAX_ATTEMPTS
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import PlanArrived, Replanned, WorldChanged
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.changes import RemoveRelation
 from skillc_runtime.world.state.labelling import label_change
 
-ASKING = RunSettings(ask_after_failure=True)
+ASKING = RunSpec(ask_after_failure=True)
 
 
 def test_a_plan_that_the_world_has_outrun_is_made_again() -> None:
@@ -40,7 +40,7 @@ def test_a_world_that_never_rests_ends_the_planning() -> None:
 
 def test_a_plan_that_waits_for_approval_is_checked_again_when_it_begins() -> None:
     yard = Yard({"carl": "c"}, {"crate": "a"})
-    run = yard.submit(CRATE_TO_B, RunSettings(approve=True)).until("planned")
+    run = yard.submit(CRATE_TO_B, RunSpec(approve=True)).until("planned")
     yard.move("crate", "a", "d")
     run.request(commands.Approve())
     run.until("planned")
@@ -50,7 +50,7 @@ def test_a_plan_that_waits_for_approval_is_checked_again_when_it_begins() -> Non
 
 def test_a_planned_task_is_planned_again_on_request() -> None:
     yard = Yard({"carl": "c"}, {"crate": "a"})
-    run = yard.submit(CRATE_TO_B, RunSettings(approve=True)).until("planned")
+    run = yard.submit(CRATE_TO_B, RunSpec(approve=True)).until("planned")
     assert run.request(commands.Replan()) is None
     assert run.until("planned").told(PlanArrived)[1].plan == run.told(PlanArrived)[0].plan
     assert len(run.told(PlanArrived)) == 2

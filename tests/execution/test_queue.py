@@ -13,7 +13,7 @@ from skillc_runtime.execution.assignment import NotStarted
 from skillc_runtime.execution.device_claims import DeviceClaims
 from skillc_runtime.execution.planning_queue import PlanningQueue
 from skillc_runtime.recording import commands
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 from tree.library import act
 from tree.stage import Script
 
@@ -101,7 +101,7 @@ def test_only_so_many_planners_run_at_once() -> None:
     loop.close("another planner")
     loop.start_preparation = PlanningQueue(start, limit=1)  # type: ignore[arg-type]
     runs = {
-        name: loop.submit(replace(first.run.assignment, name=name), settings=RunSettings(priority=priority))
+        name: loop.submit(replace(first.run.assignment, name=name), spec=RunSpec(priority=priority))
         for name, priority in (("a", 0), ("b", 0), ("c", 5), ("d", 0))
     }
     loop.tick()

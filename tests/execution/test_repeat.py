@@ -17,7 +17,7 @@ from skillc_runtime.execution.repeat import Difference, NotRepeatable, Repetitio
 from skillc_runtime.execution.task_state import RefusedCommand
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import Event, NodeEnded, PlanArrived, Requested, TaskStarted
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 
 RUNS = int(os.environ.get("SKILLC_RUNS", "60"))
 QUIET = (HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much)
@@ -55,7 +55,7 @@ def carried(crates: str = "a") -> Yard:
 
 def recording() -> list[Event]:
     """Return the events of a run that was paused, stepped, replanned, failed, and was retried."""
-    run = carried().submit(CRATE_TO_B, RunSettings(ask_after_failure=True, deadline_s=60.0), looks=(7, 3))
+    run = carried().submit(CRATE_TO_B, RunSpec(ask_after_failure=True, deadline_s=60.0), looks=(7, 3))
     run.until("running")
     refusals: list[RefusedCommand | None] = []
     for command, state in (

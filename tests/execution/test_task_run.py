@@ -25,7 +25,7 @@ from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import Note, Requested, TaskEnded, WorldChanged
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty, LabelledRelation
 from tree.library import FLAGS, ON, Library, act, call, here, is_on, seq, with_
@@ -93,7 +93,7 @@ def test_the_end_of_the_program_ends_each_state_at_once(state: str) -> None:
 @pytest.mark.parametrize("state", [each for each in WAYS if each not in ("queued", "planning", "succeeded")])
 def test_the_deadline_ends_each_state_in_which_time_goes_on(state: str) -> None:
     cell, watched = WAYS[state]()
-    watched.run.settings = RunSettings(deadline_s=1.0)
+    watched.run.spec = RunSpec(deadline_s=1.0)
     ends = "stopped" if state == "stopping" else "failed"
     assert watched.until_end() == ends
     if ends == "failed":
@@ -112,7 +112,7 @@ def test_the_deadline_ends_each_state_in_which_time_goes_on(state: str) -> None:
     ],
 )
 def test_a_step_ends_at_its_deadline_without_the_time_that_it_was_paused(body: tree.Node, name: str) -> None:
-    cell, watched = staged(body, RunSettings(step_deadline_s=1.0), a=LONG)
+    cell, watched = staged(body, RunSpec(step_deadline_s=1.0), a=LONG)
     watched.until("running").request(commands.Pause())
     watched.until("paused")
     for _ in range(300):
@@ -128,7 +128,7 @@ def test_a_step_ends_at_its_deadline_without_the_time_that_it_was_paused(body: t
 def test_each_step_has_the_time_of_a_deadline() -> None:
     slow = Script(ticks=80)
     body = seq(act("a"), tree.Wait(Literal(0.8), here()), act("b"))
-    cell, watched = staged(body, RunSettings(step_deadline_s=1.0), a=slow, b=slow)
+    cell, watched = staged(body, RunSpec(step_deadline_s=1.0), a=slow, b=slow)
     assert watched.until_end() == "succeeded" and cell.now > 2.0
 
 

@@ -10,7 +10,7 @@ from skillc_runtime.execution.task_state import TRANSITIONS
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import TaskEnded
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty
 from tree.library import ON, Library, act, call, here
 from tree.stage import Script
@@ -19,8 +19,8 @@ LONG = Script(ticks=500)
 SHORT = Script(ticks=5)
 FAILS = Script("fail", ticks=5)
 
-APPROVED = RunSettings(approve=True)
-ASKING = RunSettings(ask_after_failure=True)
+APPROVED = RunSpec(approve=True)
+ASKING = RunSpec(ask_after_failure=True)
 NO_EDIT = commands.EditWorld((), "to see what happens", who="somebody")
 EVERY: tuple[Command, ...] = (
     commands.Approve(),

@@ -8,7 +8,7 @@ from execution.loops import LatePlanner, Watched, submit
 from plans.depot import Depot, contain, goal, iri, library, world
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment
 from skillc_runtime.execution.cell_loop import CellLoop
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.changes import RemoveRelation
 from skillc_runtime.world.state.model import WorldModel
 
@@ -28,7 +28,7 @@ class Yard:
         self.planner = LatePlanner(library())
         self.loop = CellLoop(self.depot, library(), self.planner)  # type: ignore[arg-type]
 
-    def submit(self, text: str, settings: RunSettings | None = None, looks: tuple[int, ...] = ()) -> Watched:
+    def submit(self, text: str, settings: RunSpec | None = None, looks: tuple[int, ...] = ()) -> Watched:
         self.planner.looks.extend(looks)
         state = self.depot.world.snapshot()
         return submit(self.loop, Assignment(text, state, AchieveGoal(goal(text, state))), settings)

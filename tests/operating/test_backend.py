@@ -8,10 +8,10 @@ from operating.monitors import Monitor
 from skillc.services.backends import BackendName
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import TaskRequest, load_task
-from skillc_ontology import catalogue
+from skillc.services.task_loading import load_task
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import TaskStarted
+from skillc_runtime.recording.run_spec import RunSpec
 
 PICK = "Pick(arm: lab:Iiwa-1, object: lab:Eraser-1)"
 
@@ -20,9 +20,10 @@ PICK = "Pick(arm: lab:Iiwa-1, object: lab:Eraser-1)"
     ("backend", "verified"), [pytest.param("mujoco", True, marks=pytest.mark.sim), ("kinematic", False)]
 )
 def test_a_grasp_is_verified_with_physics_only(backend: BackendName, verified: bool) -> None:
-    request, envelopes = TaskRequest(None, catalogue.scene_path("iiwa_table"), None, PICK), list[Envelope]()
-    with load_task(request, SilentReporter()) as task:
-        options = RunOptions(backend=backend, recorders=(envelopes.append,))
+    spec, envelopes = RunSpec(scene="iiwa_table", call=PICK, backend=backend), list[Envelope]()
+    with load_task(spec, SilentReporter()) as task:
+        options = RunOptions(spec, recorders=(envelopes.append,))
         ran = run_task(task, options, Monitor(), SilentReporter())
     assert (ran.result.status, ran.result.verified) == ("succeeded", verified)
     assert isinstance(started := envelopes[0].event, TaskStarted) and started.backend == backend
+    assert started.settings == spec

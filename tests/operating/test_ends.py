@@ -9,12 +9,13 @@ from pathlib import Path
 import msgspec
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from operating.depot import write_depot
 from operating.monitors import Monitor, Script
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, RunResult, run_task
-from skillc.services.task_loading import TaskRequest, load_task
+from skillc.services.task_loading import load_task
 from skillc_ontology import catalogue
 from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.evaluation.report.result import TaskResult
@@ -23,6 +24,7 @@ from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.commands import Command, Pause, Resume, Stop
 from skillc_runtime.recording.events import Paused, Resumed, TaskEnded, TaskStarted
 from skillc_runtime.recording.reader import TraceReader
+from skillc_runtime.recording.run_spec import RunSpec
 
 LAB = "http://example.org/lab#"
 
@@ -74,20 +76,22 @@ def read_ends(out: Path) -> tuple[TaskResult, TaskEnded, str]:
     return result, last, (out / "report.html").read_text(encoding="utf-8")
 
 
-def run(request: TaskRequest, options: RunOptions, monitor: Monitor) -> RunResult:
-    with load_task(request, SilentReporter()) as loaded:
-        return run_task(loaded, options, monitor, SilentReporter())
+def run(spec: RunSpec, monitor: Monitor, out: Path | None = None) -> RunResult:
+    spec = replace(spec, out=None if out is None else str(out))
+    with load_task(spec, SilentReporter()) as loaded:
+        return run_task(loaded, RunOptions(spec), monitor, SilentReporter())
 
 
-def request_in(folder: Path, call: str | None = None, goal: str | None = None) -> TaskRequest:
+def request_in(folder: Path, call: str | None = None, goal: str | None = None) -> RunSpec:
     write_depot(folder)
-    return TaskRequest(scene=folder / "scene.ttl", call=call, goal=goal, library=folder)
+    return RunSpec(scene=str(folder / "scene.ttl"), call=call, goal=goal, library=str(folder))
 
 
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES)
 def test_result_events_and_report_agree(tmp_path: Path, case: Case) -> None:
-    options, monitor = RunOptions(tmp_path / "out", deadline_s=case.deadline_s), Monitor(case.script)
-    ran = run(request_in(tmp_path, case.call), options, monitor)
+    monitor = Monitor(case.script)
+    spec = replace(request_in(tmp_path, case.call), deadline_s=case.deadline_s)
+    ran = run(spec, monitor, tmp_path / "out")
     result, ended, report = read_ends(tmp_path / "out")
     assert ran.written and result == ran.result
     assert result.status == ended.status == case.status
@@ -100,7 +104,7 @@ def test_result_events_and_report_agree(tmp_path: Path, case: Case) -> None:
 
 
 def test_a_goal_without_a_plan_is_refused_and_the_refusal_is_written(tmp_path: Path) -> None:
-    ran = run(request_in(tmp_path, goal="lab:shelf contain lab:crate"), RunOptions(tmp_path / "out"), Monitor())
+    ran = run(request_in(tmp_path, goal="lab:shelf contain lab:crate"), Monitor(), tmp_path / "out")
     result, ended, report = read_ends(tmp_path / "out")
     assert result == ran.result and (result.status, ended.status) == ("refused", "failed")
     assert ended.failure is not None and ended.failure.kind == "plan"
@@ -114,7 +118,7 @@ def test_a_task_that_is_interrupted_while_its_cell_is_built_is_stopped(tmp_path:
 
     monitor = Monitor()
     monitor.say = interrupt  # type: ignore[method-assign]
-    ran = run(request_in(tmp_path, "Deliver()"), RunOptions(tmp_path / "out"), monitor)
+    ran = run(request_in(tmp_path, "Deliver()"), monitor, tmp_path / "out")
     result, ended, report = read_ends(tmp_path / "out")
     assert result == ran.result and result.status == ended.status == "stopped"
     assert result.failure == "interrupted" and "interrupted" in report
@@ -129,7 +133,7 @@ def test_an_arm_does_not_move_after_a_stop_in_contact(tmp_path: Path) -> None:
         pressing = run.tree is not None and run.tree.is_pressing
         return (Stop("enough"),) if pressing else ()
 
-    ran = run(TaskRequest("clean_desk"), RunOptions(), Monitor(stop_in_contact))
+    ran = run(RunSpec(task="clean_desk"), Monitor(stop_in_contact))
     (cell,) = cells
     assert ran.result.status == "stopped" and ran.result.sim_time_s > 1.0
     before = cell.data.qpos.copy()
@@ -148,8 +152,8 @@ def test_a_simulation_that_diverges_ends_the_task_and_goes_on_no_more(tmp_path: 
         cells[0].push_hand(LAB + "Iiwa-1", np.array([1e14 if now > 0.5 else 0.0, 0.0, 0.0]))
         return ()
 
-    request = TaskRequest(scene=catalogue.scene_path("iiwa_table.ttl"), call="TakePosture(arm: lab:Iiwa-1)")
-    ran = run(request, RunOptions(tmp_path / "out"), Monitor(tear))
+    spec = RunSpec(scene=str(catalogue.scene_path("iiwa_table.ttl")), call="TakePosture(arm: lab:Iiwa-1)")
+    ran = run(spec, Monitor(tear), tmp_path / "out")
     result, ended, report = read_ends(tmp_path / "out")
     assert result == ran.result and result.status == ended.status == "failed"
     assert result.failure is not None and "diverged" in result.failure and "diverged" in report
@@ -166,9 +170,9 @@ def test_a_task_that_is_paused_and_continued_ends_as_if_it_had_not_been(tmp_path
             return (Resume(),) if now - paused[0] > 1.0 else ()
         return (Pause(),) if run.state == "running" and not paused and now >= 0.5 else ()
 
-    plain = run(request_in(tmp_path, "Lift()"), RunOptions(), Monitor()).result
+    plain = run(request_in(tmp_path, "Lift()"), Monitor()).result
     monitor = Monitor(pause_once)
-    result = run(request_in(tmp_path, "Lift()"), RunOptions(), monitor).result
+    result = run(request_in(tmp_path, "Lift()"), monitor).result
     began, ended = (event.time for event in monitor.events if isinstance(event, Paused | Resumed))
     assert result.status == plain.status == "succeeded" and ended - began > 1.0
     assert result.sim_time_s - plain.sim_time_s == pytest.approx(ended - began, abs=5 * TICK_S)

@@ -6,18 +6,20 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from operating.depot import write_depot
 from operating.monitors import Monitor
 from skillc.services.backends import BackendName, make_backend
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import TaskRequest, load_task
+from skillc.services.task_loading import load_task
 from skillc_runtime.execution.repeat import repeat_run
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.commands import Command, Pause, Resume, StepOver
 from skillc_runtime.recording.events import PlanArrived, Requested
 from skillc_runtime.recording.reader import TraceReader
+from skillc_runtime.recording.run_spec import RunSpec
 
 
 class Operator:
@@ -33,17 +35,17 @@ class Operator:
         return ()
 
 
-def check(request: TaskRequest, folder: Path, backend: BackendName, pause_at_s: float) -> None:
+def check(spec: RunSpec, folder: Path, backend: BackendName, pause_at_s: float) -> None:
     """Run a task with an operator, and repeat it from its recording."""
-    with load_task(request, SilentReporter()) as loaded:
-        options = RunOptions(folder, seed=3, backend=backend, film=False)
-        ran = run_task(loaded, options, Monitor(Operator(pause_at_s)), SilentReporter())
+    spec = replace(spec, out=str(folder), seed=3, backend=backend, film=False)
+    with load_task(spec, SilentReporter()) as loaded:
+        ran = run_task(loaded, RunOptions(spec), Monitor(Operator(pause_at_s)), SilentReporter())
     recorded = tuple(TraceReader(folder / "events.jsonl").events)
     assert ran.result.status == "succeeded", ran.result.failure
     asked = [event.command.name for event in recorded if isinstance(event, Requested)]
     assert asked == ["pause", "step-over", "resume"]
     assert any(isinstance(event, PlanArrived) for event in recorded)
-    with load_task(request, SilentReporter()) as loaded:
+    with load_task(spec, SilentReporter()) as loaded:
         repetition = repeat_run(recorded, loaded.library, make_backend(backend, loaded.world, seed=3))
     assert repetition.difference is None, str(repetition.difference)
     assert repetition.events == recorded
@@ -53,11 +55,11 @@ def test_a_recorded_run_without_devices_is_repeated(tmp_path: Path) -> None:
     write_depot(tmp_path)
     library = tmp_path / "depot.skill"
     library.write_text(library.read_text(encoding="utf-8").replace("2000 s", "1 s"), encoding="utf-8")
-    request = TaskRequest(scene=tmp_path / "scene.ttl", call="Deliver()", library=tmp_path)
-    check(request, tmp_path / "out", "mujoco", 0.5)
+    spec = RunSpec(scene=str(tmp_path / "scene.ttl"), call="Deliver()", library=str(tmp_path))
+    check(spec, tmp_path / "out", "mujoco", 0.5)
 
 
 @pytest.mark.sim
 @pytest.mark.parametrize("backend", ["mujoco", "kinematic"])
 def test_a_recorded_run_that_was_paused_while_it_wiped_is_repeated(tmp_path: Path, backend: BackendName) -> None:
-    check(TaskRequest("clean_desk"), tmp_path / "out", backend, 26.0)
+    check(RunSpec(task="clean_desk"), tmp_path / "out", backend, 26.0)

@@ -24,7 +24,7 @@ LIFT, CARRY, LOWER = (f"depot.skill:{line_of(f'    {name}()')}" for name in ("Li
 def command(folder: Path, *options: str, far_s: int = 2000) -> tuple[str, ...]:
     """Return the command that runs the delivery; its recording is written to the folder `out` in a folder."""
     place = write_depot(folder, far_s)
-    given = ("--skill", "Deliver()", "--no-film", "--out", str(folder / "out"))
+    given = ("--call", "Deliver()", "--no-film", "--out", str(folder / "out"))
     return (sys.executable, "-m", "skillc", "run", *place, *given, *options)
 
 
@@ -55,7 +55,7 @@ def test_a_task_is_stepped_paused_and_continued_to_its_end(tmp_path: Path) -> No
 
 
 def test_a_task_pauses_at_breakpoints_and_after_what_is_around_a_call(tmp_path: Path) -> None:
-    places = ("--pause-at", "Lift", "--pause-at", f"depot.skill:{LOWER.partition(':')[2]}")
+    places = ("--breakpoints", "Lift", "--breakpoints", f"depot.skill:{LOWER.partition(':')[2]}")
     with Terminal(command(tmp_path, *places, far_s=20), ENVIRONMENT) as terminal:
         terminal.expect(rf"breakpoint at Lift\s+next  Lift     {LIFT}")
         terminal.type("c")
@@ -132,7 +132,7 @@ def test_a_run_in_the_background_takes_no_keys_from_the_shell(tmp_path: Path) ->
         assert terminal.wait() == 0
 
 
-@pytest.mark.parametrize("option", [("--step",), pytest.param(("--pause-at", "Lift"), marks=pytest.mark.sim)])
+@pytest.mark.parametrize("option", [("--step",), pytest.param(("--breakpoints", "Lift"), marks=pytest.mark.sim)])
 def test_without_a_terminal_nothing_may_pause(tmp_path: Path, option: tuple[str, ...]) -> None:
     done = subprocess.run(command(tmp_path, *option), env=ENVIRONMENT, capture_output=True, text=True, check=False)
     assert done.returncode == 2

@@ -74,12 +74,18 @@ def test_a_goal_uses_the_library_and_scene_of_the_project(project: Path) -> None
 
 def test_goals_and_calls_of_the_manifest_are_tasks(project: Path) -> None:
     keep = '[tasks.keep]\ngoal = "lab:Robotiq-1 contain lab:Eraser-1"\n'
-    text = f'{keep}[tasks.bad]\nskill = "Pick(arm: lab:Iiwa-1, object: lab:Nothing)"\n'
+    text = f'{keep}[tasks.bad]\ncall = "Pick(arm: lab:Iiwa-1, object: lab:Nothing)"\n'
     (project / "skillc.toml").write_text(f"{MANIFEST}{text}", "utf-8")
     assert json.loads(call(project / "notes", "plan", "keep", "--json").stdout)["plan"]
     (found,) = checked(project)
     assert found["line"] == 8 and "lab:Nothing" in found["message"]
     assert call(project, "run", "bad").exit_code == 1
+
+
+def test_a_key_of_an_earlier_version_is_told_how_it_is_called_now(project: Path) -> None:
+    (project / "skillc.toml").write_text(f'{MANIFEST}[tasks.hold]\nskill = "Hold()"\n', "utf-8")
+    (found,) = checked(project)
+    assert found["name"] == "unknown-key" and "it is called `call` now" in str(found)
 
 
 def test_a_task_of_steps_is_listed_with_the_skills_that_it_calls(project: Path) -> None:

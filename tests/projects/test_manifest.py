@@ -34,7 +34,7 @@ MISTAKES = [
     ('name = "sorting"\nscene = "iiwa_tabel.ttl"\n', "wrong-setting", 2, "neither in this project nor shipped"),
     ('name = "sorting"\nontology = ["own"]\n', "wrong-setting", 2, 'there is no folder "own"'),
     ('name = "sorting"\ntask = "hold_erasr"\n', "wrong-setting", 2, "there is no task `hold_erasr`"),
-    ('name = "sorting"\n[tasks.a]\n', "wrong-setting", 2, "needs either a `goal` or a `skill`"),
+    ('name = "sorting"\n[tasks.a]\n', "wrong-setting", 2, "needs either a `goal` or a `call`"),
     (
         'name = "sorting"\n[tasks.a]\nscene = "iiwa_table.ttl"\ngoal = "lab:Tabel-1.isClean == true"\n',
         "unknown-individual",

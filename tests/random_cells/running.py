@@ -15,7 +15,7 @@ from random_cells.writing import TASK, format_scene, write_cell
 from skillc.errors import DiagnosticsError
 from skillc.services.cell_checks.starting import find_start_problem
 from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import LoadedTask, TaskRequest, load_task
+from skillc.services.task_loading import LoadedTask, load_task
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.names import part_name
@@ -23,6 +23,7 @@ from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.execution.assignment import NotStarted, prepare_task
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.failure_text import describe_failure
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -50,7 +51,7 @@ class CaseRunner:
         folder = self.out / f"cell_{seed}"
         write_cell(case.believed, folder)
         try:
-            with load_task(TaskRequest(f"{folder}:{TASK}"), SilentReporter()) as task:
+            with load_task(RunSpec(task=f"{folder}:{TASK}"), SilentReporter()) as task:
                 return self._run(case, folder, task)
         except DiagnosticsError as error:
             return Trial(seed=seed, status="refused", reason="\n".join(each.message for each in error.diagnostics))

@@ -74,7 +74,7 @@ def test_keys_answer(here: RunningServer) -> None:
         assert terminal.wait() == 0
     place = ("--library", str(here.folder), "--scene", str(here.folder / "yard.ttl"), "--backend", "kinematic")
     with Terminal(
-        (sys.executable, "-m", "skillc", "run", *place, "--skill", "Confirm()"), terminal_environment()
+        (sys.executable, "-m", "skillc", "run", *place, "--call", "Confirm()"), terminal_environment()
     ) as run:
         run.expect(r"Is the cart free\?  1 yes  2 no")
         run.type("2")

@@ -185,7 +185,7 @@ async def read_events(address: ServerAddress, operation: str) -> list[Envelope]:
 
 def test_breakpoints_are_changed_from_python(server: RunningServer, connected: skillc.Server) -> None:
     server.put_back()
-    operation = connected.cell().start("carry_two", pause_at=["Load"])
+    operation = connected.cell().start("carry_two", breakpoints=["Load"])
     assert operation.wait_for_pause() == "paused" and operation.breakpoints == ("Load",)
     operation.set_breakpoints("Unload")
     assert operation.breakpoints == ("Unload",)

@@ -259,11 +259,11 @@ def test_breakpoints_are_listed_and_replaced_while_an_operation_goes_on(here: Ru
     name = here.submit(task="carry_two", breakpoints=["Load"])["id"]
     here.wait_for(name, "paused")
     assert type_in("breakpoints", name).stdout == "Load\n"
-    replaced = type_in("breakpoints", "--pause-at", "Unload")
+    replaced = type_in("breakpoints", "--breakpoints", "Unload")
     assert (replaced.exit_code, replaced.stdout) == (0, "Unload\n") and "paused: breakpoint at Load" in replaced.stderr
     assert type_in("resume").exit_code == 0
     assert f"{name}: paused: breakpoint at Unload" in type_in("wait").stderr
-    refused = type_in("breakpoints", "--pause-at", "Unlode")
+    refused = type_in("breakpoints", "--breakpoints", "Unlode")
     assert refused.exit_code == 1 and "breakpoint: there is no skill `Unlode`" in refused.stderr
-    assert type_in("breakpoints", "--pause-at", "Load", "--clear").exit_code == 2
+    assert type_in("breakpoints", "--breakpoints", "Load", "--clear").exit_code == 2
     assert (type_in("breakpoints", "--clear").stdout, type_in("breakpoints").stdout) == ("", "")

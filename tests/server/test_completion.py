@@ -59,7 +59,7 @@ def test_names_of_the_server_are_offered(here: RunningServer) -> None:  # noqa: 
     assert list(offer("trials", "--cell", "yard", "carry", "to=lab:Goal", "")) == ["crate="]
     assert offer("start", "carry", "crate=lab:crate-5") == {"crate=lab:crate-5": "skiros:Product"}
     assert list(offer("start", "carry", "to=")) == ["to=lab:Cart-1", "to=lab:Goal", "to=lab:Start"]
-    assert list(offer("start", "carry_two", "--pause-at", "Un")) == ["Unload"]
+    assert list(offer("start", "carry_two", "--breakpoints", "Un")) == ["Unload"]
     assert offer("world", "--cell", "yard", "--show", "lab:Ca") == {"lab:Cart-1": "lab:Cart"}
     assert offer("world", "--show", "lab:Ca") == {}
     assert type_in("token", "add", "eve", "--role", "view").exit_code == 0

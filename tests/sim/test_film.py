@@ -14,7 +14,7 @@ from skillc_runtime.film.captions import ENDINGS, STRIP_PIXELS
 from skillc_runtime.film.picture_files import LOOP_BYTES
 from skillc_runtime.film.rendering import RenderingError, check_rendering
 
-WORDS = ("run", "--scene", "panda_desk", "--skill", "TakePosture(arm: lab:Panda-1)", "--backend", "kinematic", "--gif")
+WORDS = ("run", "--scene", "panda_desk", "--call", "TakePosture(arm: lab:Panda-1)", "--backend", "kinematic", "--gif")
 
 
 @pytest.mark.sim

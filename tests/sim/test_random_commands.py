@@ -26,7 +26,7 @@ from skillc_runtime.execution.tree.gate import AtSkill, Gate
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import NodeEnded, NodeStarted, Paused
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.model import WorldModel
@@ -99,7 +99,7 @@ def run(number: int) -> Ran:
     cell = SimulatedCell(WorldModel(at_its_tool(task)), number)
     ran = Ran(None, cell, [], Counter())  # type: ignore[arg-type]
     loop = CellLoop(cell, library(), LatePlanner(library(), [random.randint(0, 3)]))
-    settings = RunSettings(ask_after_failure=random.random() < 0.5, deadline_s=random.choice((None, None, 15.0)))
+    settings = RunSpec(ask_after_failure=random.random() < 0.5, deadline_s=random.choice((None, None, 15.0)))
     gate = Gate([AtSkill("Wipe")] if random.random() < 0.3 else [])
     assignment = Assignment(task, cell.world.snapshot(), AchieveGoal(goal))
     drive(ran, loop, assignment, settings, gate, draw_requests(random), MOST_TICKS)

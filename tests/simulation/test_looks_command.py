@@ -27,7 +27,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def run(*words: str) -> Result:
-    return CliRunner().invoke(skillc, ["run", "--scene", "panda_desk", "--skill", PRESENT, *words])
+    return CliRunner().invoke(skillc, ["run", "--scene", "panda_desk", "--call", PRESENT, *words])
 
 
 @pytest.mark.sim

@@ -17,7 +17,7 @@ from operating.monitors import Monitor
 from skillc.cli.main import skillc
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import TaskRequest, load_task
+from skillc.services.task_loading import load_task
 from skillc_model.conditions import And, Compare, Holds, Individual, Literal, Not, PropertyOf
 from skillc_runtime.devices.disturbances import Push
 from skillc_runtime.recording import commands
@@ -31,6 +31,7 @@ from skillc_runtime.recording.events import (
     TaskStarted,
 )
 from skillc_runtime.recording.reasons import ParameterReason
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.signals.files import CsvSink, ParquetSink, write_dictionary
 from skillc_runtime.recording.signals.signal import CLOCK, Signal
 from skillc_runtime.world.state.labelled import LabelledIri
@@ -163,11 +164,11 @@ def test_what_cannot_be_read_is_an_error_of_one_sentence(tmp_path: Path) -> None
 
 @pytest.mark.sim
 def test_signals_of_mcap_files_are_compared(tmp_path: Path) -> None:
-    request = TaskRequest("contact:press_button")
     for seed in (1, 2):
-        with load_task(request, SilentReporter()) as loaded:
-            options = RunOptions(tmp_path / str(seed), seed=seed, backend="kinematic", film=False)
-            run_task(loaded, options, Monitor(lambda run, now: ()), SilentReporter())
+        folder = str(tmp_path / str(seed))
+        spec = RunSpec(task="contact:press_button", out=folder, seed=seed, backend="kinematic", film=False)
+        with load_task(spec, SilentReporter()) as loaded:
+            run_task(loaded, RunOptions(spec), Monitor(lambda run, now: ()), SilentReporter())
     result = diff(tmp_path / "1", tmp_path / "2/recording.mcap", "--json")
     found = json.loads(result.stdout)
     assert result.exit_code == 0 and found["compared"]["signals"] > 20 and not found["notes"]

@@ -9,8 +9,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
-from skillc.services.task_loading import TaskRequest
 from skillc_runtime.film import film
+from skillc_runtime.recording.run_spec import RunSpec
 from why.test_replay_check import edit, record, recorded, run
 
 pytestmark = pytest.mark.slow
@@ -64,7 +64,7 @@ def test_a_file_needs_a_folder_for_its_report(run: Path) -> None:
 def test_figures_are_those_of_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(film, "WIDTH", 640)
     monkeypatch.setattr(film, "HEIGHT", 360)
-    record(TaskRequest("clean_desk"), tmp_path / "run", 26.0, "mujoco")
+    record(RunSpec(task="clean_desk"), tmp_path / "run", 26.0, "mujoco")
     again = tmp_path / "again"
     assert report(tmp_path / "run/recording.mcap", "--out", again).exit_code == 0
     assert read_result(again) == read_result(tmp_path / "run")

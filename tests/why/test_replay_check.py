@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
+from msgspec.structs import replace
 
 from operating.depot import write_depot
 from operating.monitors import Monitor
@@ -17,7 +18,8 @@ from skillc.cli.main import skillc
 from skillc.services.backends import BackendName
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import TaskRequest, load_task
+from skillc.services.task_loading import load_task
+from skillc_runtime.recording.run_spec import RunSpec
 
 pytestmark = pytest.mark.slow
 
@@ -28,11 +30,11 @@ def check(*arguments: object) -> Result:
     return result
 
 
-def record(request: TaskRequest, folder: Path, pause_at_s: float, backend: BackendName = "kinematic") -> None:
+def record(spec: RunSpec, folder: Path, pause_at_s: float, backend: BackendName = "kinematic") -> None:
     """Record a run that is paused, stepped and resumed."""
-    with load_task(request, SilentReporter()) as loaded:
-        options = RunOptions(folder, seed=3, backend=backend, film=False)
-        ran = run_task(loaded, options, Monitor(Operator(pause_at_s)), SilentReporter())
+    spec = replace(spec, out=str(folder), seed=3, backend=backend, film=False)
+    with load_task(spec, SilentReporter()) as loaded:
+        ran = run_task(loaded, RunOptions(spec), Monitor(Operator(pause_at_s)), SilentReporter())
     assert ran.result.status == "succeeded", ran.result.failure
 
 
@@ -40,7 +42,7 @@ def record(request: TaskRequest, folder: Path, pause_at_s: float, backend: Backe
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("depot")
     write_depot(folder, far_s=1)
-    record(TaskRequest(scene=folder / "scene.ttl", call="Deliver()", library=folder), folder / "out", 0.5)
+    record(RunSpec(scene=str(folder / "scene.ttl"), call="Deliver()", library=str(folder)), folder / "out", 0.5)
     return folder
 
 
@@ -111,7 +113,7 @@ def test_a_run_that_was_cut_off_is_repeated_up_to_there(run: Path) -> None:
 
 @pytest.mark.sim
 def test_another_seed_is_found_as_a_difference_of_the_events(tmp_path: Path) -> None:
-    record(TaskRequest("clean_desk"), tmp_path, 26.0, "mujoco")
+    record(RunSpec(task="clean_desk"), tmp_path, 26.0, "mujoco")
     assert check(tmp_path).exit_code == 0
     (tmp_path / "recording.mcap").unlink()
     assert check(tmp_path).exit_code == 0, "with the shipped library and scene"
@@ -132,8 +134,8 @@ def test_another_seed_is_found_as_a_difference_of_the_events(tmp_path: Path) -> 
     ],
 )
 def test_runs_of_other_arms_are_repeated_from_their_recordings(tmp_path: Path, task: str, backend: BackendName) -> None:
-    with load_task(TaskRequest(task), SilentReporter()) as loaded:
-        options = RunOptions(tmp_path, seed=1, backend=backend, film=False)
-        run_task(loaded, options, Monitor(lambda run, now: ()), SilentReporter())
+    spec = RunSpec(task=task, out=str(tmp_path), seed=1, backend=backend, film=False)
+    with load_task(spec, SilentReporter()) as loaded:
+        run_task(loaded, RunOptions(spec), Monitor(lambda run, now: ()), SilentReporter())
     result = check(tmp_path / "recording.mcap")
     assert result.exit_code == 0 and "repeated:" in result.stdout, result.output

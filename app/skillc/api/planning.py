@@ -13,21 +13,21 @@ from skillc.errors import RequestError, ServiceError
 from skillc.services.plan_text import describe_answer, format_plan
 from skillc.services.planning import Answer, plan_goal, prepare_planners
 from skillc.services.schedule_picture import draw_schedule
-from skillc.services.task_loading import LoadedTask, TaskRequest, load_task
+from skillc.services.task_loading import LoadedTask, check_request, fill_in, load_task
 from skillc.values.arguments import (
     AnyPath,
-    optional_path,
     optional_seconds,
-    optional_text,
-    read_arguments,
     require_choice,
 )
 from skillc.values.frames import make_frame, make_table
+from skillc.values.keywords import read_keywords
+from skillc.values.run_keywords import RunKeywords
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import DEADLINE_S
+from skillc_runtime.recording.run_spec import RunSpec
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -133,29 +133,11 @@ def plan(
     has errors, RequestError if what is named does not exist or cannot be planned for.
     """
     with api_call():
-        request = make_request(task, goal, None, scene, library, arguments)
-        request.check(calls=False)
-        with load_task(request, NoticeList()) as loaded:
+        given = {"arguments": arguments, "goal": goal, "scene": scene, "library": library}
+        spec = fill_in(read_keywords(RunSpec, given, RunKeywords, task))
+        check_request(spec, calls=False)
+        with load_task(spec, NoticeList()) as loaded:
             return make_plan(loaded, minimise, prove, deadline_s)
-
-
-def make_request(
-    task: str | None,
-    goal: str | None,
-    skill: str | None,
-    scene: AnyPath | None,
-    library: AnyPath | None,
-    arguments: Mapping[str, Any] | None,
-) -> TaskRequest:
-    """Return the request for a task, or for a goal or call in a scene. RequestError for a value of a wrong type."""
-    return TaskRequest(
-        optional_text(task, "the task"),
-        optional_path(scene, "the scene"),
-        optional_text(goal, "the goal"),
-        optional_text(skill, "the skill call"),
-        optional_path(library, "the library"),
-        arguments=read_arguments(arguments),
-    ).with_defaults()
 
 
 def make_plan(loaded: LoadedTask, minimise: Minimise, prove: bool, deadline_s: float) -> Plan:

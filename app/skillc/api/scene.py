@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Unpack
+
+from msgspec import structs
 
 from skillc.api.boundary import NoticeList, api_call, refusing_values
 from skillc.api.picture import Picture
@@ -22,10 +24,13 @@ from skillc.services.scenes import FactText, OpenScene
 from skillc.services.stores import StoreChoice
 from skillc.services.task_loading import LoadedTask
 from skillc.values.arguments import AnyPath, optional_path, require_path, require_text
+from skillc.values.keywords import read_keywords
+from skillc.values.run_keywords import SceneRunKeywords, SceneStartKeywords
 from skillc_compiler.emit.picture import mermaid, svg
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.types import THING
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.scene.load import load_sheets
 from skillc_runtime.scene.saving import save_scene
 from skillc_runtime.world.state.elements import Element, find_element, find_elements, search_elements
@@ -39,7 +44,6 @@ if TYPE_CHECKING:
 
     from skillc.api.operation import Operation
     from skillc.api.run import Run
-    from skillc.services.backends import BackendName
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,52 +183,35 @@ class Scene:
         with api_call(self._folders):
             return make_plan(self._load(require_text(goal, "the goal"), None), minimise, prove, deadline_s)
 
-    def start(
-        self,
-        goal: str | None = None,
-        *,
-        skill: str | None = None,
-        out: AnyPath | None = None,
-        seed: int = 0,
-        backend: BackendName = "mujoco",
-        deadline_s: float | None = None,
-        pace: float | str = "fast",
-        step: bool = False,
-    ) -> Operation:
+    def start(self, goal: str | None = None, **settings: Unpack[SceneStartKeywords]) -> Operation:
         """Start a goal or a skill call in a copy of the world as it is now; parameters and errors as of `skillc.start`.
 
         The world of this scene stays as it is.
         """
+        return self._start(goal, settings, SceneStartKeywords)
+
+    def run(self, goal: str | None = None, **settings: Unpack[SceneRunKeywords]) -> Run:
+        """Run a goal or a skill call in a copy of the world as it is now, and return how it ended; as `start`."""
+        operation = self._start(goal, settings, SceneRunKeywords)
+        return operation.wait()  # wait ends: with the run, which has a deadline, or by an interrupt
+
+    def _start(self, goal: str | None, settings: Mapping[str, Any], known: type) -> Operation:
         from skillc.api.running import begin_loaded, make_options
 
         with api_call(self._folders):
-            loaded = self._load(goal, skill)
-            options = replace(make_options(out, seed, backend, deadline_s), step=step)
-            operation = begin_loaded(loaded, options, pace)
-        if step:
+            spec = structs.replace(read_keywords(RunSpec, settings, known), goal=goal)
+            loaded = self._load(goal, spec.call)
+            operation = begin_loaded(loaded, make_options(spec))
+        if spec.step:
             operation.wait_for_pause()
         return operation
 
-    def run(
-        self,
-        goal: str | None = None,
-        *,
-        skill: str | None = None,
-        out: AnyPath | None = None,
-        seed: int = 0,
-        backend: BackendName = "mujoco",
-        deadline_s: float | None = None,
-    ) -> Run:
-        """Run a goal or a skill call in a copy of the world as it is now, and return how it ended; as `start`."""
-        operation = self.start(goal, skill=skill, out=out, seed=seed, backend=backend, deadline_s=deadline_s)
-        return operation.wait()  # wait ends: with the run, which has a deadline, or by an interrupt
-
-    def _load(self, goal: str | None, skill: str | None) -> LoadedTask:
-        if (goal is None) == (skill is None):
+    def _load(self, goal: str | None, call: str | None) -> LoadedTask:
+        if (goal is None) == (call is None):
             raise RequestError("name either a goal or a skill call")
         state, library = self.state, self._opened.library
         assignment = (
-            assign_call(require_text(skill, "the skill call"), library, state)
+            assign_call(require_text(call, "the skill call"), library, state)
             if goal is None
             else assign_goal(require_text(goal, "the goal"), library, state)
         )

@@ -32,7 +32,7 @@ from skillc.contract.messages import Edit, Place
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.errors import RequestError
 from skillc.services.backends import DEFAULT_BACKEND
-from skillc.services.breakpoints import parse_breakpoints
+from skillc.services.breakpoints import make_gate, parse_breakpoints
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import Reporter
 from skillc.services.stores import StoreChoice, read_or_fill
@@ -46,12 +46,12 @@ from skillc_runtime.execution.planning_job import PlanningJob
 from skillc_runtime.execution.planning_queue import PlanningQueue
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import prepare_after
-from skillc_runtime.execution.tree.gate import Gate, format_breakpoints
+from skillc_runtime.execution.tree.gate import format_breakpoints
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.recording.commands import Command, SetBreakpoints
 from skillc_runtime.recording.events import Disturbed
 from skillc_runtime.recording.publisher import Publisher
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import specify
 from skillc_runtime.recording.states import ENDS
 from skillc_runtime.store.disk import DiskStore
 from skillc_runtime.world.state.model import WorldModel
@@ -259,12 +259,8 @@ class CellHost:
 
     def _submit(self, operation: str, request: OperationRequest, continuation: Continuation) -> SubmittedOperation:
         """Submit a run to the loop."""
-        gate = Gate(parse_breakpoints(request.breakpoints, self.library))
-        if request.step:
-            gate.step("into", ())
-        settings = RunSettings(
-            request.approve, request.deadline_s, request.ask_after_failure, request.priority, request.step_deadline_s
-        )
+        gate, origin = make_gate(request, self.library), self.loop.origin
+        spec = specify(request, origin.scene, origin.seed, origin.backend)
         prepared, plan = continuation.prepared, self.loop.start_preparation
         start = plan if prepared is None else prepare_after(prepared, plan)
         self._journal.add_operation(operation, request)
@@ -273,7 +269,7 @@ class CellHost:
         self._recordings.note_company(operation)
         recorders = self._recordings.begin(operation, request, self.library, beginning, self.loop.ticks)
         publisher = Publisher(operation, (self._journal.record, *recorders))
-        run = self.loop.submit(continuation.assignment, (publisher,), settings, gate, operation, start)
+        run = self.loop.submit(continuation.assignment, (publisher,), spec, gate, operation, start)
         self._operations[operation] = SubmittedOperation(request, run, publisher, self.library.hash)
         return self._operations[operation]
 

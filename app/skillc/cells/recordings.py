@@ -7,8 +7,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import msgspec
-
 from skillc.cells.recording_files import recording_file
 from skillc.cells.submitted import SubmittedOperation
 from skillc.contract.operation import OperationRequest
@@ -50,8 +48,7 @@ class CellRecordings:
         world = self._devices.backend.cell.world
         start = KnownStart(world.snapshot(), world.ledger.writes, ticks, beginning.checkpoint, beginning.obstacle)
         task = request.task or request.goal or request.call or ""
-        settings = msgspec.to_builtins(request)
-        describe = partial(describe_contents, operation, task, library, start, self._origin, settings, self._sheets)
+        describe = partial(describe_contents, operation, task, library, start, self._origin, request, self._sheets)
         path = recording_file(self._folder, operation)
         try:
             path.parent.mkdir(exist_ok=True)

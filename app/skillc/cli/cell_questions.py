@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, cast
+from typing import TYPE_CHECKING, cast
 
 import click
 import msgspec
@@ -17,30 +17,24 @@ if TYPE_CHECKING:
     from skillc.contract.world import WorldFact, WorldFormat, WorldWrite
     from skillc_runtime.evaluation.trials.series import Series
     from skillc_runtime.evaluation.trials.trial import Disturbance
+    from skillc_runtime.recording.run_spec import RunSpec
 
 NS = 1e9
 
 
-def plan(
-    task: str | None,
-    arguments: dict[str, str],
-    goal: str | None,
-    minimise: str,
-    prove: bool,
-    deadline_s: float,
-    as_json: bool,
-) -> int:
+def plan(spec: RunSpec, prove: bool, as_json: bool) -> int:
     """Print the plan of a cell, or why there is none; return the exit code."""
     from skillc.cli.console import print_text
+    from skillc.client.requests import PLANNING_S
 
     with asked_cell() as cell:
         answer = cell.plan(
-            task,
-            arguments=arguments,
-            goal=goal,
-            minimise=cast(Literal["work", "makespan"], minimise),
+            spec.task,
+            arguments=spec.arguments,
+            goal=spec.goal,
+            minimise=spec.minimise,
             prove=prove,
-            deadline_s=deadline_s,
+            deadline_s=spec.deadline_s or PLANNING_S,
         )
     if as_json:
         click.echo(msgspec.json.format(msgspec.json.encode(answer)))

@@ -92,22 +92,6 @@ def store_options(function: Function) -> Function:
     return grouped_option(WORLD, "--store", metavar="FOLDER|URL", help=help_)(function)
 
 
-def planner_options(function: Function) -> Function:
-    """Add `--minimise` and `--no-plan-cache`, as `minimise` and `plan_cache`."""
-    cache = grouped_option(
-        PLANNING, "--plan-cache/--no-plan-cache", default=True, help="Reuse plans that were found for the same problem."
-    )
-    measure = grouped_option(
-        PLANNING,
-        "--minimise",
-        type=click.Choice(("work", "makespan")),
-        default="work",
-        show_default=True,
-        help="Minimise the total duration of all steps, or the time until the last one ends.",
-    )
-    return cache(measure(function))
-
-
 def pace_option(function: Function) -> Function:
     """Add `--pace` of a replay."""
     return click.option(
@@ -118,72 +102,6 @@ def pace_option(function: Function) -> Function:
         callback=_parse_pace,
         help="Let time pass as in the run, N times as fast, or not at all.",
     )(function)
-
-
-def operating_options(function: Function) -> Function:
-    """Add `--pace`, `--deadline`, `--step-deadline`, `--step` and `--pause-at`."""
-    options = (
-        grouped_option(
-            EXECUTION,
-            "--pace",
-            default="fast",
-            show_default=True,
-            metavar="fast|real|N",
-            callback=_parse_pace,
-            help="Let simulated time pass as fast as it computes, or at most N times as fast as real time.",
-        ),
-        grouped_option(
-            EXECUTION,
-            "--deadline",
-            type=click.FloatRange(min=0.0, min_open=True),
-            metavar="SECONDS",
-            help="Let the task fail if it has not ended after these seconds of simulated time; also limits planning.",
-        ),
-        grouped_option(
-            EXECUTION,
-            "--step-deadline",
-            type=click.FloatRange(min=0.0, min_open=True),
-            metavar="SECONDS",
-            help="Let a primitive or a wait fail if it has not ended after these seconds of simulated time.",
-        ),
-        grouped_option(
-            EXECUTION, "--step", is_flag=True, help="Pause before the first call; keys continue step by step."
-        ),
-        grouped_option(
-            EXECUTION,
-            "--pause-at",
-            multiple=True,
-            metavar="SKILL|FILE:LINE",
-            help="Pause before each call of a skill, or before the calls in a line. Can be repeated.",
-        ),
-    )
-    for option in reversed(options):
-        function = option(function)
-    return function
-
-
-def looks_option(function: Function) -> Function:
-    """Add `--looks`, the appearance of devices in films."""
-    return grouped_option(
-        OUTPUT,
-        "--looks",
-        default="primitive",
-        show_default=True,
-        metavar="NAME",
-        help="The appearance of devices in films: `primitive` shapes, or `menagerie` meshes (downloaded once).",
-    )(function)
-
-
-def film_option(function: Function) -> Function:
-    """Add `--no-film`, for a report without a film."""
-    text = "Leave out film and stills of the report, which take most of the time."
-    return grouped_option(OUTPUT, "--no-film", is_flag=True, help=text)(function)
-
-
-def gif_option(function: Function) -> Function:
-    """Add `--gif`, a short film that repeats."""
-    text = "Write film.gif as well, a film of at most 4 MB that repeats."
-    return grouped_option(OUTPUT, "--gif", is_flag=True, help=text)(function)
 
 
 def add_ontology_option(command: click.Command) -> click.Command:

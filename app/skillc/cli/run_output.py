@@ -15,13 +15,13 @@ from skillc.services.run_result import RunResult
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.execution.pace import Pace
+from skillc_runtime.execution.pace import Pace, parse_pace
 from skillc_runtime.platforms.keyboard import is_operable
 
 
 def check_operable(options: RunOptions) -> None:
     """Raise RequestError if a run would pause and nobody could let it go on: keys need a terminal and its display."""
-    wanted = "--step" if options.step else "--pause-at" if options.pause_at else None
+    wanted = "--step" if options.spec.step else "--breakpoints" if options.spec.breakpoints else None
     if wanted is None:
         return
     if options.prints_json:
@@ -34,8 +34,9 @@ def check_operable(options: RunOptions) -> None:
         )
 
 
-def run_with_progress(loaded: LoadedTask, options: RunOptions, quiet: bool, pace: Pace | None = None) -> RunResult:
+def run_with_progress(loaded: LoadedTask, options: RunOptions, quiet: bool) -> RunResult:
     """Run a task and show its progress on stderr, unless `quiet`."""
+    pace = Pace(parse_pace(options.spec.pace))
     with RunProgress(loaded.assignment.name, quiet, pace) as progress:
         return run_task(loaded, options, progress, Terminal())
 

@@ -27,18 +27,12 @@ if TYPE_CHECKING:
 
 
 def request_options(function: Function) -> Function:
-    """Add TASK with its arguments, `--goal` and `--skill` in its place, and `--cell`, to a command that is a client."""
+    """Add TASK with its arguments, and `--cell`, to a command that is a client."""
     options = (
         click.argument("task", required=False, shell_complete=complete_served_task),
         task_arguments(complete_argument),
         click.option(
             "--cell", metavar="NAME", shell_complete=complete_cell, help="The cell, unless the server has only one."
-        ),
-        click.option(
-            "--goal", metavar="CONDITION", help="Instead of a task: plan for this goal, a condition, PDDL or JSON."
-        ),
-        click.option(
-            "--skill", metavar="CALL", help="Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`."
         ),
     )
     for option in reversed(options):

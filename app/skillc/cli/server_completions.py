@@ -88,7 +88,7 @@ def complete_asked_task(context: click.Context, parameter: click.Parameter, begu
     return (complete_served_task if _asks(context) else complete_task)(context, parameter, begun)
 
 
-def complete_pause_at(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+def complete_breakpoint(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """Return the skills of the libraries of the cells, with what they do."""
     libraries = _ask_server(context, lambda server: _list_libraries(server, context))
     return _offer({each.name: each.doc for library in libraries for each in library.skills}, begun)

@@ -5,41 +5,37 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from functools import wraps
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import click
 import msgspec
 from msgspec import inspect
 
 from skillc.cli.options import PATH, Function, grouped_option
+from skillc_runtime.recording.documented import DocumentedField, documented_fields
 
 UNITS = {"_s": "SECONDS", "_mb": "MB"}
 """What ends the name of a field with a unit, which its option leaves out, and what stands for its value."""
-
-
-class Documented(NamedTuple):
-    """A field of a struct with its documentation, its type without `None`, and what a help shows of it."""
-
-    field: msgspec.structs.FieldInfo
-    text: str
-    type: inspect.Type
-    section: str
-    metavar: str
+PATHS: Mapping[str, click.ParamType[Any]] = {"PATH": click.Path(), "FOLDER": click.Path(file_okay=False)}
+"""The types of options that are paths as text, by what stands for their values."""
 
 
 def struct_options(
     struct: type[msgspec.Struct],
+    only: Collection[str] | None = None,
     without: Collection[str] = (),
     types: Mapping[str, click.ParamType[Any]] | None = None,
     complete: Mapping[str, Callable[..., Any]] | None = None,
 ) -> Callable[[Function], Function]:
     """Return what adds an option for each documented field, and gives the command's function the struct first.
 
-    `without` are fields that have no option. `types` are the types of options, and `complete` what a shell offers for
-    them, where the type of the field does not say it. Arguments and options that have the name of another field of the
-    struct become its value too. A field with a unit, `deadline_s`, is the option `--deadline`.
+    `only` are the fields that have one, all if None, but for those `without`. `types` are the types of options, and
+    `complete` what a shell offers for them, where the type of the field does not say it. Arguments and options that
+    have the name of another field of the struct become its value too. A field with a unit, `deadline_s`, is the option
+    `--deadline`.
     """
-    documented = [each for each in documented_fields(struct) if each.field.name not in without]
+    fields = [each for each in documented_fields(struct) if each.section and each.name not in without]
+    chosen = [each for each in fields if only is None or each.name in only]
     parameters = {parameter_name(each.name): each.name for each in msgspec.structs.fields(struct)}
 
     def decorate(function: Function) -> Function:
@@ -49,27 +45,12 @@ def struct_options(
             return function(struct(**values), **given)
 
         decorated: Any = collect
-        for each in reversed(documented):
-            name = each.field.name
-            option = _make_option(each, (types or {}).get(name), (complete or {}).get(name))
+        for each in reversed(chosen):
+            option = _make_option(each, (types or {}).get(each.name), (complete or {}).get(each.name))
             decorated = option(decorated)
         return decorated  # type: ignore[no-any-return]
 
     return decorate
-
-
-def documented_fields(struct: type[msgspec.Struct]) -> list[Documented]:
-    """Return the fields of a struct that are documented, in their order."""
-    found = []
-    for field in msgspec.structs.fields(struct):
-        match inspect.type_info(field.type):
-            case inspect.Metadata(
-                type=kind,
-                extra_json_schema={"description": str(text)},
-                extra={"section": str(section), "metavar": str(metavar)},
-            ):
-                found.append(Documented(field, text, _without_none(kind), section, metavar))
-    return found
 
 
 def parameter_name(field: str) -> str:
@@ -77,28 +58,21 @@ def parameter_name(field: str) -> str:
     return next((field.removesuffix(unit) for unit in UNITS if field.endswith(unit)), field)
 
 
-def _without_none(kind: inspect.Type) -> inspect.Type:
-    """Return the type of a value that may be None, and any other as it is."""
-    types = kind.types if isinstance(kind, inspect.UnionType) else (kind,)
-    return next(each for each in types if not isinstance(each, inspect.NoneType))
-
-
 def _make_option(
-    about: Documented, given: click.ParamType[Any] | None, complete: Callable[..., Any] | None
+    about: DocumentedField, given: click.ParamType[Any] | None, complete: Callable[..., Any] | None
 ) -> Callable[[Any], Any]:
     """Return what adds the option of a field."""
-    name, default = about.field.name, about.field.default
-    parameter = parameter_name(name)
+    parameter = parameter_name(about.name)
     flag = f"--{parameter.replace('_', '-')}"
-    settings: dict[str, Any] = {"default": default, "help": about.text, "shell_complete": complete}
+    settings: dict[str, Any] = {"default": about.default, "help": about.text, "shell_complete": complete}
     if isinstance(about.type, inspect.BoolType):
-        shown = f"{flag}/--no-{flag.removeprefix('--')}" if default else flag
+        shown = f"{flag}/--no-{flag.removeprefix('--')}" if about.default else flag
         return grouped_option(about.section, shown, parameter, is_flag=True, **settings)
-    unit = next((shown for end, shown in UNITS.items() if name.endswith(end)), None)
-    settings |= {"type": given or _click_type(about.type), "metavar": about.metavar or unit}
+    unit = next((shown for end, shown in UNITS.items() if about.name.endswith(end)), None)
+    settings |= {"type": given or PATHS.get(about.metavar) or _click_type(about.type), "metavar": about.metavar or unit}
     if isinstance(about.type, inspect.VarTupleType):
         settings |= {"default": (), "multiple": True, "help": f"{about.text} Can be repeated."}
-    elif default is not None:
+    elif about.default is not None:
         settings["show_default"] = True
     return grouped_option(about.section, flag, parameter, **settings)
 

@@ -21,7 +21,18 @@ def print_click_error(error: click.ClickException) -> None:
 def _format_message(error: click.ClickException) -> str:
     """Return the message of an error without capital letter and full stop, as all messages of skillc are written."""
     if isinstance(error, click.NoSuchOption):
-        hint = f"; did you mean `{error.possibilities[0]}`?" if error.possibilities else ""
-        return f"there is no option `{error.option_name}`{hint}"
+        renamed = _find_renamed(error)
+        near = f"did you mean `{error.possibilities[0]}`?" if error.possibilities else ""
+        hint = f"it is called `{renamed}` now" if renamed else near
+        return f"there is no option `{error.option_name}`{hint and f'; {hint}'}"
     text = error.format_message().removesuffix(".")
     return text[:1].lower() + text[1:] if text[1:2].islower() else text
+
+
+def _find_renamed(error: click.NoSuchOption) -> str | None:
+    """Return how an option of earlier versions is called now, if the command has it."""
+    from skillc_runtime.recording.run_spec import RENAMED
+
+    word = RENAMED.get(error.option_name.lstrip("-").replace("-", "_"), "").replace("_", "-")
+    known = error.ctx.command.get_params(error.ctx) if error.ctx is not None else []
+    return next((option for each in known for option in each.opts if word and option == f"--{word}"), None)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncGenerator, Callable, Mapping, Sequence
+from collections.abc import AsyncGenerator, Callable, Mapping
 from datetime import datetime
 from math import isinf
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, Unpack
 from uuid import uuid4
 
 from skillc.client.async_operation import AsyncOperation
@@ -38,7 +38,7 @@ from skillc.contract.endpoints import (
     WRITE_WORLD,
 )
 from skillc.contract.history import HistoryPage
-from skillc.contract.order import Missed, Order
+from skillc.contract.order import Order
 from skillc.contract.plan import PlanPreview
 from skillc.contract.rehearsal import Rehearsal
 from skillc.contract.sample import Sample
@@ -54,6 +54,7 @@ from skillc.contract.world import (
     WritePage,
 )
 from skillc.values.arguments import read_pace, require_choice, require_text
+from skillc.values.run_keywords import OperationKeywords, OrderKeywords
 from skillc.values.trials import Trials
 
 OPERATIONS, WRITES, TRIALS = 100, 100, 50
@@ -63,20 +64,7 @@ class AsyncCell(CellCalls):
     """A cell of a server. Errors are those of `AsyncOperation`."""
 
     async def start(
-        self,
-        task: str | None = None,
-        *,
-        arguments: Mapping[str, Any] | None = None,
-        goal: str | None = None,
-        skill: str | None = None,
-        approve: bool = False,
-        ask_after_failure: bool = False,
-        priority: int = 0,
-        deadline_s: float | None = None,
-        step_deadline_s: float | None = None,
-        step: bool = False,
-        pause_at: Sequence[str] = (),
-        key: str | None = None,
+        self, task: str | None = None, *, key: str | None = None, **settings: Unpack[OperationKeywords]
     ) -> AsyncOperation:
         """Submit a task of the cell's library, a goal or a skill call, and return the operation.
 
@@ -84,42 +72,14 @@ class AsyncCell(CellCalls):
         `ask_after_failure` a failed step waits for a decision. Of operations that wait for devices a higher `priority`
         comes first. The operation fails if it has not ended `deadline_s` s of the cell's time after this, and a
         primitive or a wait if it has not ended `step_deadline_s` s after its start. It pauses before its first call
-        with `step`, and before each SKILL or FILE:LINE of `pause_at`. The same `key` twice is one operation.
+        with `step`, and before each SKILL or FILE:LINE of `breakpoints`. The same `key` twice is one operation.
         """
-        request = describe_operation(
-            task,
-            goal,
-            skill,
-            arguments,
-            deadline_s,
-            step_deadline_s,
-            approve=approve,
-            ask_after_failure=ask_after_failure,
-            priority=priority,
-            step=step,
-            breakpoints=tuple(pause_at),
-        )
+        request = describe_operation(task, settings, OperationKeywords)
         status = await self._connection.call(SUBMIT_OPERATION, self.name, body=request, key=key or str(uuid4()))
         return AsyncOperation(self._connection, status)
 
     async def order(
-        self,
-        task: str | None = None,
-        *,
-        at: datetime,
-        every_s: float | None = None,
-        until: datetime | None = None,
-        count: int | None = None,
-        missed: Missed = "run-once",
-        arguments: Mapping[str, Any] | None = None,
-        goal: str | None = None,
-        skill: str | None = None,
-        approve: bool = False,
-        ask_after_failure: bool = False,
-        priority: int = 0,
-        deadline_s: float | None = None,
-        step_deadline_s: float | None = None,
-        key: str | None = None,
+        self, task: str | None = None, *, at: datetime, key: str | None = None, **settings: Unpack[OrderKeywords]
     ) -> Order:
         """Let the server submit a task, a goal or a skill call `at` a time, with its offset from UTC.
 
@@ -127,18 +87,7 @@ class AsyncCell(CellCalls):
         the last one that was missed is submitted as soon as it is, or none with `missed="skip"`. The other parameters
         are those of `start`.
         """
-        request = describe_operation(
-            task,
-            goal,
-            skill,
-            arguments,
-            deadline_s,
-            step_deadline_s,
-            approve=approve,
-            ask_after_failure=ask_after_failure,
-            priority=priority,
-        )
-        order = describe_order(request, at, every_s, until, count, missed)
+        order = describe_order(describe_operation(task, settings, OrderKeywords), at, settings)
         return await self._connection.call(ADD_ORDER, self.name, body=order, key=key or str(uuid4()))
 
     async def remove_order(self, order: str) -> None:
@@ -179,7 +128,7 @@ class AsyncCell(CellCalls):
         *,
         arguments: Mapping[str, Any] | None = None,
         goal: str | None = None,
-        skill: str | None = None,
+        call: str | None = None,
         seed: int = 0,
         deadline_s: float | None = None,
         film: str | Path | None = None,
@@ -189,7 +138,7 @@ class AsyncCell(CellCalls):
         `seed` determines how the reality of the twin differs from the facts, `deadline_s` is in its time. With `film`
         a film is written to this MP4 file. RefusedError if the request cannot be carried out.
         """
-        request = describe_rehearsal(task, goal, skill, arguments, seed, deadline_s, film is not None)
+        request = describe_rehearsal(task, goal, call, arguments, seed, deadline_s, film is not None)
         return await rehearse(self._connection, self.name, request, Path(film) if film else None)
 
     async def trials(

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from datetime import datetime
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, Unpack
 
 from skillc.client.async_cell import OPERATIONS, TRIALS, WRITES
 from skillc.client.operation import ServerOperation
@@ -19,7 +19,7 @@ from skillc.contract.disturbance import Disturbance
 from skillc.contract.geometry import CellModel, SurfaceCoverage
 from skillc.contract.lease import Lease
 from skillc.contract.library import LibraryDescription
-from skillc.contract.order import Missed, Order
+from skillc.contract.order import Order
 from skillc.contract.plan import PlanPreview
 from skillc.contract.rehearsal import Rehearsal
 from skillc.contract.sample import Sample
@@ -31,6 +31,7 @@ from skillc.contract.world import (
     WorldFormat,
     WorldWrite,
 )
+from skillc.values.run_keywords import OperationKeywords, OrderKeywords
 from skillc.values.trials import Trials
 
 
@@ -105,20 +106,7 @@ class ServerCell(WaitingCell):
         return self._loop.run(self._client.list_trials())
 
     def start(
-        self,
-        task: str | None = None,
-        *,
-        arguments: Mapping[str, Any] | None = None,
-        goal: str | None = None,
-        skill: str | None = None,
-        approve: bool = False,
-        ask_after_failure: bool = False,
-        priority: int = 0,
-        deadline_s: float | None = None,
-        step_deadline_s: float | None = None,
-        step: bool = False,
-        pause_at: Sequence[str] = (),
-        key: str | None = None,
+        self, task: str | None = None, *, key: str | None = None, **settings: Unpack[OperationKeywords]
     ) -> ServerOperation:
         """Submit a task of the cell's library, a goal or a skill call, and return the operation.
 
@@ -126,46 +114,12 @@ class ServerCell(WaitingCell):
         `ask_after_failure` a failed step waits for a decision. Of operations that wait for devices a higher `priority`
         comes first. The operation fails if it has not ended `deadline_s` s of the cell's time after this, and a
         primitive or a wait if it has not ended `step_deadline_s` s after its start. It pauses before its first call
-        with `step`, and before each SKILL or FILE:LINE of `pause_at`. The same `key` twice is one operation.
+        with `step`, and before each SKILL or FILE:LINE of `breakpoints`. The same `key` twice is one operation.
         """
-        return ServerOperation(
-            self._loop,
-            self._loop.run(
-                self._client.start(
-                    task,
-                    arguments=arguments,
-                    goal=goal,
-                    skill=skill,
-                    approve=approve,
-                    ask_after_failure=ask_after_failure,
-                    priority=priority,
-                    deadline_s=deadline_s,
-                    step_deadline_s=step_deadline_s,
-                    step=step,
-                    pause_at=pause_at,
-                    key=key,
-                )
-            ),
-        )
+        return ServerOperation(self._loop, self._loop.run(self._client.start(task, key=key, **settings)))
 
     def order(
-        self,
-        task: str | None = None,
-        *,
-        at: datetime,
-        every_s: float | None = None,
-        until: datetime | None = None,
-        count: int | None = None,
-        missed: Missed = "run-once",
-        arguments: Mapping[str, Any] | None = None,
-        goal: str | None = None,
-        skill: str | None = None,
-        approve: bool = False,
-        ask_after_failure: bool = False,
-        priority: int = 0,
-        deadline_s: float | None = None,
-        step_deadline_s: float | None = None,
-        key: str | None = None,
+        self, task: str | None = None, *, at: datetime, key: str | None = None, **settings: Unpack[OrderKeywords]
     ) -> Order:
         """Let the server submit a task, a goal or a skill call `at` a time, with its offset from UTC.
 
@@ -173,25 +127,7 @@ class ServerCell(WaitingCell):
         the last one that was missed is submitted as soon as it is, or none with `missed="skip"`. The other parameters
         are those of `start`.
         """
-        return self._loop.run(
-            self._client.order(
-                task,
-                at=at,
-                every_s=every_s,
-                until=until,
-                count=count,
-                missed=missed,
-                arguments=arguments,
-                goal=goal,
-                skill=skill,
-                approve=approve,
-                ask_after_failure=ask_after_failure,
-                priority=priority,
-                deadline_s=deadline_s,
-                step_deadline_s=step_deadline_s,
-                key=key,
-            )
-        )
+        return self._loop.run(self._client.order(task, at=at, key=key, **settings))
 
     def remove_order(self, order: str) -> None:
         """Forget an order by its id; what it has submitted goes on."""
@@ -234,7 +170,7 @@ class ServerCell(WaitingCell):
         *,
         arguments: Mapping[str, Any] | None = None,
         goal: str | None = None,
-        skill: str | None = None,
+        call: str | None = None,
         seed: int = 0,
         deadline_s: float | None = None,
         film: str | Path | None = None,
@@ -246,7 +182,7 @@ class ServerCell(WaitingCell):
         """
         return self._loop.run(
             self._client.rehearse(
-                task, arguments=arguments, goal=goal, skill=skill, seed=seed, deadline_s=deadline_s, film=film
+                task, arguments=arguments, goal=goal, call=call, seed=seed, deadline_s=deadline_s, film=film
             )
         )
 

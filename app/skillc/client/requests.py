@@ -20,6 +20,8 @@ from skillc.values.arguments import (
     require_count,
     require_text,
 )
+from skillc.values.keywords import read_keywords
+from skillc.values.run_keywords import OrderKeywords
 
 PLANNING_S, REHEARSAL_S = 30.0, 600.0
 
@@ -27,42 +29,21 @@ Arguments = Mapping[str, Any] | None
 """The values of a task's parameters by name."""
 
 
-def describe_operation(
-    task: str | None,
-    goal: str | None,
-    skill: str | None,
-    arguments: Arguments,
-    deadline_s: float | None,
-    step_deadline_s: float | None,
-    **settings: Any,
-) -> OperationRequest:
-    """Return a request for exactly one of a task, a goal and a skill call."""
-    if [task, goal, skill].count(None) != 2:
+def describe_operation(task: str | None, settings: Mapping[str, Any], known: type) -> OperationRequest:
+    """Return a request for exactly one of a task, a goal and a skill call, as keyword arguments say."""
+    request = read_keywords(OperationRequest, settings, known, task)
+    if [request.task, request.goal, request.call].count(None) != 2:
         raise RequestError("name exactly one of a task, a goal and a skill call")
-    return OperationRequest(
-        task=optional_text(task, "the task"),
-        goal=optional_text(goal, "the goal"),
-        call=optional_text(skill, "the skill call"),
-        arguments=read_arguments(arguments),
-        deadline_s=optional_seconds(deadline_s, "`deadline_s`"),
-        step_deadline_s=optional_seconds(step_deadline_s, "`step_deadline_s`"),
-        **settings,
-    )
+    return request
 
 
-def describe_order(
-    request: OperationRequest,
-    at: datetime,
-    every_s: float | None,
-    until: datetime | None,
-    count: int | None,
-    missed: Missed,
-) -> OrderRequest:
+def describe_order(request: OperationRequest, at: datetime, times: OrderKeywords) -> OrderRequest:
     """Return a request to submit something at a time, once or repeatedly."""
+    until, missed = times.get("until"), times.get("missed", "run-once")
     if at.tzinfo is None or (until is not None and until.tzinfo is None):
         raise RequestError("`at` and `until` need their offset from UTC, such as `datetime.now(UTC)` has")
-    choice = require_choice(missed, Missed, "`missed`")
-    return OrderRequest(request, at, optional_seconds(every_s, "`every_s`"), until, count, choice)
+    choice, every_s = require_choice(missed, Missed, "`missed`"), optional_seconds(times.get("every_s"), "`every_s`")
+    return OrderRequest(request, at, every_s, until, times.get("count"), choice)
 
 
 def describe_plan(
@@ -87,7 +68,7 @@ def describe_plan(
 def describe_rehearsal(
     task: str | None,
     goal: str | None,
-    skill: str | None,
+    call: str | None,
     arguments: Arguments,
     seed: int,
     deadline_s: float | None,
@@ -97,7 +78,7 @@ def describe_rehearsal(
     return RehearsalRequest(
         task=optional_text(task, "the task"),
         goal=optional_text(goal, "the goal"),
-        call=optional_text(skill, "the skill call"),
+        call=optional_text(call, "the skill call"),
         arguments=read_arguments(arguments),
         seed=seed,
         deadline_s=optional_seconds(deadline_s, "`deadline_s`") or REHEARSAL_S,

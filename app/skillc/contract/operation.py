@@ -9,38 +9,20 @@ import msgspec
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.planning.progress import PlanningProgress
 from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.run_spec import RunRequest
 from skillc_runtime.recording.states import ENDS as ENDS
 from skillc_runtime.recording.states import Decision as Decision
 from skillc_runtime.recording.states import State as State
 
 
-class OperationRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
-    """What is to be done: a `task` of the cell's library, a `goal` as a condition or as PDDL, or a `call` of a skill.
-
-    `arguments` are the values of the task's parameters, as they are written in a call, such as `lab:Tray-1` or `8 N`.
-
-    Of those that wait for planners or devices, a higher `priority` comes first, then who was submitted first; nothing
-    that runs gives way. `approve`: each plan waits for approval. `ask_after_failure`: a failed step waits for a
-    decision instead of another plan. The operation fails if it has not ended `deadline_s` of the cell's time after its
-    submission, and a primitive or a wait if it has not ended `step_deadline_s` after its start. It pauses before its
-    first call with `step`, and at each SKILL or FILE:LINE of `breakpoints`. `owner` is who requested it.
+class OperationRequest(RunRequest, frozen=True, kw_only=True):
+    """What is to be done in a cell, with its library, and how; `owner` is who requested it.
 
     A request that `continues` an operation that was interrupted names nothing else to do; `decision` says how, and
     `why` a step counts as done that is skipped.
     """
 
-    task: str | None = None
-    goal: str | None = None
-    call: str | None = None
-    arguments: dict[str, str] = {}
     owner: str = ""
-    approve: bool = False
-    ask_after_failure: bool = False
-    deadline_s: Annotated[float, msgspec.Meta(gt=0.0)] | None = None
-    step_deadline_s: Annotated[float, msgspec.Meta(gt=0.0)] | None = None
-    step: bool = False
-    breakpoints: tuple[str, ...] = ()
-    priority: Annotated[int, msgspec.Meta(ge=-100, le=100)] = 0
     continues: str = ""
     decision: Decision = "replan"
     why: Annotated[str, msgspec.Meta(max_length=500)] = ""

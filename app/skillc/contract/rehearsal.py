@@ -7,21 +7,24 @@ from typing import Annotated, Literal
 import msgspec
 
 from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.recording.documented import documented
+from skillc_runtime.recording.run_spec import EXECUTION, TaskRequest
 
 
-class RehearsalRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
+class RehearsalRequest(TaskRequest, frozen=True, kw_only=True):
     """A task of the cell's library with arguments, a goal, or a call of a skill, to try in a simulated twin.
 
-    `seed` determines how the reality of the twin differs from the facts. `deadline_s` is in the twin's time. It is
-    filmed with `film`, and recorded with `record`.
+    It is filmed with `film`, and recorded with `record`.
     """
 
-    task: str | None = None
-    goal: str | None = None
-    call: str | None = None
-    arguments: dict[str, str] = {}
-    seed: Annotated[int, msgspec.Meta(ge=0, le=2**31)] = 0
-    deadline_s: Annotated[float, msgspec.Meta(gt=0.0, le=3600.0)] = 600.0
+    seed: Annotated[
+        Annotated[int, msgspec.Meta(ge=0, le=2**31)],
+        documented("Determines how the twin differs from what is known.", EXECUTION, metavar="N"),
+    ] = 0
+    deadline_s: Annotated[
+        Annotated[float, msgspec.Meta(gt=0.0, le=3600.0)],
+        documented("Let the task fail if it has not ended after these seconds of the twin's time.", EXECUTION),
+    ] = 600.0
     film: bool = False
     record: bool = False
 

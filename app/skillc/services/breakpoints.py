@@ -10,7 +10,8 @@ from skillc.errors import RequestError
 from skillc_model.skills import Compound, SkillLibrary
 from skillc_model.traversal import find_calls
 from skillc_rdf.vocabulary.types import Position
-from skillc_runtime.execution.tree.gate import AtLine, AtSkill, Breakpoint
+from skillc_runtime.execution.tree.gate import AtLine, AtSkill, Breakpoint, Gate
+from skillc_runtime.recording.run_spec import RunRequest
 
 _LINE = re.compile(r"(?P<path>.+):(?P<line>\d{1,9})")
 _SHOWN = 5
@@ -29,6 +30,14 @@ def parse_breakpoints(texts: Iterable[str], library: SkillLibrary) -> tuple[Brea
         else _find_skill(text, library)
         for text in texts
     )
+
+
+def make_gate(request: RunRequest, library: SkillLibrary) -> Gate:
+    """Return the gate of a run, which pauses where that is requested; RequestError as of `parse_breakpoints`."""
+    gate = Gate(parse_breakpoints(request.breakpoints, library))
+    if request.step:
+        gate.step("into", ())
+    return gate
 
 
 def _find_skill(name: str, library: SkillLibrary) -> AtSkill:

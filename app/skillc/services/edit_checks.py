@@ -75,7 +75,7 @@ class Slice(NamedTuple):
 
 def _has_calls(library: LibraryFiles) -> bool:
     """Whether the manifest calls skills."""
-    return library.project is not None and any(each.skill for each in library.project.manifest.tasks.values())
+    return library.project is not None and any(each.call for each in library.project.manifest.tasks.values())
 
 
 def _lines_of(problem: Diagnostic) -> Iterator[tuple[str, int]]:

@@ -34,7 +34,7 @@ def make_named_task(project: Project, name: str, library: SkillLibrary, scene: P
     state = load_world(scene, library.vocabulary, SilentReporter())
     individuals = task_scenes.classes_by_individual(state, library.vocabulary)
     prefixes = state.vocabulary.prefixes
-    key, text = ("goal", named.goal) if named.goal is not None else ("skill", named.skill or "")
+    key, text = ("goal", named.goal) if named.goal is not None else ("call", named.call or "")
     place = project.place_of("tasks", name, key)
     source = Position(place.path, place.line, place.column)
     if key == "goal":

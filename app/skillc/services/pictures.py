@@ -11,13 +11,14 @@ from skillc.services.artifacts import parse_files
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc.services.reporting import Reporter
-from skillc.services.task_loading import TaskRequest, load_task
+from skillc.services.task_loading import load_task
 from skillc_compiler.emit.picture.boxes import PictureBox
 from skillc_compiler.emit.picture.drawing import list_drawable, make_picture
 from skillc_dsl.spelling import did_you_mean
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
 from skillc_runtime.planning.solve import solve
+from skillc_runtime.recording.run_spec import RunSpec
 
 
 def draw_declaration(path: Path, name: str) -> PictureBox:
@@ -34,7 +35,7 @@ def draw_declaration(path: Path, name: str) -> PictureBox:
 
 def draw_plan(path: Path, task: str, reporter: Reporter) -> PictureBox | Unsolvable | GaveUp:
     """Plan for a task of the library at `path` and return the picture of the plan. RequestError without a goal."""
-    with load_task(TaskRequest(f"{path}:{task}"), reporter) as loaded:
+    with load_task(RunSpec(task=f"{path}:{task}"), reporter) as loaded:
         aim, state = loaded.assignment.objective, loaded.assignment.state
         if not isinstance(aim, AchieveGoal):
             raise RequestError(f"the task `{task}` has a body, not a goal; draw it without --plan")

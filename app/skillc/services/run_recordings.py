@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
@@ -25,6 +25,7 @@ from skillc_runtime.recording.envelope import Recorder
 from skillc_runtime.recording.mcap.contents import LIBRARY, NOT_REPEATABLE, SCENE, SETTINGS, START, RunContents
 from skillc_runtime.recording.mcap.recording_file import RecordingFile
 from skillc_runtime.recording.mcap.signal_tap import RecordedCell, SignalTap
+from skillc_runtime.recording.run_spec import RunRequest
 from skillc_runtime.recording.run_start import encode_start
 from skillc_runtime.recording.signals.channels import name_devices
 from skillc_runtime.scene.load import load_sheets
@@ -55,14 +56,14 @@ def describe_contents(
     library: SkillLibrary,
     start: KnownStart,
     origin: CellOrigin,
-    settings: Mapping[str, Any],
+    settings: RunRequest,
     sheets: WorldState | None = None,
 ) -> RunContents:
     """Return what a run is made of: with its library, its start, the world then also as a scene, and its settings.
 
     `sheets` are the facts of data sheets, which a scene does not state; they are loaded unless they are given.
     """
-    attachments = {LIBRARY: dumps(library), SETTINGS: msgspec.json.encode(dict(settings))}
+    attachments = {LIBRARY: dumps(library), SETTINGS: msgspec.json.encode(settings)}
     state, obstacle = start.state, start.obstacle
     if start.checkpoint:
         try:

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import AbstractContextManager, closing, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from time import perf_counter
 
 from skillc.errors import RequestError, ServiceError
-from skillc.services.backends import BackendName, check_pace, make_backend
-from skillc.services.breakpoints import parse_breakpoints
+from skillc.services.backends import check_pace, make_backend
+from skillc.services.breakpoints import make_gate
 from skillc.services.cell_checks.starting import find_start_problem
 from skillc.services.operating import RunMonitor, operate
+from skillc.services.planning import with_minimal_makespan
 from skillc.services.recorded_run import RecordingOptions, recorded_run
 from skillc.services.reporting import Reporter
 from skillc.services.run_recordings import KnownStart, describe_contents, find_obstacle, recorded_in
@@ -26,7 +27,7 @@ from skillc.services.run_result import (
     make_samples,
     report_run,
 )
-from skillc.services.signal_files import SignalFormat, check_signals, recorded_signals
+from skillc.services.signal_files import check_signals, recorded_signals
 from skillc.services.store_polling import StorePoller
 from skillc.services.task_loading import LoadedTask
 from skillc.services.unstarted_runs import end_unstarted
@@ -44,7 +45,7 @@ from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.solve import DEADLINE_S
 from skillc_runtime.recording.envelope import Recorder, make_run_id
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.transactions import StoreError
@@ -52,74 +53,67 @@ from skillc_runtime.world.state.transactions import StoreError
 
 @dataclass(frozen=True, slots=True)
 class RunOptions:
-    """The folder of recording and report (None: neither), the seed, the planners, the meshes in films, the backend.
+    """What a run is given, and how this process carries it out.
 
-    Without that folder `record_in` may be one for the MCAP file alone.
+    Without the folder `out` of its specification, `record_in` may be one for the MCAP file alone.
     A run in which a tick takes longer than `tick_timeout_s` is ended with its process (0: only if that dies, None: no
     process watches it). `run_id` is the id of the run, empty for a new one; `recorders` get its events as they are
-    recorded. With `prints_json` the caller prints
-    the result as JSON, and the watchdog does if the run is interrupted. The task fails if it has not ended
-    `deadline_s` of the cell's time after its start, or if a plan takes as long, and a primitive or a wait if it has not
-    ended `step_deadline_s` after its start. The task pauses before its first call with
-    `step`, and at each SKILL or FILE:LINE of `pause_at`. With `gif` the film is also written as a loop; there is none
-    without `film`. The devices are
-    as in `saved`, a checkpoint of the backend, if it is given.
+    recorded. With `prints_json` the caller prints the result as JSON, and the watchdog does if the run is interrupted.
+    The devices are as in `saved`, a checkpoint of the backend, if it is given.
 
     RequestError for meshes or a loop without a folder, because then no film is made, and for signals that cannot be
     recorded.
     """
 
-    out: Path | None = None
-    seed: int = 0
+    spec: RunSpec = field(default_factory=RunSpec)
     planners: Planners | None = None
-    looks: str = PRIMITIVE_LOOKS
     tick_timeout_s: float | None = TICK_TIMEOUT_S
     prints_json: bool = False
-    deadline_s: float | None = None
-    step_deadline_s: float | None = None
-    step: bool = False
-    pause_at: tuple[str, ...] = ()
-    backend: BackendName = "mujoco"
-    signals: SignalFormat | None = None
-    gif: bool = False
-    film: bool = True
     saved: bytes | None = None
     run_id: str = ""
     recorders: tuple[Recorder, ...] = ()
     record_in: Path | None = None
 
     def __post_init__(self) -> None:
-        if self.looks != PRIMITIVE_LOOKS and self.out is None:
-            raise RequestError(f"--looks {self.looks} applies to films and stills, which require --out")
-        check_signals(self.signals, self.out)
-        if self.gif and self.out is None:
+        spec = self.spec
+        if spec.looks != PRIMITIVE_LOOKS and spec.out is None:
+            raise RequestError(f"--looks {spec.looks} applies to films and stills, which require --out")
+        check_signals(spec.signals, spec.out)
+        if spec.gif and spec.out is None:
             raise RequestError("--gif writes a film, which requires --out")
-        check_film(self.looks, self.film, self.gif)
+        check_film(spec.looks, spec.film, spec.gif)
+
+    @property
+    def out(self) -> Path | None:
+        """The folder of recording and report; None for neither."""
+        return None if self.spec.out is None else Path(self.spec.out)
 
 
 def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporter: Reporter) -> RunResult:
     """Plan, run and report a task; if it cannot start, its status is `refused`.
 
     KeyboardInterrupt stops a task that has not begun, and breaks off one that runs. RequestError for a breakpoint
-    that does not exist, and for a pace that the cell cannot have. ServiceError if the report's folder cannot be
-    created, there are no meshes of that name, or no process can be started.
+    that does not exist, if there is no plan to minimise, and for a pace that the cell cannot have. ServiceError if the
+    report's folder cannot be created, there are no meshes of that name, or no process can be started.
     """
-    gate = Gate(parse_breakpoints(options.pause_at, task.library))
+    spec = options.spec
+    if spec.minimise == "makespan":
+        task = with_minimal_makespan(task)
+    gate = make_gate(spec, task.library)
+    end = partial(end_unstarted, task, spec)
     problem = find_start_problem(task, reporter)
     if problem is not None:
-        return end_unstarted(task, options.out, options.seed, "refused", problem, reporter)
-    if options.step:
-        gate.step("into", ())
+        return end("refused", problem, reporter)
     with _start_planning(task, task.assignment, FailedSteps(task.library), options) as planning:
         try:
             monitor.say("planning, and building the cell")
-            cell = make_backend(options.backend, task.world, options.seed, options.saved)
-            filmed = options.film and options.out is not None
-            film = begin_film(cell, options.looks, options.gif, reporter) if filmed else None
+            cell = make_backend(spec.backend, task.world, spec.seed, options.saved)
+            filmed = spec.film and options.out is not None
+            film = begin_film(cell, spec.looks, spec.gif, reporter) if filmed else None
         except (SheetError, FrameError, StoreError) as error:
-            return end_unstarted(task, options.out, options.seed, "refused", _find_refusal(planning, error), reporter)
+            return end("refused", _find_refusal(planning, error), reporter)
         except KeyboardInterrupt as interrupt:
-            return end_unstarted(task, options.out, options.seed, "stopped", str(interrupt) or "interrupted", reporter)
+            return end("stopped", str(interrupt) or "interrupted", reporter)
         with closing(cell):
             check_pace(cell, monitor.pace.factor)
             return _Run(task, options, cell, make_samples(cell, film), gate, monitor, reporter).carry_out(planning)
@@ -146,15 +140,12 @@ class _Run:
         with (
             self._recorded(run_id) as recorders,
             recorded_run(start, self._describe_recording(run_id, recorders), self.reporter) as recorded,
-            recorded_signals(cell, options.signals, options.out, self.reporter) as hooks,
+            recorded_signals(cell, options.spec.signals, options.out, self.reporter) as hooks,
         ):
             loop, began = self._make_loop(planning, hooks), perf_counter()
-            settings, publisher = (
-                RunSettings(deadline_s=options.deadline_s, step_deadline_s=options.step_deadline_s),
-                recorded.publisher,
-            )
+            publisher = recorded.publisher
             listeners = (choices, self.monitor, publisher)
-            run = loop.submit(task.assignment, listeners, settings, self.gate, publisher.run)
+            run = loop.submit(task.assignment, listeners, options.spec, self.gate, publisher.run)
             operate(loop, run, self.monitor, lambda: recorded.watchdog.count_tick(cell.clock.now))
             recorded.watchdog.disarm()
             execution = describe_execution(run, cell, perf_counter() - began)
@@ -168,16 +159,9 @@ class _Run:
         folder = options.out or options.record_in
         if folder is None:
             return nullcontext(())
-        origin = CellOrigin(task.scene, options.seed, options.backend)
-        settings = {
-            "deadline_s": options.deadline_s,
-            "step_deadline_s": options.step_deadline_s,
-            "step": options.step,
-            "pause_at": options.pause_at,
-        }
         name, obstacle = task.assignment.name, find_obstacle(self.cell)
         start = KnownStart(state, checkpoint=options.saved or b"", obstacle=obstacle)
-        describe = partial(describe_contents, run_id, name, task.library, start, origin, settings)
+        describe = partial(describe_contents, run_id, name, task.library, start, self._origin, options.spec)
         return recorded_in(folder, describe, self.cell, self.reporter)
 
     def _describe_recording(self, run_id: str, recorders: tuple[Recorder, ...]) -> RecordingOptions:
@@ -193,15 +177,19 @@ class _Run:
         poller = StorePoller(self.cell.cell.world, self.reporter)
         hooks = (poller.poll, *recording, self.samples.sample)
         preparation = prepare_after(planning, plan_again)
-        origin = CellOrigin(self.task.scene, self.options.seed, self.options.backend)
-        return CellLoop(self.cell, self.task.library, preparation, origin, hooks)
+        return CellLoop(self.cell, self.task.library, preparation, self._origin, hooks)
+
+    @property
+    def _origin(self) -> CellOrigin:
+        return CellOrigin(self.task.scene, self.options.spec.seed, self.options.spec.backend)
 
 
 def _start_planning(
     task: LoadedTask, assignment: Assignment, failures: FailedSteps, options: RunOptions, now: float = 0.0
 ) -> PlanningJob:
     """Start a worker that plans, for as long as the deadline of the task leaves at the time `now` of the cell in s."""
-    left_s = DEADLINE_S if options.deadline_s is None else min(DEADLINE_S, max(0.0, options.deadline_s - now))
+    limit_s = options.spec.deadline_s
+    left_s = DEADLINE_S if limit_s is None else min(DEADLINE_S, max(0.0, limit_s - now))
     try:
         return PlanningJob(assignment, task.library, failures, options.planners, deadline_s=left_s)
     except OSError as error:

@@ -30,7 +30,7 @@ from skillc_runtime.recording.signals.signal import Signal, SignalSink
 SignalFormat: TypeAlias = Literal["csv", "parquet"]
 
 
-def check_signals(form: SignalFormat | None, folder: Path | None) -> None:
+def check_signals(form: SignalFormat | None, folder: str | None) -> None:
     """Raise RequestError if signals cannot be recorded: there is no folder for them, or a package is missing."""
     if form is not None and folder is None:
         raise RequestError("--signals records to a folder, which --out names")

@@ -124,7 +124,7 @@ def _of_library(files: LibraryFiles, origin: Origin, prefix: str) -> Iterator[Ta
     for name, goal in (manifest.tasks if manifest else {}).items():
         assert files.project is not None
         file = files.project.source.path
-        aim = _one_line(goal.goal or goal.skill or "")
+        aim = _one_line(goal.goal or goal.call or "")
         yield TaskEntry(f"{prefix}{name}", origin, files.name, aim, goal.scene or scene, "", file, name == default)
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from pathlib import Path
 
-import msgspec
+from msgspec import structs
 
 from skillc.errors import RequestError
 from skillc.services import task_scenes
@@ -21,46 +21,8 @@ from skillc.services.stores import NO_STORE, StoreChoice, open_world
 from skillc.services.task_list import choose_task, default_library, split_reference
 from skillc_model.skills import SkillLibrary, Task
 from skillc_runtime.execution.assignment import Assignment
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.model import WorldModel
-
-
-@dataclass(frozen=True, slots=True)
-class TaskRequest:
-    """The task `LIBRARY:NAME`, or a goal or a skill call in a scene or in a stored world.
-
-    The library of a goal or call is that of the project here, or the shipped one, unless `library` is given.
-    `arguments` are the values of the task's parameters, as they are written in a call.
-    """
-
-    task: str | None = None
-    scene: Path | None = None
-    goal: str | None = None
-    call: str | None = None
-    library: Path | None = None
-    store: StoreChoice = NO_STORE
-    arguments: Mapping[str, str] = field(default_factory=dict)
-
-    def with_defaults(self) -> TaskRequest:
-        """Return the request with the task or the scene of the project here, if it names none."""
-        if self.task is not None or self.store.place is not None:
-            return self
-        if (self.scene, self.goal, self.call, self.library) == (None, None, None, None):
-            return replace(self, task=choose_task(None))
-        project = find_project(Path()) if self.scene is None else None
-        scene = task_scenes.default_scene(project) if project else None
-        return replace(self, scene=self.scene or scene)
-
-    def check(self, calls: bool = True) -> None:
-        """Raise RequestError if options conflict or are missing; `calls`: whether a call is possible too."""
-        if self.task is None and self.arguments:
-            raise RequestError("arguments are the values of the parameters of a TASK; none is named")
-        if self.task is not None and (self.scene or self.goal or self.call or self.library):
-            raise RequestError("a TASK cannot be used with --scene, --goal, --skill or --library")
-        nothing = (self.goal is None) == (self.call is None)
-        if self.task is None and ((self.scene or self.store.place) is None or nothing):
-            choice = "--goal TEXT or --skill CALL" if calls else "--goal TEXT"
-            listed = "name either a TASK (`skillc tasks` lists them)"
-            raise RequestError(f"{listed}, or --scene FILE (or --store) with {choice}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,10 +35,38 @@ class LoadedTask:
     scene: str = ""
 
 
+def fill_in(spec: RunSpec, store: StoreChoice = NO_STORE) -> RunSpec:
+    """Return a specification with the task or the scene of the project here, if it names none and no store is used."""
+    if spec.task is not None or store.place is not None:
+        return spec
+    if (spec.scene, spec.goal, spec.call, spec.library) == (None, None, None, None):
+        return structs.replace(spec, task=choose_task(None))
+    project = find_project(Path()) if spec.scene is None else None
+    scene = task_scenes.default_scene(project) if project else None
+    return structs.replace(spec, scene=spec.scene or (None if scene is None else str(scene)))
+
+
+def check_request(spec: RunSpec, store: StoreChoice = NO_STORE, calls: bool = True) -> None:
+    """Raise RequestError if it is not clear what is to be done, or where; `calls`: whether a call is possible too."""
+    if spec.task is None and spec.arguments:
+        raise RequestError("arguments are the values of the parameters of a TASK; none is named")
+    if spec.task is not None and (spec.scene or spec.goal or spec.call or spec.library):
+        raise RequestError("a TASK cannot be used with --scene, --goal, --call or --library")
+    nothing = (spec.goal is None) == (spec.call is None)
+    if spec.task is None and ((spec.scene or store.place) is None or nothing):
+        choice = "--goal TEXT or --call CALL" if calls else "--goal TEXT"
+        listed = "name either a TASK (`skillc tasks` lists them)"
+        raise RequestError(f"{listed}, or --scene FILE (or --store) with {choice}")
+
+
 @contextmanager
-def load_task(request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]:
-    """Find, compile and load what is requested; a store is closed at the end."""
-    loading = _load_goal(request, reporter) if request.task is None else _load_named(request.task, request, reporter)
+def load_task(spec: RunSpec, reporter: Reporter, store: StoreChoice = NO_STORE) -> Iterator[LoadedTask]:
+    """Find, compile and load what is to be done: the task `LIBRARY:NAME`, or a goal or a call in a scene or a store.
+
+    The library of a goal or call is that of the project here, or the shipped one, unless the specification names one.
+    A store is closed at the end.
+    """
+    loading = _load_goal(spec, store, reporter) if spec.task is None else _load_named(spec.task, spec, store, reporter)
     with loading as loaded:
         yield loaded
 
@@ -91,7 +81,7 @@ def find_task_in_scene(reference: str) -> tuple[SkillLibrary, Task, Path]:
     if name not in library.tasks and files.project and name in files.project.manifest.tasks:
         scene = named_scene(files.project, name)
         task = make_named_task(files.project, name, library, scene)
-        return msgspec.structs.replace(library, tasks={**library.tasks, name: task}), task, scene
+        return structs.replace(library, tasks={**library.tasks, name: task}), task, scene
     task = find_task(library, name)
     if task.goal is None and task.body is None:
         raise RequestError(f"the task `{name}` has neither a goal nor a body")
@@ -103,7 +93,7 @@ def _find_scene(task: Task, files: LibraryFiles) -> Path:
     if task.scene is None:
         default = task_scenes.default_scene(files.project) if files.project else None
         if default is None:
-            how = "run it with --scene FILE and --goal or --skill"
+            how = "run it with --scene FILE and --goal or --call"
             raise RequestError(f"the task `{task.name}` has no scene; {how}")
         return default
     path = task_scenes.find_task_scene(task, files)
@@ -114,27 +104,27 @@ def _find_scene(task: Task, files: LibraryFiles) -> Path:
 
 
 @contextmanager
-def _load_named(reference: str, request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]:
+def _load_named(reference: str, spec: RunSpec, store: StoreChoice, reporter: Reporter) -> Iterator[LoadedTask]:
     library, task, scene = find_task_in_scene(reference)
-    with open_world(request.store, scene, library.vocabulary, reporter) as world:
-        assignment = assign_task(task, library, world.snapshot(), request.arguments)
-        yield LoadedTask(library, assignment, world, _origin(request, scene))
+    with open_world(store, scene, library.vocabulary, reporter) as world:
+        assignment = assign_task(task, library, world.snapshot(), spec.arguments)
+        yield LoadedTask(library, assignment, world, _origin(store, scene))
 
 
 @contextmanager
-def _load_goal(request: TaskRequest, reporter: Reporter) -> Iterator[LoadedTask]:
-    library = compile_valid(find_library(request.library) if request.library else default_library())
-    scene = find_scene(request.scene) if request.scene else None
-    with open_world(request.store, scene, library.vocabulary, reporter) as world:
+def _load_goal(spec: RunSpec, store: StoreChoice, reporter: Reporter) -> Iterator[LoadedTask]:
+    library = compile_valid(find_library(Path(spec.library)) if spec.library else default_library())
+    scene = find_scene(Path(spec.scene)) if spec.scene else None
+    with open_world(store, scene, library.vocabulary, reporter) as world:
         state = world.snapshot()
-        if request.goal is not None:
-            assignment = assign_goal(request.goal, library, state)
+        if spec.goal is not None:
+            assignment = assign_goal(spec.goal, library, state)
         else:
-            assert request.call is not None
-            assignment = assign_call(request.call, library, state)
-        yield LoadedTask(library, assignment, world, _origin(request, scene))
+            assert spec.call is not None
+            assignment = assign_call(spec.call, library, state)
+        yield LoadedTask(library, assignment, world, _origin(store, scene))
 
 
-def _origin(request: TaskRequest, scene: Path | None) -> str:
+def _origin(store: StoreChoice, scene: Path | None) -> str:
     """Return the file of the scene that a world was read from; empty if it comes from a store."""
-    return str(scene) if scene is not None and request.store.place is None else ""
+    return str(scene) if scene is not None and store.place is None else ""

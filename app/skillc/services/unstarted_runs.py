@@ -21,25 +21,26 @@ from skillc_runtime.recording.envelope import make_run_id
 from skillc_runtime.recording.events import TaskEnded
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.publisher import Publisher
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.writer import TraceWriter
 
 
 def end_unstarted(
     task: LoadedTask,
-    out: Path | None,
-    seed: int,
+    spec: RunSpec,
     status: Literal["refused", "stopped"],
     why: str,
     reporter: Reporter,
 ) -> RunResult:
     """Return the result of a task that never ran, and write it, its events and its report to a folder, unless None."""
-    result = TaskResult(task=task.assignment.name, status=status, seed=seed, failure=why)
-    if out is None:
+    result = TaskResult(task=task.assignment.name, status=status, seed=spec.seed, failure=why)
+    if spec.out is None:
         return RunResult(result)
+    out = Path(spec.out)
     try:
         with writing_to(out):
             out.mkdir(parents=True, exist_ok=True)
-            _record(task, out / NAME, result, reporter)
+            _record(task, spec, result, reporter, out)
             write_result(out, result)
             write_report(out, result, ())
     except ServiceError as error:
@@ -48,16 +49,16 @@ def end_unstarted(
     return RunResult(result)
 
 
-def _record(task: LoadedTask, path: Path, result: TaskResult, reporter: Reporter) -> None:
+def _record(task: LoadedTask, spec: RunSpec, result: TaskResult, reporter: Reporter, out: Path) -> None:
     """Write the events of a task that starts and ends at the same time."""
     stopped = result.status == "stopped"
     failure = Failure(kind="halted" if stopped else "plan", message=result.failure or "")
-    run, state, origin = make_run_id(result.task), task.world.snapshot(), CellOrigin(task.scene, result.seed)
-    describe = partial(describe_contents, run, result.task, task.library, KnownStart(state), origin, {})
+    run, state, origin = make_run_id(result.task), task.world.snapshot(), CellOrigin(task.scene, spec.seed)
+    describe = partial(describe_contents, run, result.task, task.library, KnownStart(state), origin, spec)
     with (
-        recorded_in(path.parent, describe, None, reporter) as recorders,
-        TraceWriter(path) as writer,
+        recorded_in(out, describe, None, reporter) as recorders,
+        TraceWriter(out / NAME) as writer,
     ):
         publish = Publisher(run, (writer, *recorders))
-        publish(make_start_event(task.assignment, task.library, origin, 0.0))
+        publish(make_start_event(task.assignment, task.library, origin, 0.0, spec))
         publish(TaskEnded(time=0.0, task=result.task, status="stopped" if stopped else "failed", failure=failure))

@@ -18,6 +18,7 @@ from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import Event
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.model import WorldModel
 
 
@@ -26,12 +27,18 @@ def rehearse(job: Rehearse, known: CellSnapshot) -> TaskResult:
     wanted, world = job.request, WorldModel(known.state)
     assignment = assign_request(wanted.task, wanted.goal, wanted.call, wanted.arguments, known.library, known.state)
     options = RunOptions(
-        out=Path(job.folder) if wanted.film else None,
+        RunSpec(
+            task=wanted.task,
+            arguments=wanted.arguments,
+            goal=wanted.goal,
+            call=wanted.call,
+            seed=wanted.seed,
+            deadline_s=wanted.deadline_s,
+            backend=known.backend,
+            out=job.folder if wanted.film else None,
+        ),
         record_in=Path(job.folder) if wanted.record else None,
-        seed=wanted.seed,
         tick_timeout_s=None,
-        deadline_s=wanted.deadline_s,
-        backend=known.backend,
         saved=known.devices or None,
     )
     return run_task(LoadedTask(known.library, assignment, world), options, _Unattended(), SilentReporter()).result

@@ -29,6 +29,7 @@ from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.recording.envelope import make_run_id
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.publisher import Publisher
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
 
@@ -69,7 +70,10 @@ def _recording(job: RecordTrial, library: SkillLibrary, cell: TrialCell) -> Iter
     """Record a trial in its folder as an MCAP file; yields who gets the events."""
     task, reporter, run = job.request.task, SilentReporter(), make_run_id(job.request.task)
     start, origin = KnownStart(cell.world.snapshot()), CellOrigin(job.scene, job.seed, DEFAULT_BACKEND)
-    describe = partial(describe_contents, run, task, library, start, origin, {})
+    spec = RunSpec(
+        task=task, arguments=job.request.arguments, scene=origin.scene, seed=origin.seed, backend=origin.backend
+    )
+    describe = partial(describe_contents, run, task, library, start, origin, spec)
     with recorded_in(Path(job.folder), describe, cell, reporter) as recorders:
         yield (Publisher(run, recorders),)
 

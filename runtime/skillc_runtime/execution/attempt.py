@@ -22,6 +22,7 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Listener, Note, PromptsChanged
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.run_spec import RunSpec
 
 TICK_S = 0.01
 """The tree is ticked at 100 Hz of the cell's time: every ten control periods."""
@@ -47,7 +48,7 @@ class RunContext:
     """What all attempts of a task run share.
 
     `listeners` get the events. `failures` collects the steps of plans that fail. `gate` holds calls back where the run
-    pauses; `locks` are those of the devices that it holds. A primitive or a wait may take `step_deadline_s`.
+    pauses; `locks` are those of the devices that it holds. `spec` is what is to be done and how.
     """
 
     library: SkillLibrary
@@ -57,7 +58,7 @@ class RunContext:
     gate: Gate
     locks: DeviceLocks
     origin: CellOrigin
-    step_deadline_s: float | None
+    spec: RunSpec
 
     def emit_notes(self, messages: Sequence[str]) -> None:
         """Emit messages for users."""
@@ -120,7 +121,7 @@ class Attempt:
             context.locks,
             EarlierTrees(nodes_before, failures),
             context.gate,
-            context.step_deadline_s,
+            context.spec.step_deadline_s,
         )
         self.ticking, self.ended = True, False
         self._invalidated: str | None = None

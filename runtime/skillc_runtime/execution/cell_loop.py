@@ -21,7 +21,7 @@ from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.recording.commands import Abort, Command, Stop
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.listeners import Listeners
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 MAX_REQUESTS = 1000
@@ -83,19 +83,20 @@ class CellLoop:
         self,
         assignment: Assignment,
         listeners: Sequence[Listener] = (),
-        settings: RunSettings | None = None,
+        spec: RunSpec | None = None,
         gate: Gate | None = None,
         run_id: str = "",
         start_preparation: StartPreparation | None = None,
     ) -> TaskRun:
         """Add a task run; it begins with the next tick, or when other runs give back the devices that it needs.
 
-        `gate` has its breakpoints. Its id is the name of the task with a number unless `run_id` is given.
+        `spec` is what is to be done and how, `gate` has its breakpoints.
+        Its id is the name of the task with a number unless `run_id` is given.
         `start_preparation` prepares it in place of that of the loop.
         """
         name = run_id or f"{assignment.name}-{next(self._numbers)}"
         heard = (Listeners(listeners),) if listeners else ()
-        settings = settings or RunSettings()
+        spec = spec or RunSpec()
         context = RunContext(
             self.library,
             self.backend,
@@ -104,12 +105,12 @@ class CellLoop:
             gate or Gate(),
             ClaimedLocks(self._claims, name),
             self.origin,
-            settings.step_deadline_s,
+            spec,
         )
-        self._claims.add(name, settings.priority)
+        self._claims.add(name, spec.priority)
         start = start_preparation or self.start_preparation
-        run = TaskRun(name, assignment, context, self._claims, start, settings)
-        insort(self.runs, run, key=lambda each: -each.settings.priority)
+        run = TaskRun(name, assignment, context, self._claims, start)
+        insort(self.runs, run, key=lambda each: -each.spec.priority)
         return run
 
     def request(self, run: TaskRun, command: Command) -> Request:

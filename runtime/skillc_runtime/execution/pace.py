@@ -54,8 +54,9 @@ class Pace:
         self.change(next((pace for pace in reversed(PACES) if pace < self.factor), self.factor))
 
 
-def parse_pace(text: str) -> float:
+def parse_pace(pace: float | str) -> float:
     """Return the factor that `fast`, `real` or a number means; ValueError with the form to write otherwise."""
+    text = pace if isinstance(pace, str) else "fast" if pace == FAST else str(pace)
     named = {"fast": FAST, "real": REAL}
     if text in named:
         return named[text]

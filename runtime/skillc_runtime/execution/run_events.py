@@ -16,7 +16,7 @@ from skillc_runtime.execution.plans.plan_record import record_arrangement, recor
 from skillc_runtime.execution.tree.gate import Gate, format_breakpoints
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.recording.events import FORMAT, PlanArrived, PlanMade, TaskStarted
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 
 
 def make_start_event(
@@ -24,7 +24,7 @@ def make_start_event(
     library: SkillLibrary,
     origin: CellOrigin,
     now: float,
-    settings: RunSettings | None = None,
+    spec: RunSpec | None = None,
     gate: Gate | None = None,
 ) -> TaskStarted:
     """Return the event that a task starts at the time `now` of the cell in s."""
@@ -41,7 +41,7 @@ def make_start_event(
         goal=objective.goal if isinstance(objective, AchieveGoal) else None,
         minimise=objective.minimise if isinstance(objective, AchieveGoal) else "",
         body=objective.body if isinstance(objective, ExecuteBody) else None,
-        settings=settings or RunSettings(),
+        settings=spec or RunSpec(),
         breakpoints=format_breakpoints(gate.breakpoints),
         stepped=gate.stepping,
     )

@@ -13,7 +13,7 @@ from skillc_runtime.planning.progress import PlanningProgress
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact, unverified_facts
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.states import EndState, State
 
 
@@ -26,9 +26,9 @@ class RunStatus:
     """
 
     def __init__(
-        self, run_id: str, assignment: Assignment, settings: RunSettings, claims: DeviceClaims, following: NextAttempt
+        self, run_id: str, assignment: Assignment, spec: RunSpec, claims: DeviceClaims, following: NextAttempt
     ) -> None:
-        self.id, self.assignment, self.settings = run_id, assignment, settings
+        self.id, self.assignment, self.spec = run_id, assignment, spec
         self.state: State = "queued"
         self.reason = ""
         self.end: EndState | None = None

@@ -33,7 +33,6 @@ from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import Event, Replanned, Requested, StateChanged, TaskEnded
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.failure_text import describe_failure
-from skillc_runtime.recording.run_settings import RunSettings
 from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.transactions import StoreError
 
@@ -54,16 +53,15 @@ class TaskRun(RunStatus):
         context: RunContext,
         claims: DeviceClaims,
         start_preparation: StartPreparation,
-        settings: RunSettings,
     ) -> None:
         """Submit a task; nothing starts before the first tick."""
-        super().__init__(run_id, assignment, settings, claims, NextAttempt(start_preparation))
+        super().__init__(run_id, assignment, context.spec, claims, NextAttempt(start_preparation))
         self._context = context
         self._submitted_at = self._state_since = context.backend.clock.now
         self._pause = PauseControl(context.gate, context.backend.clock)
         self._ending: Ending | None = None
         self._writes_before = context.backend.cell.world.ledger.count
-        self._emit(make_start_event(assignment, context.library, context.origin, self._now, settings, context.gate))
+        self._emit(make_start_event(assignment, context.library, context.origin, self._now, context.spec, context.gate))
 
     @property
     def breakpoints(self) -> tuple[str, ...]:
@@ -167,7 +165,7 @@ class TaskRun(RunStatus):
         self._emit(make_arrival_event(answer, self._context.library, self._now, tick))
         if isinstance(answer, NotStarted):
             self._finish("failed", no_other_plan(self.attempts, self._context.failures, answer))
-        elif self.settings.approve:
+        elif self.spec.approve:
             self._enter("planned", "waits for approval")
         else:
             self._begin()
@@ -217,7 +215,7 @@ class TaskRun(RunStatus):
             return self._finish(self._ending.state, self._ending.failure)
         backend = self._context.backend
         conclusion = conclude(self.attempts, self._context.failures, backend.cell.world)
-        if self.settings.ask_after_failure and last.status is Status.FAILURE and backend.broken is None:
+        if self.spec.ask_after_failure and last.status is Status.FAILURE and backend.broken is None:
             self._context.gate.open()
             return self._enter("paused", last.reason)
         match conclusion:
@@ -228,7 +226,7 @@ class TaskRun(RunStatus):
 
     def _check_limits(self) -> None:
         """Fail if the deadline has passed, nobody has decided, or the cell is broken before an attempt has begun."""
-        limit, broken = self.settings.deadline_s, self._context.backend.broken
+        limit, broken = self.spec.deadline_s, self._context.backend.broken
         if limit is not None and self._now - self._submitted_at > limit + EPSILON_S:
             self._stop("failed", Failure(kind="timeout", message=f"the task exceeded its deadline of {limit:g} s"))
         elif self.waits_for_person and self._now - self._state_since >= DECISION_LIMIT_S:

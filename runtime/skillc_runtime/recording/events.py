@@ -16,7 +16,7 @@ from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.reasons import FailedCallContext, ParameterReason, UntriedImplementation
-from skillc_runtime.recording.run_settings import RunSettings
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
@@ -49,7 +49,7 @@ class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
     goal: Condition | None = None
     minimise: Literal["", "work", "makespan"] = ""
     body: Node | None = None
-    settings: RunSettings = RunSettings()
+    settings: RunSpec = RunSpec()
     breakpoints: tuple[str, ...] = ()
     stepped: bool = False
     source: Position | None = None

@@ -328,46 +328,71 @@ export interface components {
         };
         /**
          * OperationRequest
-         * @description What is to be done: a `task` of the cell's library, a `goal` as a condition or as PDDL, or a `call` of a skill.
-         *
-         *         `arguments` are the values of the task's parameters, as they are written in a call, such as `lab:Tray-1` or `8 N`.
-         *
-         *         Of those that wait for planners or devices, a higher `priority` comes first, then who was submitted first; nothing
-         *         that runs gives way. `approve`: each plan waits for approval. `ask_after_failure`: a failed step waits for a
-         *         decision instead of another plan. The operation fails if it has not ended `deadline_s` of the cell's time after its
-         *         submission, and a primitive or a wait if it has not ended `step_deadline_s` after its start. It pauses before its
-         *         first call with `step`, and at each SKILL or FILE:LINE of `breakpoints`. `owner` is who requested it.
+         * @description What is to be done in a cell, with its library, and how; `owner` is who requested it.
          *
          *         A request that `continues` an operation that was interrupted names nothing else to do; `decision` says how, and
          *         `why` a step counts as done that is skipped.
          */
         OperationRequest: {
-            /** @default null */
+            /**
+             * @description The name of a task.
+             * @default null
+             */
             task?: string | null;
-            /** @default null */
-            goal?: string | null;
-            /** @default null */
-            call?: string | null;
-            /** @default {} */
+            /**
+             * @description The values of the task's parameters, as in a call, such as `lab:Tray-1` or `8 N`.
+             * @default {}
+             */
             arguments?: {
                 [key: string]: string;
             };
+            /**
+             * @description Instead of a task: plan for this goal, a condition, PDDL or JSON.
+             * @default null
+             */
+            goal?: string | null;
+            /**
+             * @description Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`.
+             * @default null
+             */
+            call?: string | null;
+            /**
+             * @description Let each plan, also a new one, wait for approval.
+             * @default false
+             */
+            approve?: boolean;
+            /**
+             * @description Let a failed step wait for a decision instead of another plan.
+             * @default false
+             */
+            ask_after_failure?: boolean;
+            /**
+             * @description Let the task fail if it has not ended after these seconds of the cell's time; also limits planning.
+             * @default null
+             */
+            deadline_s?: number | null;
+            /**
+             * @description Let a primitive or a wait fail if it has not ended after these seconds of the cell's time, without those that it was paused.
+             * @default null
+             */
+            step_deadline_s?: number | null;
+            /**
+             * @description Pause before the first call, and go on step by step.
+             * @default false
+             */
+            step?: boolean;
+            /**
+             * @description Pause before each call of a skill, or before the calls in a line.
+             * @default []
+             */
+            breakpoints?: string[];
+            /**
+             * @description Of those that wait for planners or devices, the higher comes first; nothing that runs gives way.
+             * @default 0
+             */
+            priority?: number;
             /** @default  */
             owner?: string;
-            /** @default false */
-            approve?: boolean;
-            /** @default false */
-            ask_after_failure?: boolean;
-            /** @default null */
-            deadline_s?: number | null;
-            /** @default null */
-            step_deadline_s?: number | null;
-            /** @default false */
-            step?: boolean;
-            /** @default [] */
-            breakpoints?: string[];
-            /** @default 0 */
-            priority?: number;
             /** @default  */
             continues?: string;
             /**
@@ -689,7 +714,7 @@ export interface components {
             /** @default null */
             body?: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"]) | null;
             /** @default {} */
-            settings?: components["schemas"]["RunSettings"];
+            settings?: components["schemas"]["RunSpec"];
             /** @default [] */
             breakpoints?: string[];
             /** @default false */
@@ -1079,25 +1104,128 @@ export interface components {
             source: components["schemas"]["Position"];
         };
         /**
-         * RunSettings
-         * @description How a task is run.
-         *
-         *         `approve`: each plan waits for approval. `deadline_s`: the task fails if it has not ended so long after its
-         *         submission, in s of the cell. `step_deadline_s`: a primitive or a wait fails if it has not ended so long after its
-         *         start, without the time that it was paused. `ask_after_failure`: a failed step waits for a decision instead of
-         *         another plan. A higher `priority` comes first of the tasks that wait for devices or planners.
+         * RunSpec
+         * @description All that a run is given: what is to be done, how, in which cell, and what is written of it.
          */
-        RunSettings: {
-            /** @default false */
+        RunSpec: {
+            /**
+             * @description The name of a task.
+             * @default null
+             */
+            task?: string | null;
+            /**
+             * @description The values of the task's parameters, as in a call, such as `lab:Tray-1` or `8 N`.
+             * @default {}
+             */
+            arguments?: {
+                [key: string]: string;
+            };
+            /**
+             * @description Instead of a task: plan for this goal, a condition, PDDL or JSON.
+             * @default null
+             */
+            goal?: string | null;
+            /**
+             * @description Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`.
+             * @default null
+             */
+            call?: string | null;
+            /**
+             * @description Let each plan, also a new one, wait for approval.
+             * @default false
+             */
             approve?: boolean;
-            /** @default null */
-            deadline_s?: number | null;
-            /** @default false */
+            /**
+             * @description Let a failed step wait for a decision instead of another plan.
+             * @default false
+             */
             ask_after_failure?: boolean;
-            /** @default 0 */
-            priority?: number;
-            /** @default null */
+            /**
+             * @description Let the task fail if it has not ended after these seconds of the cell's time; also limits planning.
+             * @default null
+             */
+            deadline_s?: number | null;
+            /**
+             * @description Let a primitive or a wait fail if it has not ended after these seconds of the cell's time, without those that it was paused.
+             * @default null
+             */
             step_deadline_s?: number | null;
+            /**
+             * @description Pause before the first call, and go on step by step.
+             * @default false
+             */
+            step?: boolean;
+            /**
+             * @description Pause before each call of a skill, or before the calls in a line.
+             * @default []
+             */
+            breakpoints?: string[];
+            /**
+             * @description Of those that wait for planners or devices, the higher comes first; nothing that runs gives way.
+             * @default 0
+             */
+            priority?: number;
+            /**
+             * @description The scene of a goal or a call.
+             * @default null
+             */
+            scene?: string | null;
+            /**
+             * @description The library of a goal or a call; by default that here, or `wiping`.
+             * @default null
+             */
+            library?: string | null;
+            /**
+             * @description Minimise the total duration of all steps, or the time until the last one ends.
+             * @default work
+             * @enum {unknown}
+             */
+            minimise?: "makespan" | "work";
+            /**
+             * @description Reuse plans that were found for the same problem.
+             * @default true
+             */
+            plan_cache?: boolean;
+            /**
+             * @description The seed of what differs from the world model.
+             * @default 0
+             */
+            seed?: number;
+            /**
+             * @description Simulate with physics, or with ideal motion and contact: faster, but contact is not verified then.
+             * @default mujoco
+             */
+            backend?: string;
+            /**
+             * @description Let simulated time pass as fast as it computes, or at most N times as fast as real time.
+             * @default fast
+             */
+            pace?: number | string;
+            /**
+             * @description Write report.html, result.json, events.jsonl, figures, the film and stills to this folder.
+             * @default null
+             */
+            out?: string | null;
+            /**
+             * @description Record forces, poses, joints and references, 100 samples a second, to the folder of the report.
+             * @default null
+             */
+            signals?: ("csv" | "parquet") | null;
+            /**
+             * @description Write a film and stills with the report, which takes most of the time.
+             * @default true
+             */
+            film?: boolean;
+            /**
+             * @description Write film.gif as well, a film of at most 4 MB that repeats.
+             * @default false
+             */
+            gif?: boolean;
+            /**
+             * @description The appearance of devices in films: `primitive` shapes, or `menagerie` meshes (downloaded once).
+             * @default primitive
+             */
+            looks?: string;
         };
         /**
          * StateChanged
@@ -2110,23 +2238,40 @@ export interface components {
          * RehearsalRequest
          * @description A task of the cell's library with arguments, a goal, or a call of a skill, to try in a simulated twin.
          *
-         *         `seed` determines how the reality of the twin differs from the facts. `deadline_s` is in the twin's time. It is
-         *         filmed with `film`, and recorded with `record`.
+         *         It is filmed with `film`, and recorded with `record`.
          */
         RehearsalRequest: {
-            /** @default null */
+            /**
+             * @description The name of a task.
+             * @default null
+             */
             task?: string | null;
-            /** @default null */
-            goal?: string | null;
-            /** @default null */
-            call?: string | null;
-            /** @default {} */
+            /**
+             * @description The values of the task's parameters, as in a call, such as `lab:Tray-1` or `8 N`.
+             * @default {}
+             */
             arguments?: {
                 [key: string]: string;
             };
-            /** @default 0 */
+            /**
+             * @description Instead of a task: plan for this goal, a condition, PDDL or JSON.
+             * @default null
+             */
+            goal?: string | null;
+            /**
+             * @description Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`.
+             * @default null
+             */
+            call?: string | null;
+            /**
+             * @description Determines how the twin differs from what is known.
+             * @default 0
+             */
             seed?: number;
-            /** @default 600 */
+            /**
+             * @description Let the task fail if it has not ended after these seconds of the twin's time.
+             * @default 600
+             */
             deadline_s?: number;
             /** @default false */
             film?: boolean;

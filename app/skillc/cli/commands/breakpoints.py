@@ -7,12 +7,12 @@ import click
 from skillc.cli.command import Command
 from skillc.cli.operation_remarks import remark_status
 from skillc.cli.server_access import operation_argument
-from skillc.cli.server_completions import complete_pause_at
+from skillc.cli.server_completions import complete_breakpoint
 from skillc.cli.server_connection import connect_server, server_options
 
 EXAMPLES = """
 skillc breakpoints
-skillc breakpoints --pause-at Pick --pause-at sort.skill:12
+skillc breakpoints --breakpoints Pick --breakpoints sort.skill:12
 skillc breakpoints --clear
 """
 
@@ -20,11 +20,11 @@ skillc breakpoints --clear
 @click.command(cls=Command, examples=EXAMPLES)
 @operation_argument
 @click.option(
-    "--pause-at",
+    "--breakpoints",
     "places",
     multiple=True,
     metavar="SKILL|FILE:LINE",
-    shell_complete=complete_pause_at,
+    shell_complete=complete_breakpoint,
     help="Pause before each call of a skill, or before the calls in a line, and at no others. Can be repeated.",
 )
 @click.option("--clear", is_flag=True, help="Pause at no call any more.")
@@ -35,7 +35,7 @@ def command(operation: str | None, places: tuple[str, ...], clear: bool) -> None
     An operation that is paused stays paused; `skillc resume` continues it to the next breakpoint.
     """
     if places and clear:
-        raise click.UsageError("--clear cannot be used with --pause-at")
+        raise click.UsageError("--clear cannot be used with --breakpoints")
     with connect_server() as server:
         found = server.operation(operation)
         if places or clear:

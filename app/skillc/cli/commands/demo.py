@@ -10,12 +10,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from msgspec import structs
 
 from skillc.cli.command import Command
-from skillc.cli.options import FOLDER, gif_option, looks_option
+from skillc.cli.run_options import run_options
 
 if TYPE_CHECKING:
     from skillc.services.run_result import RunResult
+    from skillc_runtime.recording.run_spec import RunSpec
 
 SEED = 1
 """With this seed both surfaces are more than 1 cm away from their poses in the world model."""
@@ -25,7 +27,6 @@ TASKS = {"ur5e": "clean_whiteboard", "iiwa": "clean_table"}
 
 @click.command(cls=Command)
 @click.option("--robot", type=click.Choice([*TASKS, "all"]), default="all", show_default=True, help="The robot to run.")
-@click.option("--out", type=FOLDER, help="Write reports, figures and films to this folder.")
 @click.option(
     "--seed",
     metavar="N",
@@ -33,24 +34,24 @@ TASKS = {"ur5e": "clean_whiteboard", "iiwa": "clean_table"}
     show_default=True,
     help="The seed of what differs from the world model.",
 )
-@looks_option
-@gif_option
+@run_options(only=("out", "looks", "gif"))
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON: a list with one object per task.")
-def command(robot: str, out: Path | None, seed: int, looks: str, gif: bool, as_json: bool) -> int:
+def command(spec: RunSpec, robot: str, as_json: bool) -> int:
     """Run the two shipped wiping tasks in simulation."""
     from skillc.cli.console import Terminal, print_json
     from skillc.cli.run_output import print_results, run_with_progress
     from skillc.services.files import check_writable
     from skillc.services.running import RunOptions
-    from skillc.services.task_loading import TaskRequest, load_task
+    from skillc.services.task_loading import load_task
 
+    out = None if spec.out is None else Path(spec.out)
     check_writable(out)
     runs: list[RunResult] = []
     for task in TASKS.values() if robot == "all" else [TASKS[robot]]:
         folder = out / task if out is not None else None
-        options = RunOptions(folder, seed, looks=looks, gif=gif)
+        options = RunOptions(structs.replace(spec, task=task, out=None if folder is None else str(folder)))
         check_writable(folder)
-        with load_task(TaskRequest(task), Terminal()) as loaded:
+        with load_task(options.spec, Terminal()) as loaded:
             runs.append(run_with_progress(loaded, options, quiet=as_json))
         if not as_json:
             print_results([runs[-1].result], folder if runs[-1].written else None)

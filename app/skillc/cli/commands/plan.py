@@ -7,22 +7,13 @@ Exit code 3 if no plan is found.
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.completions import complete_scene
-from skillc.cli.options import (
-    PATH,
-    PLANNING,
-    grouped_option,
-    json_option,
-    planner_options,
-    store_options,
-    task_arguments,
-)
+from skillc.cli.options import PLANNING, grouped_option, json_option, store_options, task_arguments
+from skillc.cli.run_options import run_options
 from skillc.cli.server_access import cell_options, refuse_options
 from skillc.cli.server_completions import complete_asked_argument, complete_asked_task
 from skillc.cli.server_connection import asks_cell
@@ -31,6 +22,10 @@ from skillc.cli.slow_notice import notice_if_slow
 if TYPE_CHECKING:
     from skillc.services.planning import Measure
     from skillc_runtime.planning.progress import PlanningProgress
+    from skillc_runtime.recording.run_spec import RunSpec
+
+DEADLINE_S = 30.0
+"""For how long is planned, unless it is said."""
 
 EXAMPLES = """
 skillc plan clean_table
@@ -42,37 +37,21 @@ skillc plan wiping:clean_both --minimise makespan --json
 @click.command(cls=Command, examples=EXAMPLES)
 @click.argument("task", required=False, shell_complete=complete_asked_task)
 @task_arguments(complete_asked_argument)
-@click.option("--goal", metavar="CONDITION", help="Plan without a task: for this goal, a condition or PDDL.")
-@click.option("--scene", type=PATH, shell_complete=complete_scene, help="The scene of --goal.")
-@click.option("--library", type=PATH, help="The library of --goal; by default that here, or `wiping`.")
 @store_options
-@planner_options
+@run_options(only=("goal", "scene", "library", "minimise", "plan_cache"))
 @grouped_option(PLANNING, "--prove", is_flag=True, help="Include more of a large scene until optimality is proved.")
 @grouped_option(
     PLANNING,
     "--deadline",
     type=click.FloatRange(min=0.1),
     metavar="SECONDS",
-    default=30.0,
+    default=DEADLINE_S,
     show_default=True,
     help="The time limit of the planner.",
 )
 @cell_options
 @json_option
-def command(
-    task: str | None,
-    arguments: dict[str, str],
-    scene: Path | None,
-    goal: str | None,
-    library: Path | None,
-    store: str | None,
-    reset: bool,
-    minimise: str,
-    plan_cache: bool,
-    prove: bool,
-    deadline: float,
-    as_json: bool,
-) -> int:
+def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, as_json: bool) -> int:
     """Plan for TASK, or for --goal in --scene, and print the steps.
 
     TASK is the name of a task of the project here or of a shipped one, or LIBRARY:NAME; `skillc tasks` lists them. In a
@@ -85,26 +64,28 @@ def command(
     from skillc.services.plan_text import format_plan, plan_as_json
     from skillc.services.planning import plan_goal, prepare_planners
     from skillc.services.stores import StoreChoice
-    from skillc.services.task_loading import TaskRequest, load_task
+    from skillc.services.task_loading import check_request, fill_in, load_task
     from skillc_runtime.cancellation import CancelToken
     from skillc_runtime.planning.plan import GaveUp, Unsolvable
     from skillc_runtime.planning.progress import describe_progress
 
     if asks_cell():
-        refuse_options(scene=scene, library=library, store=store, reset=reset)
-        return cell_questions.plan(task, arguments, goal, minimise, prove, deadline, as_json)
-    request = TaskRequest(task, scene, goal, None, library, StoreChoice(store, reset), arguments).with_defaults()
-    remark_default(task, request.task)
-    request.check(calls=False)
-    if prove and minimise != "work":
+        refuse_options(scene=spec.scene, library=spec.library, store=store, reset=reset)
+        return cell_questions.plan(spec, prove, as_json)
+    kept = StoreChoice(store, reset)
+    wanted = fill_in(spec, kept)
+    remark_default(spec.task, wanted.task)
+    check_request(wanted, kept, calls=False)
+    if prove and wanted.minimise != "work":
         raise click.UsageError("--prove requires --minimise work; for makespan the answer always has a lower bound")
-    measure: Measure = "makespan" if minimise == "makespan" else "proven work" if prove else "work"
-    with load_task(request, Terminal()) as loaded:
+    measure: Measure = "makespan" if wanted.minimise == "makespan" else "proven work" if prove else "work"
+    limit_s = wanted.deadline_s or DEADLINE_S
+    with load_task(wanted, Terminal(), kept) as loaded:
         progress: list[PlanningProgress] = []
         with notice_if_slow(
-            f"planning, for at most {deadline:g} s ..", lambda: describe_progress(progress[-1]) if progress else ""
+            f"planning, for at most {limit_s:g} s ..", lambda: describe_progress(progress[-1]) if progress else ""
         ):
-            planners, cancel = prepare_planners(plan_cache), CancelToken(deadline)
+            planners, cancel = prepare_planners(wanted.plan_cache), CancelToken(limit_s)
             answer = plan_goal(loaded, measure, planners, cancel, progress.append)
         if as_json:
             click.echo(plan_as_json(answer, loaded))

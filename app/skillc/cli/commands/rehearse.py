@@ -9,15 +9,16 @@ Exit code 3 if the task does not succeed in the twin.
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 
 import click
 import msgspec
 
 from skillc.cli.command import Command
-from skillc.cli.options import EXECUTION, PATH, grouped_option, json_option
+from skillc.cli.options import json_option
 from skillc.cli.server_access import request_options
 from skillc.cli.server_connection import connect_server, server_options
+from skillc.cli.struct_options import struct_options
+from skillc.contract.rehearsal import RehearsalRequest
 
 EXAMPLES = """
 skillc rehearse clean_table --cell iiwa_table
@@ -28,37 +29,24 @@ skillc rehearse --goal "lab:Bin-A contain lab:Part-1" --seed 3
 
 @click.command(cls=Command, examples=EXAMPLES)
 @request_options
-@click.option("--film", type=PATH, metavar="FILE", help="Write a film of it, an MP4 file.")
-@grouped_option(
-    EXECUTION, "--seed", default=0, show_default=True, help="Determines how the twin differs from what is known."
-)
-@grouped_option(
-    EXECUTION,
-    "--deadline",
-    type=click.FloatRange(min=0.0, min_open=True),
-    metavar="SECONDS",
-    help="Let the task fail if it has not ended after these seconds of the twin's time.",
-)
+@click.option("--film", "film_file", type=click.Path(), metavar="FILE", help="Write a film of it, an MP4 file.")
+@struct_options(RehearsalRequest)
 @server_options
 @json_option
-def command(
-    task: str | None,
-    arguments: dict[str, str],
-    cell: str | None,
-    goal: str | None,
-    skill: str | None,
-    film: Path | None,
-    seed: int,
-    deadline: float | None,
-    as_json: bool,
-) -> int:
+def command(request: RehearsalRequest, cell: str | None, film_file: str | None, as_json: bool) -> int:
     """Do TASK of the cell's library in a simulated twin of the cell, and print how it ends."""
     from skillc.cli.console import page_of, print_remark, print_result
     from skillc.cli.result_output import format_result
 
     with connect_server() as server:
         done = server.cell(cell).rehearse(
-            task, arguments=arguments, goal=goal, skill=skill, seed=seed, deadline_s=deadline, film=film
+            request.task,
+            arguments=request.arguments,
+            goal=request.goal,
+            call=request.call,
+            seed=request.seed,
+            deadline_s=request.deadline_s,
+            film=film_file,
         )
     result = done.result
     assert result is not None, "a request that cannot be carried out is an error"
@@ -66,6 +54,6 @@ def command(
         click.echo(msgspec.json.format(msgspec.json.encode(result)))
     else:
         print_result(format_result(result, page_of(sys.stdout)))
-    if film is not None:
-        print_remark(f"the film is in {film}" if done.film else "there is no film: nothing has moved")
+    if film_file is not None:
+        print_remark(f"the film is in {film_file}" if done.film else "there is no film: nothing has moved")
     return 0 if result.is_sound else 3

@@ -8,11 +8,17 @@ Exit code 1 if the run cannot be repeated.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.options import FOLDER, PATH, film_option, gif_option, json_option, looks_option
+from skillc.cli.options import PATH, json_option
+from skillc.cli.run_options import run_options
+from skillc.cli.struct_options import PATHS
+
+if TYPE_CHECKING:
+    from skillc_runtime.recording.run_spec import RunSpec
 
 EXAMPLES = """
 skillc report out
@@ -22,15 +28,11 @@ skillc report recording.mcap --out report --no-film
 
 @click.command(cls=Command, examples=EXAMPLES)
 @click.argument("run", metavar="RUN_DIR", type=PATH)
-@click.option("--out", type=FOLDER, help="Write to this folder; by default to RUN_DIR.")
-@click.option("--library", type=PATH, help="The library of the run; by default the one in the recording.")
-@film_option
-@looks_option
-@gif_option
+@click.option("--out", type=PATHS["FOLDER"], metavar="FOLDER", help="Write to this folder; by default to RUN_DIR.")
+@click.option("--library", type=PATHS["PATH"], help="The library of the run; by default the one in the recording.")
+@run_options(only=("film", "looks", "gif"))
 @json_option
-def command(
-    run: Path, out: Path | None, library: Path | None, no_film: bool, looks: str, gif: bool, as_json: bool
-) -> int:
+def command(spec: RunSpec, run: Path, as_json: bool) -> int:
     """Write report.html, result.json, figures, film and stills of a recorded run, as `skillc run --out` does.
 
     Figures and film need more than a recording has, so the task is run again from the recorded inputs; if an event is
@@ -41,11 +43,12 @@ def command(
     from skillc.services.files import check_writable
     from skillc.services.replaying.report import report_recorded
 
-    if out is None and not run.is_dir():
+    if spec.out is None and not run.is_dir():
         raise click.UsageError(f"{run} is no folder: name the folder of the report with --out")
-    folder = out or run
+    folder = Path(spec.out or run)
+    library = None if spec.library is None else Path(spec.library)
     check_writable(folder)
-    made = report_recorded(run, folder, library, Terminal(), looks, not no_film, gif)
+    made = report_recorded(run, folder, library, Terminal(), spec.looks, spec.film, spec.gif)
     if as_json:
         print_json(made.result)
     else:

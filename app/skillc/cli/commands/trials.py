@@ -11,12 +11,14 @@ from pathlib import Path
 from typing import get_args
 
 import click
+import msgspec
 
 from skillc.cli.command import Command
 from skillc.cli.options import FOLDER, json_option, task_arguments
 from skillc.cli.server_access import cell_options, refuse_options
 from skillc.cli.server_completions import complete_asked_argument, complete_asked_task
 from skillc.cli.server_connection import asks_cell
+from skillc.cli.struct_options import struct_options
 from skillc_runtime.evaluation.trials.trial import Disturbance
 
 EXAMPLES = """
@@ -25,6 +27,20 @@ skillc trials contact:insert_peg -n 100 --out trials
 skillc trials clean_table --disturb push --json
 skillc trials clean_table --cell iiwa_table -n 20
 """
+
+
+class AskedTrials(msgspec.Struct, frozen=True, kw_only=True):
+    """What is tried, how often, and where it is recorded."""
+
+    task: str | None
+    arguments: dict[str, str]
+    number: int
+    seed: int
+    jobs: int | None
+    disturb: Disturbance
+    out: Path | None
+    deadline_s: float
+
 
 COUNT, SEED = click.IntRange(min=1), click.IntRange(min=0)
 
@@ -62,19 +78,10 @@ COUNT, SEED = click.IntRange(min=1), click.IntRange(min=0)
     metavar="SECONDS",
     help="The time limit of one trial, in wall time.",
 )
+@struct_options(AskedTrials)
 @cell_options
 @json_option
-def command(
-    task: str | None,
-    arguments: dict[str, str],
-    number: int,
-    seed: int,
-    jobs: int | None,
-    disturb: Disturbance,
-    out: Path | None,
-    deadline: float,
-    as_json: bool,
-) -> int:
+def command(asked: AskedTrials, as_json: bool) -> int:
     """Run TASK, as `skillc run` does, in simulation with -n successive seeds, starting at --seed.
 
     Each seed draws how the simulation differs from the world model, within the ranges that the scene states.
@@ -91,25 +98,33 @@ def command(
     from skillc.services.trial_runs import TrialRequest, run_trials, write_page
 
     def progress(name: str, done: int) -> TrialProgress:
-        return TrialProgress(name, disturb, number, done, quiet=as_json)
+        return TrialProgress(name, asked.disturb, asked.number, done, quiet=as_json)
 
     if asks_cell():
-        refuse_options(jobs=jobs, out=out)
-        if task is None:
+        refuse_options(jobs=asked.jobs, out=asked.out)
+        if asked.task is None:
             raise RequestError("name a task of the cell's library")
-        with progress(task, 0) as shown:
-            result = cell_questions.run_trials(task, arguments, number, seed, disturb, deadline, shown.show_done)
+        with progress(asked.task, 0) as shown:
+            result = cell_questions.run_trials(
+                asked.task,
+                asked.arguments,
+                asked.number,
+                asked.seed,
+                asked.disturb,
+                asked.deadline_s,
+                shown.show_done,
+            )
     else:
-        chosen = require_task(task)
-        remark_default(task, chosen)
-        at_a_time = min(jobs or os.cpu_count() or 1, number)
-        seeds = range(seed, seed + number)
-        request = TrialRequest(chosen, disturb, seeds, at_a_time, out, deadline, arguments)
+        chosen = require_task(asked.task)
+        remark_default(asked.task, chosen)
+        at_a_time = min(asked.jobs or os.cpu_count() or 1, asked.number)
+        seeds = range(asked.seed, asked.seed + asked.number)
+        request = TrialRequest(chosen, asked.disturb, seeds, at_a_time, asked.out, asked.deadline_s, asked.arguments)
         result = run_trials(request, progress, Terminal())
     if as_json:
         print_json(result)
     else:
         print_result(format_series(result, page_of(sys.stdout), is_unicode(sys.stdout)))
-    if out is not None:
-        write_page(result, out)
+    if asked.out is not None:
+        write_page(result, asked.out)
     return 0 if result.is_good else 3

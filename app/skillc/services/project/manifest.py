@@ -13,6 +13,7 @@ from skillc.services.project.toml_text import load_toml
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.source import Source, Span
 from skillc_dsl.spelling import did_you_mean
+from skillc_runtime.recording.run_spec import RENAMED
 
 NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
 _NAMESPACE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:[^\s<>\"{}|\\^`]*[#/]")
@@ -85,7 +86,7 @@ class NamedGoal(Settings, frozen=True):
     """A task that is a goal or a call of a skill, in a scene (by default that of the project)."""
 
     goal: str | None = None
-    skill: str | None = None
+    call: str | None = None
     scene: str | None = None
 
 
@@ -160,6 +161,8 @@ def _unknown(key: str, known: tuple[str, ...], above: tuple[str, ...], span: Spa
     inside = f"`[{'.'.join(above)}]`" if above else "`skillc.toml`"
     hint = did_you_mean(key, known)
     near = hint.removeprefix("did you mean `").removesuffix("`?")
+    if (renamed := RENAMED.get(key)) in known:
+        near, hint = renamed, f"it is called `{renamed}` now"
     fix = Fix(span, near, f"write `{near}`", safe=False) if near in known else None
     return Diagnostic("unknown-key", span, f"there is no key `{key}` in {inside}", hint, fix=fix)
 
@@ -213,6 +216,6 @@ def _wrong_values(manifest: Manifest, places: TomlPlaces) -> Iterator[Diagnostic
             message = f"the dependency `{name}` needs one of `path`, `package` and `entry-point`"
             yield Diagnostic("wrong-setting", places.find(("dependencies", name)), message)
     for name, goal in manifest.tasks.items():
-        if (goal.goal is None) == (goal.skill is None):
-            message = f"the task `{name}` needs either a `goal` or a `skill`"
+        if (goal.goal is None) == (goal.call is None):
+            message = f"the task `{name}` needs either a `goal` or a `call`"
             yield Diagnostic("wrong-setting", places.find(("tasks", name)), message)

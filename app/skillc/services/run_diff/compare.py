@@ -25,6 +25,12 @@ from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.recording.events import Disturbed, Requested, TaskStarted
 from skillc_runtime.recording.known_facts import format_status
+from skillc_runtime.recording.run_spec import RunRequest, TaskRequest
+
+SETTINGS = tuple(
+    each for each in RunRequest.__struct_fields__ if each not in (*TaskRequest.__struct_fields__, "step", "breakpoints")
+)
+"""How a run was to be done; what was to be done, and where it pauses, is compared as it was understood."""
 
 
 def compare_runs(first: RecordedRunData, second: RecordedRunData) -> RunDiff:
@@ -58,7 +64,7 @@ def compare_runs(first: RecordedRunData, second: RecordedRunData) -> RunDiff:
 
 def _about_run(start: TaskStarted) -> dict[str, Leaf]:
     """Return what a run was given at its start."""
-    settings = msgspec.structs.asdict(start.settings)
+    settings = {each: getattr(start.settings, each) for each in SETTINGS}
     return {
         "task": start.task,
         "objective": _describe_objective(start),

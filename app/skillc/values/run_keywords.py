@@ -1,0 +1,121 @@
+"""The keyword arguments with which programs run something, made from its specification; do not edit.
+
+`python tests/accept.py` writes this file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from datetime import datetime
+from typing import Any, Literal, TypedDict
+
+from skillc.values.arguments import AnyPath
+
+
+class WorkKeywords(TypedDict, total=False):
+    """How something is run, and what is written of it."""
+
+    deadline_s: float | None
+    """Let the task fail if it has not ended after these seconds of the cell's time; also limits planning."""
+    step_deadline_s: float | None
+    """Let a primitive or a wait fail if it has not ended after these seconds of the cell's time, without those that
+    it was paused."""
+    minimise: Literal["makespan", "work"]
+    """Minimise the total duration of all steps, or the time until the last one ends."""
+    plan_cache: bool
+    """Reuse plans that were found for the same problem."""
+    seed: int
+    """The seed of what differs from the world model."""
+    backend: str
+    """Simulate with physics, or with ideal motion and contact: faster, but contact is not verified then."""
+    out: AnyPath | None
+    """Write report.html, result.json, events.jsonl, figures, the film and stills to this folder."""
+    signals: Literal["csv", "parquet"] | None
+    """Record forces, poses, joints and references, 100 samples a second, to the folder of the report."""
+    film: bool
+    """Write a film and stills with the report, which takes most of the time."""
+    gif: bool
+    """Write film.gif as well, a film of at most 4 MB that repeats."""
+    looks: str
+    """The appearance of devices in films: `primitive` shapes, or `menagerie` meshes (downloaded once)."""
+
+
+class AttendedKeywords(TypedDict, total=False):
+    """How who runs something attends to it."""
+
+    step: bool
+    """Pause before the first call, and go on step by step."""
+    breakpoints: Sequence[str]
+    """Pause before each call of a skill, or before the calls in a line."""
+    pace: float | str
+    """Let simulated time pass as fast as it computes, or at most N times as fast as real time."""
+
+
+class RunKeywords(WorkKeywords, total=False):
+    """What is run, and how."""
+
+    arguments: Mapping[str, Any] | None
+    """The values of the task's parameters, as in a call, such as `lab:Tray-1` or `8 N`."""
+    goal: str | None
+    """Instead of a task: plan for this goal, a condition, PDDL or JSON."""
+    call: str | None
+    """Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`."""
+    scene: AnyPath | None
+    """The scene of a goal or a call."""
+    library: AnyPath | None
+    """The library of a goal or a call; by default that here, or `wiping`."""
+
+
+class StartKeywords(RunKeywords, AttendedKeywords, total=False):
+    """What is started, and how."""
+
+
+class SceneRunKeywords(WorkKeywords, total=False):
+    """What is run in a scene, and how."""
+
+    call: str | None
+    """Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`."""
+
+
+class SceneStartKeywords(SceneRunKeywords, AttendedKeywords, total=False):
+    """What is started in a scene, and how."""
+
+
+class SubmitKeywords(TypedDict, total=False):
+    """What a cell of a server is given."""
+
+    arguments: Mapping[str, Any] | None
+    """The values of the task's parameters, as in a call, such as `lab:Tray-1` or `8 N`."""
+    goal: str | None
+    """Instead of a task: plan for this goal, a condition, PDDL or JSON."""
+    call: str | None
+    """Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`."""
+    approve: bool
+    """Let each plan, also a new one, wait for approval."""
+    ask_after_failure: bool
+    """Let a failed step wait for a decision instead of another plan."""
+    deadline_s: float | None
+    """Let the task fail if it has not ended after these seconds of the cell's time; also limits planning."""
+    step_deadline_s: float | None
+    """Let a primitive or a wait fail if it has not ended after these seconds of the cell's time, without those that
+    it was paused."""
+    priority: int
+    """Of those that wait for planners or devices, the higher comes first; nothing that runs gives way."""
+
+
+class OperationKeywords(SubmitKeywords, total=False):
+    """What is started in a cell."""
+
+    step: bool
+    """Pause before the first call, and go on step by step."""
+    breakpoints: Sequence[str]
+    """Pause before each call of a skill, or before the calls in a line."""
+
+
+class OrderKeywords(SubmitKeywords, total=False):
+    """What is started in a cell at a time, and when again; `missed` is what becomes of one that was not possible."""
+
+    every_s: float | None
+    until: datetime | None
+    count: int | None
+    missed: Literal["run-once", "skip"]
