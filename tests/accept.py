@@ -52,6 +52,7 @@ def _sources(case: Path, pattern: str) -> list[Source]:
 
 def main() -> None:
     """Rewrite the expectations of every case and say what changed; rewrite the list of diagnostics."""
+    import run_form
     import run_keywords
     from clients.made import MADE
     from matrix.table import PAGE, page  # only here: tests import this module for the cases alone
@@ -65,6 +66,7 @@ def main() -> None:
         sys.stderr.write(f"{case.name}: {', '.join(changed) or 'unchanged'}\n")
     PAGE.write_text(page())
     MANUAL.write_text(manual(), encoding="utf-8")
+    run_form.FILE.write_text(run_form.format_form(), encoding="utf-8")
     run_keywords.FILE.write_text(run_keywords.format_keywords(), encoding="utf-8")
     kinematics.FILE.write_text(kinematics.format_cases(), encoding="utf-8")
     for made in MADE:

@@ -9,6 +9,7 @@ import click
 import pytest
 from click.testing import CliRunner
 
+import run_form
 import run_keywords
 import skillc
 from skillc.cli.main import skillc as command_line
@@ -21,6 +22,7 @@ from skillc_runtime.recording.run_spec import ATTENDED_ELSEWHERE, RunRequest, Ru
 
 def test_the_keywords_are_those_of_the_specification() -> None:
     assert run_keywords.FILE.read_text("utf-8") == run_keywords.format_keywords(), "run `python tests/accept.py`"
+    assert run_form.FILE.read_text("utf-8") == run_form.format_form(), "run `python tests/accept.py`"
     assert StartKeywords.__optional_keys__ == {*RunSpec.__struct_fields__} - {"task", *ATTENDED_ELSEWHERE}
     assert RunKeywords.__optional_keys__ < StartKeywords.__optional_keys__
 

@@ -21,7 +21,8 @@ from skillc_runtime.execution.consistency import check_events
 from skillc_runtime.execution.planning_queue import PlanningQueue
 from skillc_runtime.execution.repeat import repeat_run
 from skillc_runtime.recording.commands import EditWorld
-from skillc_runtime.recording.events import Requested
+from skillc_runtime.recording.events import Requested, TaskStarted
+from skillc_runtime.recording.run_spec import specify
 from skillc_runtime.recording.states import ENDS
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
@@ -87,3 +88,16 @@ def test_an_edit_of_a_person_is_an_input_that_can_be_repeated(tmp_path: Path, ti
     (edit,) = (each.command for each in recorded if isinstance(each, Requested))
     assert isinstance(edit, EditWorld) and (edit.who, edit.why) == ("Ada", "I carried it")
     assert repeated.difference is None and repeated.ended, str(repeated.difference)
+
+
+def test_what_is_requested_goes_whole_to_the_engine_and_into_the_journal(tmp_path: Path) -> None:
+    request = OperationRequest(task="carry_all", deadline_s=900.0, breakpoints=("Load",), approve=True, owner="Ada")
+    with opened(tmp_path) as host:
+        host.submit("first", request)
+        origin = host.loop.origin
+        wanted = specify(request, origin.scene, origin.seed, origin.backend)
+        assert host.loop.runs[0].spec == wanted and wanted.breakpoints == ("Load",)
+        host.tick()
+        with closing(JournalReader(host.settings.journal)) as reader:
+            started = reader.envelopes("first", 0)[0].event
+    assert isinstance(started, TaskStarted) and started.settings == wanted

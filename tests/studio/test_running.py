@@ -7,6 +7,12 @@ from playwright.sync_api import Page, expect
 from server.running import RunningServer
 from studio.opening import FINISHED, choose, press_start, start, wait_for_state
 
+APPROVE, STEP = (
+    "Let each plan, also a new one, wait for approval",
+    "Pause before the first call, and go on step by step",
+)
+"""Two fields of the form of a start."""
+
 
 def test_three_clicks_run_a_task(page: Page) -> None:
     page.keyboard.press("r")
@@ -66,7 +72,7 @@ def test_the_keyboard_alone_does_a_whole_run(page: Page, server: RunningServer) 
     page.get_by_role("list", name="Tasks").wait_for()
     _press(page, "carry_all")
     page.locator(".preview-step").first.wait_for()
-    _press(page, "pause before the first step", "ask before each plan runs", "Start")
+    _press(page, APPROVE, STEP, "Start")
     wait_for_state(page, "waits for approval")
     page.get_by_role("button", name="Approve the plan").wait_for()
     _press(page, "Approve the plan")
@@ -111,7 +117,7 @@ def test_the_keyboard_alone_answers_a_question_and_reads_the_report(page: Page) 
 def test_pause_step_resume_and_stop(page: Page, server: RunningServer) -> None:
     server.client.put("/cells/yard/pace", json={"factor": 0.2})
     choose(page, "carry_all")
-    page.get_by_label("pause before the first step").check()
+    page.get_by_label(STEP).check()
     press_start(page)
     wait_for_state(page, "paused")
     steps = page.locator(".tree-row[aria-level='1']")
@@ -165,7 +171,7 @@ def test_a_task_with_parameters_asks_for_them(page: Page) -> None:
 
 def test_the_plan_waits_for_approval(page: Page) -> None:
     choose(page, "carry_all")
-    page.get_by_label("ask before each plan runs").check()
+    page.get_by_label(APPROVE).check()
     press_start(page)
     wait_for_state(page, "waits for approval")
     page.get_by_role("button", name="Approve the plan").click()

@@ -12,6 +12,7 @@ import { wantedTask } from "./layout";
 import { Preview } from "./Preview";
 import { usePreview } from "./previewing";
 import { Rehearse } from "./Rehearse";
+import { type RunChoice, RunOptions } from "./RunOptions";
 
 type Wish =
   { kind: "task"; task: TaskDescription; values: Record<string, string> } | { kind: "goal"; goal: string };
@@ -210,7 +211,7 @@ interface PlanAndStartProps {
 
 function PlanAndStart({ request, isPlanned, onDone }: PlanAndStartProps) {
   const { preview, problem } = usePreview(request, isPlanned);
-  const options = useSignal({ approve: false, ask_after_failure: false, step: false });
+  const options = useSignal<RunChoice>({});
   const key = useRef(crypto.randomUUID());
   const [busy, setBusy] = useState(false);
   const submit = async (): Promise<void> => {
@@ -223,16 +224,6 @@ function PlanAndStart({ request, isPlanned, onDone }: PlanAndStartProps) {
     key.current = crypto.randomUUID();
     if (done) onDone();
   };
-  const option = (name: keyof typeof options.value, label: string, why: string) => (
-    <label class="row small" title={why}>
-      <input
-        type="checkbox"
-        checked={options.value[name]}
-        onChange={(event) => (options.value = { ...options.value, [name]: event.currentTarget.checked })}
-      />
-      {label}
-    </label>
-  );
   return (
     <>
       {problem !== "" && <p class="notice bad">{problem}</p>}
@@ -243,15 +234,7 @@ function PlanAndStart({ request, isPlanned, onDone }: PlanAndStartProps) {
         </p>
       )}
       {preview !== null && <Preview preview={preview} />}
-      <div class="stack options">
-        {option("step", "pause before the first step", "Then go on step by step")}
-        {option("approve", "ask before each plan runs", "Each plan, also a new one, waits for approval")}
-        {option(
-          "ask_after_failure",
-          "ask after a failure",
-          "A failed step waits for a decision instead of another plan",
-        )}
-      </div>
+      <RunOptions value={options.value} onChange={(value) => (options.value = value)} />
       <div class="row">
         <button
           class="primary grow"
