@@ -10,7 +10,7 @@ import pytest
 
 HEAVY = {"matplotlib", "mujoco", "numba", "PIL", "scipy"}
 CLIENT_FILES = 120
-"""How many files of skillc a client of a server may import: it had the whole engine, 726 files, before."""
+"""How many files of skillc a client of a server may import: the contract, and not the engine."""
 
 
 @pytest.mark.parametrize(
