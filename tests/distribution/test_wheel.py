@@ -159,8 +159,8 @@ def test_what_the_dockerfile_installs_works(tmp_path: Path) -> None:
 
 
 def without_path() -> dict[str, str]:
-    """Return the variables of the environment, without the path of modules of the checkout."""
-    return {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    """Return the variables of the environment, without the paths of the checkout for modules and bytecode."""
+    return {name: each for name, each in os.environ.items() if name not in ("PYTHONPATH", "PYTHONPYCACHEPREFIX")}
 
 
 def uv() -> str:
