@@ -164,7 +164,7 @@ def ptp(values: Like, axis: int | None = None) -> Any:
 
 
 def clip(values: Like, low: float, high: float) -> Any:
-    """Return numbers within limits, all in any one unit."""
+    """Return numbers within limits `low` and `high`, in any unit."""
     return minimum(maximum(values, low), high)
 
 
