@@ -2970,7 +2970,7 @@ export interface components {
             name: string;
             path: string;
             /** @enum {unknown} */
-            severity: "error" | "warning" | "note";
+            severity: "error" | "note" | "warning";
         };
         /**
          * FixData
