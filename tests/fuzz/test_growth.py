@@ -88,6 +88,9 @@ HIERARCHIES = [
     "ex:r{one} a owl:ObjectProperty ; owl:inverseOf ex:inverse .\n",
     "ex:r{one} a owl:ObjectProperty ; rdfs:subPropertyOf ex:r{next} .\n",
     "ex:r{one} a owl:SymmetricProperty ; rdfs:subPropertyOf ex:r{next} .\n",
+    "ex:r{one} a owl:AsymmetricProperty ; owl:inverseOf ex:s{one} ; rdfs:subPropertyOf ex:r{next} .\n",
+    "ex:C{one} owl:disjointWith ex:D{one} .\n"
+    "ex:r{one} a owl:ObjectProperty ; rdfs:domain ex:C{one} ; rdfs:subPropertyOf ex:r{next} .\n",
 ]
 
 

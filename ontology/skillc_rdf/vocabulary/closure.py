@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import NamedTuple, Protocol, TypeVar
 
@@ -10,6 +10,7 @@ from skillc_rdf.vocabulary.components import components
 
 T = TypeVar("T")
 Node = TypeVar("Node", bound=Hashable)
+Value = TypeVar("Value", bound=Hashable)
 
 
 class Directed(NamedTuple):
@@ -72,7 +73,8 @@ class RelationClosure:
     def __init__(self, relations: Mapping[str, RelationAxioms]) -> None:
         self._after = _steps(relations)
         self._before = _reversed(self._after)
-        self._canonical = _canonical(self._after)
+        self._groups = _groups(self._after)
+        self._canonical = _canonical(self._groups)
         self._found: dict[tuple[Directed, bool], tuple[Directed, ...]] = {}
         self.implied = OnDemand(relations, self._implied_by)
         self.sources = OnDemand(relations, self._sources_of)
@@ -98,6 +100,47 @@ class RelationClosure:
     def below(self, relations: Iterable[str]) -> frozenset[str]:
         """Return the relations that imply at least one of the given ones, these included."""
         return frozenset(reachable(relations, lambda iri: (each.relation for each in self._before[iri])))
+
+    @cached_property
+    def equivalents(self) -> tuple[tuple[str, ...], ...]:
+        """The relations in groups of equivalents, inverses included: sorted, each group after those that it implies."""
+        return tuple(dict.fromkeys(tuple(sorted({each.relation for each in group})) for group in self._groups))
+
+    def inherited(self, own: Mapping[Directed, frozenset[Value]]) -> dict[Directed, frozenset[Value]]:
+        """Return for each relation, in both directions, what `own` has for those that it implies.
+
+        Relations to which nothing is added share what they inherit: a long chain takes no more space than what is new.
+        """
+        found: dict[Directed, frozenset[Value]] = {}
+        for group in self._groups:
+            after = (step for each in group for step in _following(each, self._after))
+            parts = {own.get(each, frozenset()) for each in group} | {found[step] for step in after if step in found}
+            most = max(parts, key=len)
+            found |= dict.fromkeys(group, most if all(part <= most for part in parts) else most.union(*parts))
+        return found
+
+    def directly_above(self, relations: Collection[str]) -> frozenset[str]:
+        """Return the other relations that follow from one of the given ones by a single axiom."""
+        return frozenset(each.relation for iri in relations for each in self._after[iri]).difference(relations)
+
+    def twisted(self, relations: Collection[str]) -> frozenset[str]:
+        """Return those of the relations that may imply one in both directions, by axioms among the given ones.
+
+        They are connected, by axioms read either way, with themselves read backwards.
+        """
+        found: set[str] = set()
+        seen: set[str] = set()
+        for iri in relations:
+            if iri not in seen:
+                connected = reachable([Directed(iri)], lambda each: self._beside(each, relations))
+                names = {each.relation for each in connected}
+                seen |= names
+                found |= names if len(names) < len(connected) else set()
+        return frozenset(found)
+
+    def _beside(self, each: Directed, relations: Collection[str]) -> Iterator[Directed]:
+        for steps in (self._after, self._before):
+            yield from (step for step in _following(each, steps) if step.relation in relations)
 
     @cached_property
     def chained(self) -> frozenset[str]:
@@ -142,9 +185,13 @@ def _following(each: Directed, steps: Mapping[str, Iterable[Directed]]) -> Itera
     return (step.flip(each.flipped) for step in steps[each.relation])
 
 
-def _canonical(steps: Mapping[str, Iterable[Directed]]) -> dict[str, Directed]:
+def _groups(steps: Mapping[str, Iterable[Directed]]) -> tuple[Sequence[Directed], ...]:
+    """Return the relations, in both directions, in groups of equivalents, each after those that it implies."""
     nodes = [Directed(iri, flipped) for iri in steps for flipped in (False, True)]
-    groups = components({each: sorted(_following(each, steps)) for each in nodes})
+    return tuple(components({each: sorted(_following(each, steps)) for each in nodes}))
+
+
+def _canonical(groups: Iterable[Sequence[Directed]]) -> dict[str, Directed]:
     first = ((min(group), group) for group in groups)
     return {each.relation: least for least, group in first for each in group if not each.flipped}
 

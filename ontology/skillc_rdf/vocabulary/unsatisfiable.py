@@ -28,6 +28,13 @@ class Reason(NamedTuple):
     kind: Literal["domain", "parent", "kind"] = "kind"
 
 
+class Limit(NamedTuple):
+    """The subject of a relation, or its object, is of one of some classes."""
+
+    of_object: bool
+    choice: tuple[str, ...]
+
+
 class Unsatisfiable:
     """The unsatisfiable classes and relations of a vocabulary; `needs` are the required values of each class."""
 
@@ -51,13 +58,15 @@ class Unsatisfiable:
             self._needy()
 
     def _relations(self) -> None:
-        why: dict[Directed, Reason | None] = {}
-        for iri in sorted(self._limited - self.relations.keys()):
-            same = self._vocabulary.closure.canonical(iri)
-            if same not in why:
-                why[same] = self._relation(iri)
-            if reason := why[same]:
-                self.relations[iri] = reason._replace(follows=self._follows(iri))
+        closure = self._vocabulary.closure
+        limits = closure.inherited(self._limits())
+        possible = {each: self._are_possible(each) for each in set(limits.values())}
+        for group in closure.equivalents:
+            if group[0] not in self.relations and (
+                reason := self._relation(group, possible[limits[Directed(group[0])]])
+            ):
+                self.relations[group[0]] = reason
+                self.relations |= dict.fromkeys(group[1:], reason._replace(follows=True))
 
     def _needy(self) -> None:
         """Find classes that require something unsatisfiable, and subclasses of unsatisfiable ones."""
@@ -129,15 +138,19 @@ class Unsatisfiable:
             or (flipped and self._vocabulary.relations[iri].inverse_functional)
         ]
 
-    def _relation(self, iri: str) -> Reason | None:
-        """Return why a relation, and those equivalent in this direction, can never hold, None if they can."""
-        reached = self._implied[iri]
-        clash = self._both_ways(frozenset(reached))
-        if clash is not None:
+    def _relation(self, group: Sequence[str], ends_possible: bool) -> Reason | None:
+        """Return why equivalent relations can never hold, None if they can; those above them are known."""
+        if not self.relations.keys().isdisjoint(self._vocabulary.closure.directly_above(group)):
+            return Reason("it implies a relation that can never hold", follows=True)
+        if group[0] in self._twisted and (clash := self._both_ways(frozenset(self._implied[group[0]]))):
             return clash
+        return None if ends_possible else self._misplaced(group[0])
+
+    def _misplaced(self, iri: str) -> Reason | None:
+        """Return why nothing can be the subject, or nothing the object, of a relation."""
         for sides in self._ends(iri):
             if not self._possible(sides):
-                own = iri in self._vocabulary.relations and len(reached) == 1
+                own = len(self._implied[iri]) == 1
                 names = ", ".join(sorted({" or ".join(map(self._vocabulary.short, each)) for each in sides}))
                 return Reason(f"nothing is all of {names}", kind="domain" if own else "parent")
         return None
@@ -157,18 +170,33 @@ class Unsatisfiable:
                 return Reason(text)
         return None
 
-    def _follows(self, iri: str) -> bool:
-        """Whether a relation is unsatisfiable because one that it implies is."""
-        return any(other in self.relations for other, _ in self._implied[iri] if other != iri)
-
     def _ends(self, relation: str) -> tuple[list[tuple[str, ...]], list[tuple[str, ...]]]:
         """Return the constraints on the subjects and on the objects of a relation: one class of each tuple."""
         sides: tuple[list[tuple[str, ...]], list[tuple[str, ...]]] = ([], [])
         for iri, flipped in self._implied[relation]:
-            signatures = self._vocabulary.relations[iri].signatures
-            sides[flipped].append(tuple(dict.fromkeys(each.domain for each in signatures)) or (THING,))
-            sides[not flipped].append(tuple(dict.fromkeys(each.range for each in signatures)) or (THING,))
+            domains, ranges = _own_ends(self._vocabulary.relations[iri])
+            sides[flipped].append(domains)
+            sides[not flipped].append(ranges)
         return sides
+
+    def _limits(self) -> dict[Directed, frozenset[Limit]]:
+        """Return the limits of each relation, in both directions, that can contradict another or themselves."""
+        own = {iri: _own_ends(term) for iri, term in self._vocabulary.relations.items()}
+        every = {cls for ends in own.values() for choice in ends for cls in choice} - {THING}
+        used = frozenset[str]().union(*(self._above.get(cls, frozenset({cls})) for cls in every))
+        pairs = ({cls, *others} for cls in self._apart.keys() & used if (others := self._apart[cls] & used))
+        contested = set[str]().union(*pairs)
+        harmful = {cls for cls in every if cls in self.classes or not contested.isdisjoint(self._above.get(cls, ()))}
+        return {
+            Directed(iri, flipped): frozenset(
+                Limit(side != flipped, choice) for side, choice in enumerate(ends) if harmful.issuperset(choice)
+            )
+            for iri, ends in own.items()
+            for flipped in (False, True)
+        }
+
+    def _are_possible(self, limits: frozenset[Limit]) -> bool:
+        return all(self._possible([each.choice for each in limits if each.of_object == side]) for side in (False, True))
 
     def _possible(self, choices: Sequence[tuple[str, ...]]) -> bool:
         """Whether an individual can be of one of the classes of each tuple."""
@@ -183,8 +211,8 @@ class Unsatisfiable:
         if not self._apart:
             return None
         above = frozenset[str]().union(*(self._above.get(cls, frozenset({cls})) for cls in classes))
-        clashing = ((one, sorted(self._apart[one] & above)) for one in sorted(above & self._apart.keys()))
-        return next(((one, others[0]) for one, others in clashing if others), None)
+        one = min((cls for cls in above & self._apart.keys() if not self._apart[cls].isdisjoint(above)), default=None)
+        return None if one is None else (one, min(self._apart[one] & above))
 
     def _nothing_in_common(self, pair: tuple[str, str]) -> str:
         one, other = map(self._vocabulary.short, pair)
@@ -212,17 +240,19 @@ class Unsatisfiable:
         return {iri: frozenset(term.disjoint) for iri, term in self._vocabulary.classes.items() if term.disjoint}
 
     @cached_property
-    def _limited(self) -> frozenset[str]:
-        """The relations that imply one with a domain, range or characteristic: only these may be unsatisfiable."""
-        limited = (
-            iri
-            for iri, term in self._vocabulary.relations.items()
-            if term.asymmetric
-            or term.irreflexive
-            or any((each.domain, each.range) != (THING, THING) for each in term.signatures)
-        )
-        return self._vocabulary.closure.below(limited)
+    def _twisted(self) -> frozenset[str]:
+        """The relations that may imply, in both directions, one that cannot hold so."""
+        known, closure = self._vocabulary.relations, self._vocabulary.closure
+        strict = closure.below(iri for iri, term in known.items() if term.irreflexive)
+        one_way = (iri for iri, term in known.items() if term.asymmetric or (term.transitive and iri in strict))
+        return closure.twisted(closure.below(one_way))
 
     @property
     def _implied(self) -> Mapping[str, tuple[Directed, ...]]:
         return self._vocabulary.closure.implied
+
+
+def _own_ends(relation: RelationTerm) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the alternative domains and the alternative ranges that are stated of a relation."""
+    domains = tuple(dict.fromkeys(each.domain for each in relation.signatures))
+    return domains or (THING,), tuple(dict.fromkeys(each.range for each in relation.signatures)) or (THING,)
