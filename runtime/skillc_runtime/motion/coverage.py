@@ -84,7 +84,7 @@ def add_dose(
 ) -> None:
     """Add `seconds` to the dose (rows, columns) of cells in columns x (columns,) and rows y (rows,), m.
 
-    world: its pose in the surface; position, rotation and tool as in `CoverageMap.add`.
+    world: its pose in the surface; position (3,) m, rotation (3, 3) and tool as in `CoverageMap.add`.
     """
     middle, axes = np.empty(3), np.empty((3, 3))
     times(world.rotation, position, middle)
