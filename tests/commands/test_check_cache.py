@@ -184,7 +184,7 @@ except SystemExit:
         for form in ("concise", "full")
     ]
     cold, warm = (set(run.stderr.split()) & set(HEAVY) for run in runs)
-    assert {"lark", "pyoxigraph", "skillc_compiler.pipeline"} <= cold
+    assert {"pyoxigraph", "skillc_compiler.pipeline"} <= cold
     assert warm == set()
 
 

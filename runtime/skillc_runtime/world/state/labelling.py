@@ -6,13 +6,12 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import assert_never, cast
 
-import numpy as np
-
 from skillc_model.format_type import SI_UNITS
 from skillc_model.skills import Parameter
 from skillc_rdf.vocabulary.types import ClassType, ListType, NumberType, ValueType, VectorType, Vocabulary
 from skillc_rdf.vocabulary.types import local_name as local
 from skillc_runtime.motion import pose as motion
+from skillc_runtime.motion.arrays import np
 from skillc_runtime.world.state.changes import (
     AddIndividual,
     AddRelation,
