@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from fuzz.kinds._doors import HEAD
+from fuzz.kinds._doors import DOORS, HEAD
 from fuzz.kinds._growth import MOST_EXPONENT, measure_growth
 from fuzz.kinds.growth import Shape, check_growth
 from skillc_compiler.analysis.axioms import build_axioms
@@ -101,6 +101,24 @@ def test_chains_of_relations_are_read_in_linear_time(axiom: str) -> None:
         return HEAD + "".join(axiom.format(one=number, next=number + 1) for number in range(count))
 
     growth = measure_growth(lambda text: build_axioms(load([], [Source("a.ttl", text)]).value), make, MOST_CHARACTERS)
+    assert growth.exponent <= MOST_EXPONENT, growth
+
+
+MODELS = [
+    '<model name="m{}"><link name="l"><collision name="c"><geometry><sphere><radius>1</radius></sphere></geometry>'
+    "</collision></link></model>",
+    '<model name="same"><link name="l"><collision name="c"><geometry><sphere><radius>1</radius></sphere></geometry>'
+    "</collision></link></model>",
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("model", MODELS)
+def test_worlds_of_many_models_are_read_in_linear_time(model: str) -> None:
+    def make(count: int) -> str:
+        return "<sdf version='1.6'><world name='w'>" + "".join(map(model.format, range(count))) + "</world></sdf>"
+
+    growth = measure_growth(DOORS["scenery"].read, make, MOST_CHARACTERS)
     assert growth.exponent <= MOST_EXPONENT, growth
 
 

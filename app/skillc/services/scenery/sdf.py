@@ -32,6 +32,16 @@ class _Reader:
     spec: Any
     notes: list[str]
     ignored: dict[str, list[str]] = field(default_factory=dict)
+    names: dict[str, int] = field(default_factory=dict)
+
+    def name_freely(self, name: str) -> str:
+        """Return a name that no geometry has, with a number if there is one of that name."""
+        wanted = name
+        while wanted in self.names:
+            self.names[name] += 1
+            wanted = f"{name}-{self.names[name]}"
+        self.names[wanted] = 1
+        return wanted
 
 
 def read_sdf(root: Element, folder: Path, notes: list[str]) -> Any:
@@ -102,7 +112,7 @@ def _add_geometry(reader: _Reader, geometry: Element | None, pose: Pose, path: t
     if not options:
         return
     geom = reader.spec.worldbody.add_geom(pos=pose.position, quat=quaternion_from_rotation(pose.rotation), **options)
-    geom.name = _free_name(reader.spec, name)
+    geom.name = reader.name_freely(name)
 
 
 def _geometry(reader: _Reader, shape: Element, path: tuple[str, ...]) -> Iterator[tuple[str, Any]]:
@@ -141,13 +151,6 @@ def _numbers(shape: Element, tag: str, count: int) -> Array:
     if len(numbers) != count:
         raise ValueError(f"<{tag}> of a <{shape.tag}> has {len(numbers)} numbers and not {count}")
     return np.array(numbers)
-
-
-def _free_name(spec: Any, name: str) -> str:
-    number, wanted = 2, name
-    while any(each.name == wanted for each in spec.geoms):
-        wanted, number = f"{name}-{number}", number + 1
-    return wanted
 
 
 def _free_mesh(spec: Any) -> str:
