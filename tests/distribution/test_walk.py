@@ -72,7 +72,7 @@ def stranger(tmp_path_factory: pytest.TempPathFactory) -> Stranger:
     build = [sys.executable, "-m", "build", "--wheel", "--installer", "uv", "--outdir", str(folder), str(ROOT)]
     subprocess.run(build, check=True, capture_output=True)
     venv.create(folder / "env", with_pip=False)
-    wheel = f"{next(folder.glob('skillc-*.whl'))}[planner,video,data]"
+    wheel = f"{next(folder.glob('skillc-*.whl'))}[run,planner,robots,data]"
     install = [uv(), "pip", "install", "-q", "--python", folder / "env/bin/python"]
     more = ["--constraint", ROOT / "constraints.txt", wheel, "nbclient", "ipykernel"]
     subprocess.run([*install, *more], check=True, capture_output=True)

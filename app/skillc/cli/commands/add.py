@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import platform
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -107,8 +108,12 @@ def _add_robot(
     from skillc.errors import RequestError
     from skillc.extras import require
 
-    # There is no pinocchio for Windows.
-    require("reading models of robots, which cannot be done on Windows,", "robots")
+    if platform.system() == "Windows":
+        raise RequestError(
+            "models of robots are read with pinocchio, which there is not for Windows: use Linux, macOS or WSL, or "
+            "`skillc add robot NAME --like ARM` and replace the numbers"
+        )
+    require("reading models of robots", "robots")
     from skillc.services.robot_import.add_robot import RobotRequest, add_robot
     from skillc.services.robot_import.reading import ReadOptions
 
