@@ -15,8 +15,8 @@ from studio.conftest import OUT, PATIENCE
 from studio.opening import make_code, origin_of, put_back
 from studio.starts import Followed, Start, collect_starts, followed, write_stands
 
-NEEDS_A_PROXY = "--behind-proxy"
-"""A server that is asked by its proxy alone; the tests of its network are its clients."""
+FOLLOWED_ELSEWHERE = ("--behind-proxy", "--backend cart")
+"""What other tests start: a server that its proxy alone asks, and one with the robot of another package."""
 NOT_VALID = "The code in the address is wrong, was used before, or is older than a minute."
 CARRY, TASK = "carry_all", ".:carry_all"
 
@@ -70,7 +70,7 @@ def test_each_start_that_is_printed_shows_what_it_asks_for(
 ) -> None:
     starts = sorted(each for each in collect_starts() if each.words[0] == command)
     assert known in {each.command for each in starts}
-    for start in (each for each in starts if NEEDS_A_PROXY not in each.command):
+    for start in (each for each in starts if not any(word in each.command for word in FOLLOWED_ELSEWHERE)):
         with socket.create_server(("127.0.0.1", 0)) as free:
             port = free.getsockname()[1]
         context = browser.new_context(ignore_https_errors=True, viewport={"width": 1280, "height": 800})
