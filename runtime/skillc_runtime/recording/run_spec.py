@@ -16,7 +16,7 @@ NO_OPTION, PLANNING, EXECUTION, OUTPUT = "", "Planning", "Execution", "Output"
 ATTENDED_ELSEWHERE = ("approve", "ask_after_failure", "priority")
 """The fields that only cells of a server take: others may operate them than who starts a run."""
 RENAMED = {"pause_at": "breakpoints", "skill": "call", "ask": "ask_after_failure"}
-"""Words of earlier versions, and what is written now: who writes one is told."""
+"""Former names of fields, each with its present name; using a former one is an error that names the present one."""
 Seconds: TypeAlias = Annotated[float, msgspec.Meta(gt=0.0)]
 
 
