@@ -123,7 +123,7 @@ class RecordTrial(msgspec.Struct, frozen=True, tag="record trial"):
     folder: str
 
 
-Question: TypeAlias = (
+AnsweredJob: TypeAlias = (
     QueryWorld
     | ListFacts
     | WriteWorld
@@ -136,7 +136,7 @@ Question: TypeAlias = (
     | PreviewPlan
 )
 SimulationJob: TypeAlias = Rehearse | MakeReport | CheckTrials | RunTrial | RecordTrial
-Job: TypeAlias = Question | SimulationJob
+Job: TypeAlias = AnsweredJob | SimulationJob
 
 
 class JobRefused(msgspec.Struct, frozen=True):

@@ -43,7 +43,7 @@ class RequestRefused(StoreError):
         self.status = status
 
 
-class Endpoint(Protocol):
+class SparqlEndpoint(Protocol):
     """Answers SPARQL queries and executes updates, each completely or not at all."""
 
     def query(self, text: str, accept: str) -> bytes:

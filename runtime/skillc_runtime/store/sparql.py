@@ -17,7 +17,7 @@ import pyoxigraph as ox
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.store import sparql_texts as texts
 from skillc_runtime.store.change_json import decode_changes, encode_changes
-from skillc_runtime.store.http import ROWS, Endpoint, ServerUnreachable
+from skillc_runtime.store.http import ROWS, ServerUnreachable, SparqlEndpoint
 from skillc_runtime.store.store import StoredWorld
 from skillc_runtime.store.triples import triple_difference
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError, Transaction
@@ -52,7 +52,7 @@ class SparqlStore:
 
     def __init__(
         self,
-        endpoint: Endpoint,
+        endpoint: SparqlEndpoint,
         reset: bool = False,
         patience_s: float = PATIENCE_S,
         cancel: CancelToken | None = None,

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 FORMATS = ("turtle", "rdfxml", "jsonld", "ntriples", "trig")
 
 
-class Question(msgspec.Struct, frozen=True, kw_only=True):
+class WorldOptions(msgspec.Struct, frozen=True, kw_only=True):
     """What is asked of a world: at most one of these but for `output`, the file of `form`; nothing for all of it."""
 
     sparql: str | None
@@ -76,9 +76,9 @@ class Question(msgspec.Struct, frozen=True, kw_only=True):
 @click.option("--history", is_flag=True, help="List who has written what to the world of a cell, the last first.")
 @cell_options
 @json_option
-@struct_options(Question)
+@struct_options(WorldOptions)
 def command(
-    asked: Question,
+    asked: WorldOptions,
     scene: Path | None,
     edits: tuple[str, ...],
     library: Path | None,
@@ -124,7 +124,7 @@ def command(
         _answer(opened, asked, everything, as_json)
 
 
-def _refuse_contradictions(asked: Question) -> None:
+def _refuse_contradictions(asked: WorldOptions) -> None:
     """Raise UsageError if several things are asked at once."""
     kinds = (asked.sparql is not None, asked.words is not None, asked.names, asked.other, asked.graph, asked.form)
     if sum(map(bool, (*kinds, asked.history))) > 1:
@@ -133,7 +133,7 @@ def _refuse_contradictions(asked: Question) -> None:
         raise click.UsageError("--output requires --export FORMAT")
 
 
-def _ask_cell(asked: Question, everything: bool, as_json: bool) -> None:
+def _ask_cell(asked: WorldOptions, everything: bool, as_json: bool) -> None:
     from skillc.cli import cell_questions
 
     if asked.graph or asked.form:
@@ -142,7 +142,7 @@ def _ask_cell(asked: Question, everything: bool, as_json: bool) -> None:
         cell_questions.show_world(asked.sparql, asked.names, asked.words, asked.history, as_json)
 
 
-def _answer(opened: OpenScene, asked: Question, everything: bool, as_json: bool) -> None:
+def _answer(opened: OpenScene, asked: WorldOptions, everything: bool, as_json: bool) -> None:
     """Answer a question about a scene."""
     from skillc.cli.console import print_result, print_text
     from skillc.services import scenes
@@ -168,7 +168,7 @@ def _export(opened: OpenScene, form: str, output: Path | None, everything: bool)
         click.echo(output)
 
 
-def _format_view(opened: OpenScene, asked: Question, as_json: bool) -> str:
+def _format_view(opened: OpenScene, asked: WorldOptions, as_json: bool) -> str:
     """Return the answer to a query, the differences from another scene, or individuals: the named or the found ones."""
     from skillc.cli import scene_output
     from skillc.cli.console import Terminal, page_of
