@@ -12,7 +12,7 @@ import { followBounds } from "./state/bounds";
 import { followLease } from "./state/lease";
 import { followServer } from "./state/live";
 import { measureSamples } from "./state/signals";
-import { operation, session, told } from "./state/studio";
+import { operation, planned, session, told } from "./state/studio";
 import { arrive, followAsked } from "./views/arriving";
 import { handleKey, handleStop } from "./views/keys";
 import { Login } from "./views/Login";
@@ -45,7 +45,7 @@ function LoggedIn() {
 }
 
 // What is shown, for tests and the console of the browser.
-Object.assign(window, { skillcStudio: { told, operation } });
+Object.assign(window, { skillcStudio: { told, operation, planned } });
 
 const root = document.getElementById("app");
 if (root !== null) render(<App />, root);

@@ -45,6 +45,9 @@ SEEK_EVERYWHERE = """(times) => {
     }
 }"""
 
+HAS_TREE = "(tree) => JSON.stringify(skillcStudio.planned.value) === JSON.stringify(JSON.parse(tree))"
+"""Whether the page has this tree of the operation that it shows."""
+
 
 @pytest.fixture
 def page(context: object, page: Page) -> Page:
@@ -108,6 +111,9 @@ def test_a_replay_is_as_it_was_live(page: Page, server: RunningServer, kind: str
     events = server.client.get(f"/operations/{operation}/events", params={"limit": 1000}).json()
     live = _read_frames(page)
     assert list(live) == [each["sequence"] for each in events]
+    # The page asks for the tree of the plan a moment after what has changed it.
+    tree = server.client.get(f"/operations/{operation}/tree").text
+    page.wait_for_function(HAS_TREE, arg=tree)
     shown = _read_shown(page)
     page.keyboard.press("h")
     page.locator(".run-item").first.get_by_role("button", name="Replay").click()

@@ -152,7 +152,8 @@ def test_a_file_that_was_changed_meanwhile_is_shown_side_by_side(
     conflict.get_by_role("button", name="Save mine").click()
     expect(conflict).to_be_hidden()
     expect(source.locator(".source-editor")).to_contain_text("# All crates are carried")
-    assert "# mine" in read(own_server) and "# All crates are carried" in read(own_server)
+    saved = wait_until(lambda: read(own_server), lambda text: "# mine" in text)
+    assert "# All crates are carried" in saved
 
 
 def test_who_may_not_edit_reads(browser: Browser, own_server: RunningServer) -> None:

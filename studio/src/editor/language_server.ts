@@ -48,7 +48,10 @@ export interface LspCodeAction {
 
 const REFUSED = 1008;
 const AGAIN_MS = 2000;
+/** How long the answer to what nobody asked for by name is of use. */
 const ANSWER_MS = 8000;
+/** How long somebody waits for what they asked for: a server that has just started reads the whole library first. */
+const DEMANDED_MS = 60_000;
 /** How long a server may take to start. */
 const START_MS = 60_000;
 const LOOK_MS = 100;
@@ -115,7 +118,7 @@ export class LanguageServer {
       await new Promise((resolve) => window.setTimeout(resolve, LOOK_MS));
     if (!this.isReady || this.open === null) return { refused: "The language server has not started." };
     const textDocument = { uri: this.uri(this.open.path) };
-    const answer = await this.exchange(method, { textDocument, ...more });
+    const answer = await this.exchange(method, { textDocument, ...more }, DEMANDED_MS);
     if (answer.error !== undefined) return { refused: answer.error.message };
     if (answer.result == null) return { refused: "The language server did not answer." };
     return { result: answer.result };

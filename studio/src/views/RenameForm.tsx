@@ -60,7 +60,7 @@ export function RenameForm({ editor, library, onDone }: RenameFormProps) {
         <input
           class="mono grow"
           aria-label="New name"
-          placeholder={problem === "" ? "The language server is asked …" : "Put the cursor on a name first"}
+          placeholder={problem === "" ? "The language server is asked …" : "There is no name to change"}
           value={name}
           disabled={before === null}
           ref={field}
