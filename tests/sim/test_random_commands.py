@@ -39,7 +39,7 @@ LAB = "http://example.org/lab#"
 RUNS = int(os.environ.get("SKILLC_WIPINGS", "8"))
 TASKS = ("clean_table", "clean_whiteboard")
 MOST_TICKS = 2500
-START_OF_WIPING = 900
+START_OF_WIPING = 1050
 """The tick at which the fixed arm has fetched its tool."""
 
 
