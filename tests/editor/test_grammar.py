@@ -29,6 +29,7 @@ def test_every_keyword_has_a_colour() -> None:
     assert set(listed) <= coloured
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("piece", ["a", "1", "a1", " ", "#", '"', '\\"'])
 def test_long_lines_are_coloured_in_linear_time(piece: str) -> None:
     grammar = json.loads((EDITORS / "vscode" / "syntaxes" / "skill.tmLanguage.json").read_text("utf-8"))
