@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from skillc_runtime.motion.path import path_through
@@ -43,6 +43,7 @@ def test_twist_is_the_derivative_of_the_pose(corners, blend, share):
 @given(poses, st.floats(0.0, 0.05))
 def test_acceleration_is_the_derivative_of_the_twist_almost_everywhere(corners, blend):
     motion, h = path_through(corners, LIMITS, blend), 1e-5
+    assume(motion.duration > 0.05)  # a turn of 1e-8 rad is over before differences of this size can measure it
     times = np.linspace(0, motion.duration, 101)[1:-1]
     wrong = 0
     for time in times:
