@@ -11,12 +11,12 @@ from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.kinematic.cell import KinematicCell
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.model import WorldModel
@@ -52,10 +52,10 @@ def run_task(compiled: SkillLibrary, name: str, scene: Path) -> tuple[Execution[
     """Run a task of a library; return its execution and its result."""
     prepared = prepare(compiled, name, scene)
     state = prepared.assignment.state
-    cell, choices = KinematicCell(WorldModel(state)), ChoiceListener()
-    execution = execute_task(prepared, compiled, cell, [choices])
-    wipings = find_wipings([each.tree for each in execution.attempts], choices, cell.world.snapshot())
-    return execution, summarise_run(execution, choices, compiled, wipings, cell)
+    cell, told = KinematicCell(WorldModel(state)), HistoryBuilder()
+    execution = execute_task(prepared, compiled, cell, [told])
+    wipings = find_wipings(told.history, cell.world.snapshot())
+    return execution, summarise_run(execution, told.history, wipings, cell)
 
 
 def run_shipped(name: str) -> tuple[Execution[KinematicCell], TaskResult]:

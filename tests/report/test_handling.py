@@ -10,7 +10,6 @@ import pytest
 from backends.kinematic_runs import library, prepare
 from skillc.services.library_files import SHIPPED
 from skillc_runtime.backends.kinematic.cell import KinematicCell
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.figure_files import render_figure
 from skillc_runtime.evaluation.report.grip_figure import draw_grips
 from skillc_runtime.evaluation.report.hand_trace import PERIOD_S, HandTrace
@@ -21,6 +20,7 @@ from skillc_runtime.evaluation.report.placements import measure_placements
 from skillc_runtime.evaluation.report.result import PlacementResult
 from skillc_runtime.evaluation.report.table import format_placement, split_placement
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.world.state.model import WorldModel
 
 LAB = "http://example.org/lab#"
@@ -31,13 +31,13 @@ def sorted_parts() -> tuple[tuple[Handling, ...], HandlingDrawing, tuple[Placeme
     """Sort two parts without physics, and push one of them by 0.1 m once it lies in its box."""
     compiled = library("sorting")
     prepared = prepare(compiled, "sort_parts", SHIPPED / "sorting" / "panda.ttl")
-    cell, choices = KinematicCell(WorldModel(prepared.assignment.state)), ChoiceListener()
+    cell, told = KinematicCell(WorldModel(prepared.assignment.state)), HistoryBuilder()
     trace = HandTrace(cell)
-    execution = execute_task(prepared, compiled, cell, [choices], trace.sample)
+    execution = execute_task(prepared, compiled, cell, [told], trace.sample)
     assert execution.status == "succeeded", execution.failure
     cell.data.qpos[int(cell.model.joint("lab:Part-B/free").qposadr[0])] += 0.1
     cell.advance(0.1)
-    handlings = find_handlings([each.tree for each in execution.attempts], choices, cell.world.snapshot())
+    handlings = find_handlings(told.history, cell.world.snapshot())
     (drawing,) = make_handling_drawings(handlings, trace, cell.world.snapshot(), cell.ground_truth)
     return handlings, drawing, measure_placements(cell.world, cell.ground_truth, find_targets(handlings))
 

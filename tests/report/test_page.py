@@ -19,7 +19,9 @@ from skillc_runtime.evaluation.report.work_result import GraspResult
 from skillc_runtime.recording.node_outcome import NodeOutcome
 
 HERE = Position(path="sort.skill", line=1, column=1)
-STEP = StepResult(skill="Pick", implementation="from_above", arguments={}, source="sort.skill:1", status="success")
+STEP = StepResult(
+    number="1", skill="Pick", implementation="from_above", arguments={}, source="sort.skill:1", status="success"
+)
 RESULT = TaskResult(task="sort", status="failed", plan=(STEP,), sim_time_s=12.0, failure="the part slipped")
 
 
@@ -73,8 +75,8 @@ def test_no_status_is_told_by_colour_alone() -> None:
 
 
 def test_the_page_of_three_thousand_steps_is_small_and_shows_what_failed() -> None:
-    steps = [STEP] * 3000
-    steps[1500] = structs.replace(STEP, skill="Drop", status="failure")
+    steps = [structs.replace(STEP, number=str(each)) for each in range(1, 3001)]
+    steps[1500] = structs.replace(steps[1500], skill="Drop", status="failure")
     placed = PlacementResult(
         thing="lab:Part", holder="lab:Box", is_held=False, holder_known="", known="assumed by Release",
         believed_m=(0.1, 0.2, 0.3), true_m=(0.1, 0.2, 0.3), error_m=0.0, turned_deg=0.0,

@@ -21,11 +21,11 @@ from skillc_runtime.evaluation.metrics.intervals import (
     total_s,
 )
 from skillc_runtime.evaluation.metrics.wiping import measure_wiping
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.evaluation.report.wiping_figure import draw_figure
 from skillc_runtime.motion.time_scaling import RAMP_S
-from skillc_runtime.recording.events import Paused, Resumed
+from skillc_runtime.recording.events import FORMAT, Paused, Resumed, TaskStarted
+from skillc_runtime.recording.history_builder import HistoryBuilder
 
 INTERVALS = st.lists(st.tuples(st.integers(0, 20), st.integers(0, 20)).filter(lambda each: each[0] < each[1]))
 
@@ -52,10 +52,11 @@ def test_the_ramps_around_a_pause_are_no_work_but_no_standstill_either() -> None
 
 
 def test_a_listener_notes_pauses_also_one_that_never_ends() -> None:
-    heard = ChoiceListener()
-    for event in (Paused(time=1.0), Resumed(time=2.5), Paused(time=4.0)):
+    heard = HistoryBuilder()
+    start = TaskStarted(time=0.0, format=FORMAT, task="wipe")
+    for event in (start, Paused(time=1.0), Resumed(time=2.5), Paused(time=4.0)):
         heard(event)
-    assert heard.pauses == [(1.0, 2.5), (4.0, inf)]
+    assert heard.history.paused == ((1.0, 2.5), (4.0, inf))
 
 
 def test_a_paused_wipe_has_the_figures_of_one_that_was_not() -> None:

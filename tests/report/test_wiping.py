@@ -12,10 +12,8 @@ import skillc_runtime
 import skillc_skills
 from skillc_model.format_type import SI_UNITS
 from skillc_rdf.vocabulary.types import Position
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
-from skillc_runtime.recording.events import ImplementationChosen, NodeEnded, NodeStarted
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history import Attempt, RecordedCall, RunHistory
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledValue, Quantity
 from skillc_runtime.world.state.terms import ARM_DEVICE, SURFACE, TOOL
 
@@ -32,42 +30,47 @@ def iri(name: str) -> LabelledIri:
     return LabelledIri(f"http://lab#{name}", f"lab:{name}")
 
 
-def call(number: int, ended: float, *below: NodeOutcome) -> NodeOutcome:
-    return NodeOutcome(
-        id=number, name="", kind="call", status="success", source=HERE, started=1.0, ended=ended, children=below
-    )
+def call(
+    number: str,
+    skill: str,
+    started: float,
+    ended: float,
+    activity: str,
+    *below: RecordedCall,
+    **bindings: LabelledValue,
+) -> RecordedCall:
+    return RecordedCall(
+        number=number, skill=skill, status="success", source=HERE, implementation="x", started=started, ended=ended,
+        activity=activity, calls=below, bindings=bindings,
+    )  # fmt: skip
 
 
-def choice(node: int, skill: str, activity: str = "", **bindings: LabelledValue) -> ImplementationChosen:
-    return ImplementationChosen(
-        time=1.0, node=node, skill=skill, implementation="x", bindings=bindings, activity=activity, source=HERE
-    )
+def washed(pressing: str, following: str, start: float = 1.0) -> RecordedCall:
+    """Return a call that presses and goes along a path for three seconds, one second after its start."""
+    press = call("1.1", "Lean", start, start + 1, pressing, arm=iri("Arm"), force=Quantity(7.5, SI_UNITS["Force"]))
+    follow = call("1.2", "Along", start + 1, start + 4, following, arm=iri("Arm"))
+    named = {"window": iri("Window"), "with_tool": iri("Sponge"), "arm": iri("Arm")}
+    return call("1", "Wash", start, start + 5, "", press, follow, **named)
 
 
-def choices(pressing: str, following: str) -> ChoiceListener:
-    found = ChoiceListener()
-    for event in (
-        choice(1, "Wash", window=iri("Window"), with_tool=iri("Sponge"), arm=iri("Arm")),
-        choice(2, "Lean", pressing, arm=iri("Arm"), force=Quantity(7.5, SI_UNITS["Force"])),
-        choice(3, "Along", following, arm=iri("Arm")),
-        NodeStarted(time=2.0, node=3, parent=1, kind="call", name="Along", source=HERE),
-        NodeEnded(time=5.0, node=3, name="Along", status="success", source=HERE),
-    ):
-        found(event)
-    return found
-
-
-TREE = call(1, 6.0, call(2, 2.0), call(3, 5.0))
+def history(*steps: RecordedCall) -> RunHistory:
+    return RunHistory(task="wash", attempts=(Attempt(steps=steps),))
 
 
 def test_a_surface_is_wiped_where_a_tool_is_pressed_and_led_along_a_path() -> None:
     wiping = Wiping("http://lab#Window", "http://lab#Arm", "http://lab#Sponge", 7.5, 1.0, ((2.0, 5.0),))
-    assert find_wipings([TREE], choices("press", "follow-path"), STATE) == (wiping,)
+    assert find_wipings(history(washed("press", "follow-path")), STATE) == (wiping,)
+
+
+def test_a_surface_that_is_wiped_again_has_two_wipings() -> None:
+    once, again = washed("press", "follow-path"), washed("press", "follow-path", start=7.0)
+    found = find_wipings(history(once, again), STATE)
+    assert [each.strokes for each in found] == [((2.0, 5.0),), ((8.0, 11.0),)]
 
 
 def test_nothing_is_wiped_where_nothing_is_pressed_or_led() -> None:
-    assert find_wipings([TREE], choices("", "follow-path"), STATE) == ()
-    assert find_wipings([TREE], choices("press", ""), STATE) == ()
+    assert find_wipings(history(washed("", "follow-path")), STATE) == ()
+    assert find_wipings(history(washed("press", "")), STATE) == ()
 
 
 def test_only_primitives_know_the_names_of_shipped_skills() -> None:

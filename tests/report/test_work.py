@@ -14,7 +14,6 @@ from skillc.services import libraries
 from skillc.services.library_files import find_library
 from skillc_ontology import catalogue
 from skillc_runtime.backends.kinematic.cell import KinematicCell
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.run_trace import RunTrace
@@ -26,6 +25,7 @@ from skillc_runtime.evaluation.report.work_result import PushResult
 from skillc_runtime.evaluation.report.write import write_report, write_result
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 
@@ -88,14 +88,13 @@ def run_and_report(folder: Path, before: str) -> Report:
     assert body is not None
     prepared = prepare_task(Assignment("lean", state, ExecuteBody(body)), outcome.value)
     assert isinstance(prepared, PreparedTask), prepared
-    cell, choices = KinematicCell(WorldModel(state)), ChoiceListener()
+    cell, told = KinematicCell(WorldModel(state)), HistoryBuilder()
     trace = RunTrace(cell)
-    execution = execute_task(prepared, outcome.value, cell, [choices], trace.sample)
-    trees = [each.tree for each in execution.attempts]
-    record = RunRecord(trees, choices, cell.world.snapshot(), cell.ground_truth, trace)
-    result = summarise_run(execution, choices, outcome.value, record.wipings, cell, measure_work(record))
+    execution = execute_task(prepared, outcome.value, cell, [told], trace.sample)
+    record = RunRecord(told.history, cell.world.snapshot(), cell.ground_truth, trace)
+    result = summarise_run(execution, told.history, record.wipings, cell, measure_work(record))
     write_result(folder, result)
-    write_report(folder, result, trees, list_figures(record))
+    write_report(folder, result, told.draw(), list_figures(record))
     figures = {path.stem: read_words(path) for path in folder.glob("*.svg")}
     written = json.loads((folder / "result.json").read_text())
     return Report(result, (folder / "report.html").read_text(), written, figures)

@@ -9,7 +9,6 @@ import numpy as np
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.wiping import find_wipings, rate_wiping
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
@@ -18,6 +17,7 @@ from skillc_runtime.execution.preparation import Ready
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.commands import Command, Pause, Resume
+from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 
@@ -33,7 +33,7 @@ class PausedRun:
     after_s: float
     lasts_s: float
     command: Command = field(default_factory=Resume)
-    choices: ChoiceListener = field(default_factory=ChoiceListener)
+    told: HistoryBuilder = field(default_factory=HistoryBuilder)
     still: list[tuple[float, Array]] = field(default_factory=list)
     requested_at: float = 0.0
     resumed_at: float = 0.0
@@ -49,7 +49,7 @@ class PausedRun:
         assert isinstance(prepared, PreparedTask), prepared
         self.cell = SimulatedCell(WorldModel(state), seed)
         loop = CellLoop(self.cell, library, lambda assignment, failures: Ready(prepared), after_tick=())
-        self.run = loop.submit(prepared.assignment, (self.choices,))
+        self.run = loop.submit(prepared.assignment, (self.told,))
         while not self.run.ended and self.cell.now < most_s:
             self._request(loop)
             loop.tick()
@@ -62,7 +62,11 @@ class PausedRun:
             arms = [self.cell.arm(arm.individual) for arm in self.cell.scene.arms]
             self.still.append((now, np.concatenate([arm.measured.pose.position for arm in arms])))
         if not self.requested_at:
-            began = [choice.time for choice in self.choices.values() if choice.skill == self.skill]
+            began = [
+                call.started
+                for call in self.told.history.calls
+                if call.skill == self.skill and call.started is not None
+            ]
             if began and now >= began[0] + self.after_s:
                 self.requested_at = now
                 loop.request(self.run, Pause())
@@ -88,11 +92,11 @@ class PausedRun:
     @property
     def paused(self) -> tuple[float, float]:
         """When the run's own time stood still, in s."""
-        ((start, end),) = self.choices.pauses
+        ((start, end),) = self.told.history.paused
         return start, end
 
     def wiping(self) -> WipingResult:
         """Return the quality of the one wiping."""
         state = self.cell.world.snapshot()
-        (wiping,) = find_wipings([attempt.tree for attempt in self.run.attempts], self.choices, state)
+        (wiping,) = find_wipings(self.told.history, state)
         return rate_wiping(wiping, state, self.cell.ground_truth)

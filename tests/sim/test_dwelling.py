@@ -13,12 +13,12 @@ from skillc_model.conditions import Literal
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 
@@ -48,10 +48,10 @@ def wiped(name: str) -> WipingResult:
     state = load_scene(catalogue.scene_path(task.scene), library.vocabulary)
     prepared = prepare_task(Assignment(name, state, AchieveGoal(task.goal)), library)
     assert isinstance(prepared, PreparedTask), prepared
-    cell, choices = SimulatedCell(WorldModel(state), seed=1), ChoiceListener()
-    execution = execute_task(prepared, library, cell, [choices])
-    wipings = find_wipings([execution.last.tree], choices, cell.world.snapshot())
-    result = summarise_run(execution, choices, library, wipings, cell)
+    cell, told = SimulatedCell(WorldModel(state), seed=1), HistoryBuilder()
+    execution = execute_task(prepared, library, cell, [told])
+    wipings = find_wipings(told.history, cell.world.snapshot())
+    result = summarise_run(execution, told.history, wipings, cell)
     assert result.wiping is not None, result.failure
     return result.wiping
 

@@ -12,12 +12,12 @@ from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveRelation, SetProperty
@@ -63,10 +63,10 @@ def test_all_that_is_to_be_wiped_is_wiped_and_no_hole_is_touched(changes: list[C
     state = load_scene(catalogue.scene_path(task.scene), library().vocabulary).with_changes(changes)
     prepared = prepare_task(Assignment("clean_around", state, AchieveGoal(task.goal)), library())
     assert isinstance(prepared, PreparedTask), prepared
-    cell, choices = SimulatedCell(WorldModel(state), seed), ChoiceListener()
-    execution = execute_task(prepared, library(), cell, [choices])
-    wipings = find_wipings([execution.last.tree], choices, cell.world.snapshot())
-    result = summarise_run(execution, choices, library(), wipings, cell)
+    cell, told = SimulatedCell(WorldModel(state), seed), HistoryBuilder()
+    execution = execute_task(prepared, library(), cell, [told])
+    wipings = find_wipings(told.history, cell.world.snapshot())
+    result = summarise_run(execution, told.history, wipings, cell)
     assert result.status == "succeeded", result.failure
     assert result.wiping is not None
     assert result.wiping.coverage == 1.0

@@ -8,12 +8,12 @@ import pytest
 from backends.kinematic_runs import library, prepare
 from skillc.services.library_files import SHIPPED
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.hand_trace import HandTrace
 from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets
 from skillc_runtime.evaluation.report.placements import measure_placements
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.motion.pose import Pose
+from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.world.space.frames import pose, size
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import CONTAIN, MANIPULATABLE
@@ -38,11 +38,11 @@ def test_all_parts_lie_in_their_boxes_and_where_they_are_believed_to_be(
     compiled = library("sorting")
     prepared = prepare(compiled, task, SHIPPED / "sorting" / scene)
     cell = SimulatedCell(WorldModel(prepared.assignment.state), seed=1)
-    choices, trace = ChoiceListener(), HandTrace(cell)
-    execution = execute_task(prepared, compiled, cell, [choices], trace.sample)
+    told, trace = HistoryBuilder(), HandTrace(cell)
+    execution = execute_task(prepared, compiled, cell, [told], trace.sample)
     assert (execution.status, execution.verified) == ("succeeded", verified), execution.failure
     cell.advance(0.5)
-    handlings = find_handlings([each.tree for each in execution.attempts], choices, cell.world.snapshot())
+    handlings = find_handlings(told.history, cell.world.snapshot())
     placements = measure_placements(cell.world, cell.ground_truth, find_targets(handlings))
     assert [each.missed_m is not None and 1e3 * each.missed_m <= PLACED_MM for each in placements] == [True] * parts
     for handling in handlings:

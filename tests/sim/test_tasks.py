@@ -18,11 +18,12 @@ from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.recording.events import Event, ImplementationChosen
+from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 
@@ -65,10 +66,10 @@ def at_rest(execution: Execution, arm: str) -> bool:
 @pytest.mark.parametrize("name", TASKS)
 def test_the_goal_is_reached_and_the_surface_is_wiped_well(name: str, seed: int) -> None:
     prepared, cell = start(name, seed)
-    choices = ChoiceListener()
-    execution = execute_task(prepared, library(), cell, [choices])
-    wipings = find_wipings([execution.last.tree], choices, cell.world.snapshot())
-    result = summarise_run(execution, choices, library(), wipings, cell)
+    told = HistoryBuilder()
+    execution = execute_task(prepared, library(), cell, [told])
+    wipings = find_wipings(told.history, cell.world.snapshot())
+    result = summarise_run(execution, told.history, wipings, cell)
     assert result.status == "succeeded", result.failure
     assert result.plan_optimal
     assert result.wiping is not None
@@ -81,17 +82,20 @@ def test_the_goal_is_reached_and_the_surface_is_wiped_well(name: str, seed: int)
 @pytest.mark.parametrize("name", TASKS)
 def test_interrupted_while_wiping_it_lets_go_and_is_stiff_again(name: str) -> None:
     prepared, cell = start(name, 0)
-    choices = ChoiceListener()
-    wiping = lambda: any(choice.skill == "FollowPath" for choice in choices.values())  # noqa: E731
+    followed: list[float] = []
     pushed: list[bool] = []
 
+    def listen(event: Event) -> None:
+        if isinstance(event, ImplementationChosen) and event.skill == "FollowPath":
+            followed.append(event.time)
+
     def interrupted() -> bool:
-        if wiping() and cell.now > choices[max(choices)].time + 1.0:
+        if followed and cell.now > followed[-1] + 1.0:
             pushed.append(abs(cell.arm(ARMS[name]).compliance.commanded_wrench).max() > 1.0)
             return True
         return False
 
-    execution = execute_task(prepared, library(), cell, [choices], interrupted=interrupted)
+    execution = execute_task(prepared, library(), cell, [listen], interrupted=interrupted)
     assert pushed == [True]
     assert execution.status == "stopped"
     assert at_rest(execution, ARMS[name])

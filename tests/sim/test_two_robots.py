@@ -11,13 +11,13 @@ from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import execute_task
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history import RecordedCall
+from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.labelled import LabelledIri
 from skillc_runtime.world.state.model import WorldModel
@@ -32,31 +32,27 @@ def library() -> SkillLibrary:
     return outcome.value
 
 
-def run(name: str) -> tuple[TaskResult, dict[str, list[NodeOutcome]]]:
+def run(name: str) -> tuple[TaskResult, dict[str, list[RecordedCall]]]:
     """Run a task; return its result and the steps of each robot's arm in order."""
     task = library().tasks[name]
     assert task.scene is not None and task.goal is not None
     state = load_scene(catalogue.scene_path(task.scene), library().vocabulary)
     prepared = prepare_task(Assignment(name, state, AchieveGoal(task.goal)), library())
     assert isinstance(prepared, PreparedTask), prepared
-    cell, choices = SimulatedCell(WorldModel(state), seed=4), ChoiceListener()
-    execution = execute_task(prepared, library(), cell, [choices])
-    wipings = find_wipings([execution.last.tree], choices, cell.world.snapshot())
-    result = summarise_run(execution, choices, library(), wipings, cell)
-    steps: dict[str, list[NodeOutcome]] = {}
-    for call in sorted(calls_in(execution.last.tree), key=lambda each: each.started or 0.0):
-        arm = choices[call.id].bindings["arm"]
+    cell, told = SimulatedCell(WorldModel(state), seed=4), HistoryBuilder()
+    execution = execute_task(prepared, library(), cell, [told])
+    wipings = find_wipings(told.history, cell.world.snapshot())
+    result = summarise_run(execution, told.history, wipings, cell)
+    steps: dict[str, list[RecordedCall]] = {}
+    for call in told.history.attempts[-1].steps:
+        arm = call.bindings["arm"]
         assert isinstance(arm, LabelledIri)
         steps.setdefault(arm.label, []).append(call)
     return result, steps
 
 
-def calls_in(tree: NodeOutcome) -> list[NodeOutcome]:
-    return [tree] if tree.kind == "call" else [call for child in tree.children for call in calls_in(child)]
-
-
-def names(calls: list[NodeOutcome]) -> list[str]:
-    return [call.name.partition("[")[0] for call in calls]
+def names(calls: list[RecordedCall]) -> list[str]:
+    return [call.skill for call in calls]
 
 
 def check_quality(result: TaskResult) -> None:

@@ -7,7 +7,6 @@ import pytest
 from backends.kinematic_runs import library, prepare
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.figure_files import render_figure
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.run_trace import RunTrace
@@ -15,6 +14,7 @@ from skillc_runtime.evaluation.report.work_figures import list_figures
 from skillc_runtime.evaluation.report.work_kinds import measure_work
 from skillc_runtime.evaluation.report.work_result import GraspResult, GuidanceResult, PushResult, SearchResult
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.world.state.model import WorldModel
 
 pytestmark = pytest.mark.sim
@@ -24,12 +24,11 @@ def run(task: str, scene: str) -> RunRecord:
     """Run a task of the contact skills with physics."""
     compiled = library("contact")
     prepared = prepare(compiled, task, catalogue.scene_path(scene))
-    cell, choices = SimulatedCell(WorldModel(prepared.assignment.state), seed=0), ChoiceListener()
+    cell, told = SimulatedCell(WorldModel(prepared.assignment.state), seed=0), HistoryBuilder()
     trace = RunTrace(cell)
-    execution = execute_task(prepared, compiled, cell, [choices], trace.sample)
+    execution = execute_task(prepared, compiled, cell, [told], trace.sample)
     assert not execution.failure, execution.failure
-    trees = [each.tree for each in execution.attempts]
-    return RunRecord(trees, choices, cell.world.snapshot(), cell.ground_truth, trace)
+    return RunRecord(told.history, cell.world.snapshot(), cell.ground_truth, trace)
 
 
 def test_an_insertion_has_its_push_search_and_grasp() -> None:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator
 
 import msgspec
 from hypothesis import HealthCheck, event, given, settings
+from msgspec import structs
 
 from skillc_model import tree
 from skillc_rdf.vocabulary.types import Position
@@ -24,9 +26,8 @@ from skillc_runtime.recording.events import (
 )
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.history import RecordedCall, RunHistory
-from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.history_builder import listen_to, read_history
 from skillc_runtime.recording.node_outcome import NodeOutcome
-from skillc_runtime.recording.node_records import AttemptRecord, NodeRecords
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import LabelledIri
 from tree.library import FLAGS, ON, Library, act, check, here, par, seq, world
@@ -34,6 +35,7 @@ from tree.stage import PERIOD_S, Script, Stage
 from tree.strategies import Play, plays
 from why.stories import BEGIN, events_of, known, steps_of
 
+LINE = Position("depot.skill", 5, 1)
 EXAMPLES = int(os.environ.get("SKILLC_STORIES", "30"))
 """How many random runs are told; thousands on occasion."""
 
@@ -51,9 +53,9 @@ def test_the_story_says_of_each_call_what_the_tree_says(play: Play) -> None:
             engine.halt("the test says so")
         if engine.tick() is not Status.RUNNING:
             break
-        assert shape(known(read_history(told))) == shape_of(engine.outcome)
+        assert shape(known(read_history(told)), engine.outcome) == shape_of(engine.outcome)
     story = known(read_history(told))
-    assert shape(story) == shape_of(engine.outcome)
+    assert shape(story, engine.outcome) == shape_of(engine.outcome)
     told_of = [link.message for link in story.chain]
     assert bool(told_of) == (engine.status is Status.FAILURE)
     event(f"{len(told) // 50 * 50} events, {engine.status.value}")
@@ -62,11 +64,15 @@ def test_the_story_says_of_each_call_what_the_tree_says(play: Play) -> None:
 Shape = list[tuple[str, str, float | None, float | None, "Shape"]]
 
 
-def shape(story: RunHistory) -> Shape:
-    def of(calls: tuple[RecordedCall, ...]) -> Shape:
-        return sorted((each.skill, each.status, each.started, each.ended, of(each.calls)) for each in calls)
+def shape(story: RunHistory, outcome: NodeOutcome) -> Shape:
+    """Return the calls of a story that the tree still has, each at its last start."""
+    there = {node.id for node in outcome.nodes()}
 
-    return of(tuple(steps_of(story)))
+    def of(calls: Iterable[RecordedCall]) -> Shape:
+        last = {each.node: each for each in calls if each.node in there}.values()
+        return sorted((each.skill, each.status, each.started, each.ended, of(each.calls)) for each in last)
+
+    return of(steps_of(story))
 
 
 def shape_of(outcome: NodeOutcome) -> Shape:
@@ -89,28 +95,43 @@ def calls_in(outcome: NodeOutcome) -> Iterator[NodeOutcome]:
         yield from calls_in(child)
 
 
-def test_a_long_run_of_a_small_tree_needs_little_memory() -> None:
+def test_of_a_long_run_only_the_calls_of_earlier_rounds_stay() -> None:
     rounds = tree.Repeat(count=400, child=seq(act("a"), check(FLAGS[0]), act("b")), source=here())
-    told = events_of(rounds, Library().build(), Stage(world()), ticks=2000)
-    records, starts, most = NodeRecords(AttemptRecord()), 0, 0
-    for each in told:
-        if isinstance(each, NodeStarted):
-            records.start(each)
-            starts += 1
-        elif isinstance(each, NodeEnded):
-            records.end(each, ())
-        most = max(most, len(records._by_node))
-    assert starts > 2000
-    assert most == 5, "the loop, the sequence, two calls and what runs in one of them"
+    told = listen_to(events_of(rounds, Library().build(), Stage(world()), ticks=2000))
+    (drawn,) = told.draw()
+    kinds = Counter(node.kind for node in drawn.nodes())
+    assert kinds["call"] == len(list(told.history.calls)) == 800
+    assert kinds["check"] == 1, "that of the last round"
+    assert len(told._records._last) < 10, "what may go on"
 
 
-def test_how_earlier_starts_ended_is_kept() -> None:
+def test_each_round_of_a_loop_has_its_calls_in_order_of_time() -> None:
     cell = Stage(world(), {"a": [Script("fail"), Script("fail"), Script()]})
     retry = tree.Retry(count=5, child=seq(act("a"), act("b")), source=here())
-    first, second = steps_of(known(read_history(events_of(retry, Library().build(), cell))))
-    assert (first.skill, first.status, first.starts) == ("Act", "success", 3)
-    assert [(each.status, each.message) for each in first.earlier] == [("failure", "a failed")] * 2
-    assert (second.starts, second.earlier) == (1, ())
+    body = tree.Repeat(count=1, child=retry, source=here())
+    steps = steps_of(known(read_history(events_of(body, Library().build(), cell))))
+    assert [(each.number, each.status) for each in steps] == [
+        ("1", "failure"),
+        ("2", "failure"),
+        ("3", "success"),
+        ("4", "success"),
+    ]
+    rounds = [[(each.loop, each.number) for each in step.rounds] for step in steps]
+    assert rounds == [[("repeat 1", 1), ("retry 5", number)] for number in (1, 2, 3, 3)]
+    assert [step.failure.message if step.failure else "" for step in steps] == ["a failed", "a failed", "", ""]
+
+
+def test_what_a_body_did_not_reach_is_no_success_and_comes_last() -> None:
+    cell = Stage(world(), {"a": [Script(), Script("fail")]})
+    first, second, other = act("a"), structs.replace(act("b"), source=LINE), structs.replace(act("c"), source=LINE)
+    body = seq(tree.Repeat(count=2, child=seq(first, second), source=here()), other)
+    told = [structs.replace(BEGIN, body=body), *events_of(body, Library().build(), cell)[1:]]
+    steps = steps_of(known(read_history(told)))
+    assert [step.status for step in steps] == ["success", "success", "failure"]
+    unreached = structs.replace(other, source=Position("depot.skill", 9, 1))
+    told[0] = structs.replace(BEGIN, body=seq(body, unreached))
+    *_, last = steps_of(known(read_history(told)))
+    assert (last.status, last.source, last.node) == ("not started", unreached.source, 0)
 
 
 def test_steps_side_by_side_know_of_each_other() -> None:
@@ -119,7 +140,6 @@ def test_steps_side_by_side_know_of_each_other() -> None:
     assert [(step.number, step.beside) for step in steps_of(story)] == [("1", ("2",)), ("2", ("1",)), ("3", ())]
 
 
-LINE = Position("depot.skill", 5, 1)
 A, B = LabelledIri("http://example.org/lab#a", "lab:a"), LabelledIri("http://example.org/lab#b", "lab:b")
 GO = PlanStep(skill="Go", arguments={"to": B}, source=LINE)
 STAY = PlanStep(skill="Go", arguments={"to": A}, source=LINE)

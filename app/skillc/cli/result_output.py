@@ -6,7 +6,12 @@ from collections.abc import Iterator
 
 from skillc.cli.layout import Row, Style, TableCell, TerminalPage
 from skillc_runtime.evaluation.report.result import StepResult, TaskResult
-from skillc_runtime.evaluation.report.table import format_choice_reason, list_failure_details, list_table_rows
+from skillc_runtime.evaluation.report.table import (
+    format_choice_reason,
+    format_step,
+    list_failure_details,
+    list_table_rows,
+)
 from skillc_runtime.recording.known_facts import (
     FALSE_SUCCESS,
     format_false_claim,
@@ -53,18 +58,18 @@ def _list_ending(result: TaskResult, page: TerminalPage, verbose: bool) -> Itera
 
 
 def _list_steps(result: TaskResult, page: TerminalPage, verbose: bool) -> list[str]:
-    rows = [row for number, step in enumerate(result.plan, 1) for row in _step_rows(number, step, verbose)]
+    rows = [row for step in result.plan for row in _step_rows(step, verbose)]
     choices = result.choices if verbose else ()
     rows += [("", each.skill, "", f"{each.implementation}: {format_choice_reason(each)}") for each in choices]
     return page.columns(rows)
 
 
-def _step_rows(number: int, step: StepResult, verbose: bool) -> Iterator[Row]:
+def _step_rows(step: StepResult, verbose: bool) -> Iterator[Row]:
     """Yield the row of a step with its implementation, and one with its arguments."""
-    how = step.implementation or ("achieved already" if step.status == "skipped" else "did not start")
+    how = format_step(step)
     if step.implementation and (verbose or step.status == "failure"):
-        how = f"{how}: {format_choice_reason(step)}"
-    yield f"{number:2}", step.skill, TableCell(step.status, STEP_STYLES.get(step.status, "")), how
+        how = f"{how}; {step.implementation} is {format_choice_reason(step)}"
+    yield f"{step.number:>2}", step.skill, TableCell(step.status, STEP_STYLES.get(step.status, "")), how
     arguments = ", ".join(f"{name}: {format_value(value)}" for name, value in step.arguments.items())
     if arguments:
         yield "", "", "", TableCell(arguments, "dim")

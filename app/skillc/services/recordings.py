@@ -12,8 +12,8 @@ import msgspec
 from skillc.errors import RequestError, ServiceError
 from skillc.services.files import inspect_path
 from skillc.services.reporting import Reporter
-from skillc_runtime.evaluation.report.interrupted import summarise_recording
 from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.summary import summarise_recording
 from skillc_runtime.evaluation.report.write import RESULT
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.failure_text import describe_failure

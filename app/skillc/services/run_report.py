@@ -18,20 +18,27 @@ from skillc_runtime.evaluation.report.write import write_figure, write_report, w
 from skillc_runtime.film.film import Film, FilmFiles, Story
 from skillc_runtime.film.picture_files import FilmError
 from skillc_runtime.film.rendering import RenderingError
+from skillc_runtime.recording.node_outcome import NodeOutcome
 
 
 def write_run(
-    folder: Path, result: TaskResult, record: RunRecord, library: SkillLibrary, film: Film | None, reporter: Reporter
+    folder: Path,
+    result: TaskResult,
+    record: RunRecord,
+    trees: Sequence[NodeOutcome],
+    library: SkillLibrary,
+    film: Film | None,
+    reporter: Reporter,
 ) -> None:
-    """Write a run, and its film if it was sampled. ServiceError if the folder cannot be written to."""
+    """Write a run with its trees, and its film if it was sampled. ServiceError if the folder cannot be written to."""
     with writing_to(folder):
         write_result(folder, result)
         filmed = None
         if film is not None and record.truth is not None:
-            moments = find_moments(record.wipings, record.trees, record.choices, record.state, record.truth)
-            story = make_story(moments, record.trees, record.choices, library, result, record.state)
+            moments = find_moments(record.wipings, record.history, record.state, record.truth)
+            story = make_story(moments, record.history, library, result, record.state)
             filmed = _write_film(film, folder, story, reporter)
-        write_report(folder, result, record.trees, list_figures(record), filmed)
+        write_report(folder, result, trees, list_figures(record), filmed)
 
 
 def write_comparison(folder: Path, drawings: Sequence[WipingDrawing]) -> Path | None:

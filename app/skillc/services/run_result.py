@@ -10,7 +10,6 @@ from skillc.errors import RequestError, ServiceError
 from skillc.services.reporting import Reporter
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.run_trace import RunTrace
@@ -18,6 +17,7 @@ from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_wiping_drawing
 from skillc_runtime.evaluation.report.work_kinds import measure_work
 from skillc_runtime.execution.execute import Execution
+from skillc_runtime.recording.history_builder import HistoryBuilder
 
 if TYPE_CHECKING:
     from skillc_runtime.film.film import Film
@@ -84,26 +84,28 @@ def begin_film(backend: Backend, looks: str, loop: bool, reporter: Reporter) -> 
 
 def report_run(
     execution: Execution[Backend],
-    choices: ChoiceListener,
+    told: HistoryBuilder,
     library: SkillLibrary,
     samples: RunSamples,
     folder: Path | None,
     reporter: Reporter,
 ) -> RunResult:
-    """Make the result of a run, and write it with the report, and a film if it was sampled, to a folder, if any."""
-    backend = execution.backend
-    trees = [attempt.tree for attempt in execution.attempts]
+    """Make the result of a run of which the events were `told`; write it with the report to a folder, if any.
+
+    A film is written if it was sampled.
+    """
+    backend, history = execution.backend, told.history
     state, truth = backend.cell.world.snapshot(), backend.capabilities.truth
-    record = RunRecord(trees, choices, state, truth, samples.trace)
+    record = RunRecord(history, state, truth, samples.trace)
     works, began_s = measure_work(record), samples.trace.began_s
-    result = summarise_run(execution, choices, library, record.wipings, backend, works, began_s)
+    result = summarise_run(execution, history, record.wipings, backend, works, began_s)
     if folder is None:
         return RunResult(result)
     from skillc.services.run_report import write_run  # what draws takes long to import
 
     drawings = () if truth is None else tuple(make_wiping_drawing(each, state, truth) for each in record.wipings)
     try:
-        write_run(folder, result, record, library, samples.film, reporter)
+        write_run(folder, result, record, told.draw() if execution.attempts else [], library, samples.film, reporter)
     except ServiceError as error:
         reporter.say(f"error: {error}")
         return RunResult(result, drawings, written=False)

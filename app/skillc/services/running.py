@@ -33,7 +33,6 @@ from skillc.services.task_loading import LoadedTask
 from skillc.services.unstarted_runs import end_unstarted
 from skillc.services.watchdog.process import TICK_TIMEOUT_S
 from skillc_runtime.devices.backend import Backend
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.summary import summarise_start
 from skillc_runtime.execution.assignment import Assignment, NotStarted
 from skillc_runtime.execution.attempt import CellOrigin
@@ -45,6 +44,7 @@ from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.solve import DEADLINE_S
 from skillc_runtime.recording.envelope import Recorder, make_run_id
+from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -134,7 +134,7 @@ class _Run:
     def carry_out(self, planning: PlanningJob) -> RunResult:
         """Run the task once it is planned, and report it."""
         task, options, cell = self.task, self.options, self.cell
-        choices = ChoiceListener()
+        told = HistoryBuilder()
         start = summarise_start(task.assignment.name, cell)
         run_id = options.run_id or make_run_id(task.assignment.name)
         with (
@@ -144,14 +144,14 @@ class _Run:
         ):
             loop, began = self._make_loop(planning, hooks), perf_counter()
             publisher = recorded.publisher
-            listeners = (choices, self.monitor, publisher)
+            listeners = (told, self.monitor, publisher)
             run = loop.submit(task.assignment, listeners, options.spec, self.gate, publisher.run)
             operate(loop, run, self.monitor, lambda: recorded.watchdog.count_tick(cell.clock.now))
             recorded.watchdog.disarm()
             execution = describe_execution(run, cell, perf_counter() - began)
             if options.out is not None:
                 self.monitor.say("writing the report")
-            return report_run(execution, choices, task.library, self.samples, options.out, self.reporter)
+            return report_run(execution, told, task.library, self.samples, options.out, self.reporter)
 
     def _recorded(self, run_id: str) -> AbstractContextManager[tuple[Recorder, ...]]:
         """Record the run as an MCAP file, if there is a folder for it."""

@@ -75,7 +75,7 @@ def _attempt(attempt: Attempt) -> Iterator[str]:
     if attempt.planner:
         quality = attempt.quality or {"proven": "proved optimal"}.get(attempt.optimal, "")
         proved = f", {quality}" if quality else ""
-        count = f"{len(attempt.steps)} step{'' if len(attempt.steps) == 1 else 's'}"
+        count = f"{attempt.planned} step{'' if attempt.planned == 1 else 's'}"
         yield f"plan of {count} by {attempt.planner}{proved}, {attempt.cost:g} s expected"
     for step in attempt.steps:
         yield _line(step)
@@ -90,9 +90,9 @@ def _arguments(call: RecordedCall) -> str:
 
 def _line(call: RecordedCall, depth: int = 0) -> str:
     beside = f"  beside {', '.join(call.beside)}" if call.beside else ""
-    often = f"  started {call.starts} times" if call.starts > 1 else ""
+    rounds = f"  {', '.join(map(str, call.rounds))}" if call.rounds else ""
     name = f"{'  ' * depth}{call.number:>3}  {_name(call)}"
-    return f"{name:32}  {call.status:11}  {_times(call):15}  {call.source or ''}{beside}{often}".rstrip()
+    return f"{name:32}  {call.status:11}  {_times(call):15}  {call.source or ''}{rounds}{beside}".rstrip()
 
 
 def _name(call: RecordedCall) -> str:
@@ -176,8 +176,6 @@ def _because(reason: ParameterReason) -> Iterator[str]:
 
 
 def _failed(call: RecordedCall) -> Iterator[str]:
-    for earlier in call.earlier:
-        yield f"an earlier start ended at {earlier.ended:.1f} s: {earlier.status} {earlier.message}".rstrip()
     if call.failure is None:
         return
     refused = [each for each in _others(call) if each.reason == call.failure.message]

@@ -12,22 +12,22 @@ from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import TaskEnded
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.history import RunHistory
-from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.history_builder import HistoryBuilder, listen_to
 from skillc_runtime.recording.reader import TraceReader
 
 
-def end_recording(path: Path, explain: Callable[[RunHistory], str], now: float) -> RunHistory | None:
-    """End a recording as `interrupted` at the time `now` of the cell in s, if it has no end; return the history.
+def end_recording(path: Path, explain: Callable[[RunHistory], str], now: float) -> HistoryBuilder:
+    """End a recording as `interrupted` at the time `now` of the cell in s, if it has no end; return what it tells.
 
-    None if no task was started. `explain` returns the reason for the history up to then. An incomplete last line is
-    removed. TraceError if the file
+    `explain` returns the reason for the history up to then. An incomplete last line is removed. TraceError if the file
     is not a recording, OSError if it cannot be read or written; no other program may write to it.
     """
     reader = TraceReader(path)
     envelopes = list(reader)
-    history = read_history(envelope.event for envelope in envelopes)
+    told = listen_to(envelope.event for envelope in envelopes)
+    history = told.build()
     if history is None or history.status:
-        return history
+        return told
     last = envelopes[-1]
     ended = TaskEnded(
         time=max(now, last.cell_time_s),
@@ -36,7 +36,8 @@ def end_recording(path: Path, explain: Callable[[RunHistory], str], now: float) 
         failure=Failure(kind="interrupted", message=explain(history)),
     )
     _append(path, Envelope(run=last.run, sequence=last.sequence + 1, wall_time_ns=time.time_ns(), event=ended))
-    return read_history((*(envelope.event for envelope in envelopes), ended))
+    told(ended)
+    return told
 
 
 def _append(path: Path, envelope: Envelope) -> None:

@@ -15,7 +15,7 @@ from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
-from skillc_runtime.recording.reasons import FailedCallContext, ParameterReason, UntriedImplementation
+from skillc_runtime.recording.reasons import FailedCallContext, Highlight, ParameterReason, UntriedImplementation
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.facts import Evidence
@@ -178,14 +178,6 @@ class NodeEnded(_Event, tag="node-ended", frozen=True, kw_only=True):
     failure: Failure | None = None
     failed_call: FailedCallContext | None = None
     source: Position
-
-
-class Highlight(msgspec.Struct, frozen=True):
-    """What `what` is, for example `pressed`, when a call begins or ends successfully: a moment to show in a report."""
-
-    when: Literal["begins", "ends"]
-    what: LabelledIri
-    word: str
 
 
 class ImplementationChosen(_Event, tag="implementation-chosen", frozen=True, kw_only=True):

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import inf
 
 import msgspec
 
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
-from skillc_runtime.recording.reasons import ParameterReason, UntriedImplementation
-from skillc_runtime.world.state.labelled import LabelledFact, LabelledValue
+from skillc_runtime.recording.reasons import Highlight, ParameterReason, UntriedImplementation
+from skillc_runtime.world.state.labelled import LabelledFact, LabelledIri, LabelledValue
 
 
 class _Part(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -38,24 +39,28 @@ class FailedNode(_Part, frozen=True, kw_only=True):
     message: str
 
 
-class EarlierStart(_Part, frozen=True, kw_only=True):
-    """How an earlier start of the same call ended."""
+class LoopRound(_Part, frozen=True):
+    """The round of a loop in which a call was made, from 1; `loop` is its node, for example `retry 3`."""
 
-    ended: float
-    status: str
-    message: str = ""
+    loop: str
+    number: int
+
+    def __str__(self) -> str:
+        return f"round {self.number} of {self.loop}"
 
 
 class RecordedCall(_Part, frozen=True, kw_only=True):
-    """A call of a skill at its last start, or a step of a plan that was never called.
+    """One call of a skill, or a step that was never called; a call that is made again is another one.
 
     `number` is the number of the step; for a call inside it, followed by its index there, for example `2.1`. `node` is
-    its number in the events, 0 if it was never called. `status`
+    its number in the events, 0 if it was never called. `rounds` are those of the loops around it in the same body, the
+    outermost first. `status`
     is success, failure, halted, running, skipped (its postconditions already held) or not started. `source` is the
     place of the call, or of the skill for a planned step; `implementation_source` that of the implementation chosen
-    last. `beside` are the steps that ran at the same time. `planned` if a planner bound its arguments, `fixed` if the
-    call names its implementation. `unset` are the parameters that could not be inferred. `starts` is the number of
-    starts, `chain` leads from this call to the node that failed.
+    last. `until` is when the scope ended that it opened with `with`. `beside` are the steps that ran at the same time.
+    `planned` if a planner bound its arguments, `fixed` if the
+    call names its implementation. `unset` are the parameters that could not be inferred. `chain` leads from this call
+    to the node that failed. `activity` and `highlights` are those of a primitive.
     """
 
     number: str
@@ -65,8 +70,10 @@ class RecordedCall(_Part, frozen=True, kw_only=True):
     node: int = 0
     implementation: str = ""
     implementation_source: Position | None = None
+    rounds: tuple[LoopRound, ...] = ()
     started: float | None = None
     ended: float | None = None
+    until: float | None = None
     bindings: dict[str, LabelledValue] = {}
     determined: tuple[ParameterReason, ...] = ()
     unset: tuple[str, ...] = ()
@@ -77,10 +84,20 @@ class RecordedCall(_Part, frozen=True, kw_only=True):
     failure: Failure | None = None
     chain: tuple[FailedNode, ...] = ()
     facts: tuple[RecordedFact, ...] = ()
-    starts: int = 1
-    earlier: tuple[EarlierStart, ...] = ()
+    activity: str = ""
+    highlights: tuple[Highlight, ...] = ()
     beside: tuple[str, ...] = ()
     calls: tuple[RecordedCall, ...] = ()
+
+    @property
+    def has_run(self) -> bool:
+        """Whether it was called, and has chosen an implementation."""
+        return bool(self.implementation)
+
+    @property
+    def individuals(self) -> tuple[str, ...]:
+        """The IRIs of the individuals that the parameters stand for, in the order of the parameters."""
+        return tuple(value.iri for value in self.bindings.values() if isinstance(value, LabelledIri))
 
     @property
     def all(self) -> Iterator[RecordedCall]:
@@ -91,12 +108,14 @@ class RecordedCall(_Part, frozen=True, kw_only=True):
 
 
 class Attempt(_Part, frozen=True, kw_only=True):
-    """A plan and the outcome of its steps; a body that was given has no `planner`.
+    """A plan and its steps in order of time, or those of a body that was given, which has no `planner`.
 
+    Steps that were not started come last. `planned` is how many steps the plan has.
     `quality` is how good the plan is known to be, `replaces` why the previous plan was abandoned.
     """
 
     steps: tuple[RecordedCall, ...]
+    planned: int = 0
     planner: str = ""
     optimal: str = ""
     quality: str = ""
@@ -109,7 +128,8 @@ class RunHistory(_Part, frozen=True, kw_only=True):
 
     `known` are the facts that a success rests on, `verified` is whether none of them is only assumed; None if unknown.
     `false_claims` are sentences about what the world model claimed at its end that was not so in the simulator.
-    `chain` leads from the outermost call to the node that failed.
+    `chain` leads from the outermost call to the node that failed. `pauses` are when it was paused and resumed, the
+    latter None if it never went on.
     """
 
     task: str
@@ -124,6 +144,12 @@ class RunHistory(_Part, frozen=True, kw_only=True):
     failure: Failure | None = None
     chain: tuple[FailedNode, ...] = ()
     attempts: tuple[Attempt, ...] = ()
+    pauses: tuple[tuple[float, float | None], ...] = ()
+
+    @property
+    def paused(self) -> tuple[tuple[float, float], ...]:
+        """When it was paused and resumed; a pause after which it never went on has no end."""
+        return tuple((start, inf if end is None else end) for start, end in self.pauses)
 
     @property
     def calls(self) -> Iterator[RecordedCall]:

@@ -1,4 +1,4 @@
-"""Records of the nodes of a run, built from its events: their parents, and their outcomes at their last starts."""
+"""Records of the nodes of a run, built from its events: a record for each start of a node, below its parent's."""
 
 from __future__ import annotations
 
@@ -6,17 +6,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from skillc_runtime.recording.events import ImplementationChosen, NodeEnded, NodeStarted, PlanMade
-from skillc_runtime.recording.history import EarlierStart, RecordedFact
+from skillc_runtime.recording.history import LoopRound, RecordedFact
 
-MAX_EARLIER_STARTS = 5
-"""For how many earlier starts of a call the outcome is kept."""
+LOOPS = ("retry", "repeat", "while", "for")
+"""The kinds of nodes of which each start of the child is a round."""
 
 
 @dataclass(slots=True, eq=False)
 class NodeRecord:
-    """A node at its last start, with those of its children that are kept: calls, and failed nodes.
+    """One start of a node; `children` are the starts of the nodes below it, in order of time.
 
-    `was_handled` if its failure did not make the enclosing node fail.
+    `choices` has the implementations that a call has started, the last one at its end; `given_up` is how many of the
+    `children` belong to those before it. `round` is the one of the loop that is the parent, 0 elsewhere; `rounds` is
+    how many have started in a loop.
     """
 
     start: NodeStarted
@@ -25,9 +27,9 @@ class NodeRecord:
     choice: ImplementationChosen | None = None
     facts: tuple[RecordedFact, ...] = ()
     children: list[NodeRecord] = field(default_factory=list)
-    starts: int = 1
-    earlier: list[EarlierStart] = field(default_factory=list)
-    was_handled: bool = False
+    given_up: int = 0
+    round: int = 0
+    rounds: int = 0
 
     @property
     def is_call(self) -> bool:
@@ -36,14 +38,37 @@ class NodeRecord:
 
     @property
     def status(self) -> str:
-        """The status of the node at its last start."""
+        """How the node ended, or that it runs."""
         return self.end.status if self.end is not None else "running"
 
     @property
     def calls(self) -> Iterator[NodeRecord]:
-        """The outermost calls below this node, in the order of their starts."""
-        found = (each for child in self.children for each in ((child,) if child.is_call else child.calls))
-        return iter(sorted(found, key=lambda each: (each.start.time, each.start.node)))
+        """The outermost calls below this node, in order of time."""
+        for child in self.children:
+            yield from (child,) if child.is_call else child.calls
+
+    @property
+    def latest(self) -> list[NodeRecord]:
+        """The children that belong to the implementation that was chosen last."""
+        return self.children[self.given_up :]
+
+    @property
+    def loop_rounds(self) -> tuple[LoopRound, ...]:
+        """The rounds of the loops around this node in the same body, the outermost first."""
+        found, node = list[LoopRound](), self
+        while node.parent is not None and not (node is not self and node.is_call):
+            if node.round:
+                found.append(LoopRound(node.parent.start.name, node.round))
+            node = node.parent
+        return tuple(reversed(found))
+
+    @property
+    def scope_end(self) -> float | None:
+        """When the scope ended that this call opened; None if it opened none, or the scope goes on."""
+        scope = self.parent
+        if scope is None or scope.start.kind != "with" or scope.children[0] is not self or scope.end is None:
+            return None
+        return scope.end.time
 
 
 @dataclass(slots=True)
@@ -57,61 +82,55 @@ class AttemptRecord:
 
 
 class NodeRecords:
-    """The nodes of an attempt that run or are kept; at most as many as the tree has, however long it runs."""
+    """The starts of the nodes of an attempt. Of a node that starts again, only the calls in its earlier starts stay."""
 
     def __init__(self, body: AttemptRecord) -> None:
         self._body = body
-        self._by_node: dict[int, NodeRecord] = {}
+        self._last: dict[int, NodeRecord] = {}
 
     def start(self, event: NodeStarted) -> None:
-        """Record that a node starts; records of its earlier start are dropped, except calls that may start again."""
-        parent = self._by_node.get(event.parent)
+        """Record that a node starts."""
+        parent = self._last.get(event.parent)
         record = NodeRecord(event, parent)
-        before = self._by_node.get(event.node)
+        before = self._last.get(event.node)
         if before is not None:
-            record.starts = before.starts + 1
-            record.earlier = [*before.earlier, *_as_earlier_start(before)][-MAX_EARLIER_STARTS:]
-            self._replace_by(before, [] if before.is_call else list(before.calls))
-        self._by_node[event.node] = record
+            self._thin(before)
+        if parent is not None and parent.start.kind in LOOPS:
+            parent.rounds += 1
+            record.round = parent.rounds
+        self._last[event.node] = record
         self._siblings(record).append(record)
 
     def choose(self, event: ImplementationChosen) -> None:
-        """Record that a call starts with an implementation; the records of an earlier implementation are dropped."""
-        record = self._by_node.get(event.node)
-        if record is None:
-            return
-        record.choice = event
-        for child in record.children:
-            self._drop(child, frozenset())
-        record.children.clear()
+        """Record that a call starts with an implementation; what an earlier one has called stays."""
+        record = self._last.get(event.node)
+        if record is not None:
+            record.choice, record.given_up = event, len(record.children)
 
     def end(self, event: NodeEnded, facts: tuple[RecordedFact, ...]) -> None:
-        """Record that a node ends; if it is not a call and did not fail, only the calls below it are kept."""
-        record = self._by_node.get(event.node)
+        """Record that a node ends."""
+        record = self._last.get(event.node)
         if record is None:
             return
         record.end, record.facts = event, facts
-        if record.is_call or event.status == "failure":
-            return
-        calls = list(record.calls)
-        if record.start.kind == "if" and event.status == "success" and not calls and _is_outside_calls(record):
+        is_empty_branch = record.start.kind == "if" and event.status == "success" and not any(record.calls)
+        if is_empty_branch and _is_outside_calls(record):
             self._body.skipped.append(event)
-        self._replace_by(record, calls)
 
-    def _replace_by(self, record: NodeRecord, kept: list[NodeRecord]) -> None:
-        """Replace a node by its descendants that are kept, and drop the rest."""
-        siblings = self._siblings(record)
-        place = siblings.index(record)
-        siblings[place : place + 1] = kept
-        self._drop(record, frozenset(each.start.node for each in kept))
-        for child in kept:
-            child.parent, child.was_handled = record.parent, True
+    def _thin(self, record: NodeRecord) -> None:
+        """Drop what an earlier start of a node has besides calls, and the nodes around these; all if it has none."""
+        self._thin_below(record)
+        if not record.is_call and not record.children:
+            self._siblings(record).remove(record)
 
-    def _drop(self, record: NodeRecord, kept: frozenset[int]) -> None:
-        self._by_node.pop(record.start.node, None)
+    def _thin_below(self, record: NodeRecord) -> None:
+        if self._last.get(record.start.node) is record:
+            del self._last[record.start.node]
         for child in record.children:
-            if child.start.node not in kept:
-                self._drop(child, kept)
+            self._thin_below(child)
+        kept = [child.is_call or bool(child.children) for child in record.children]
+        record.given_up = sum(kept[: record.given_up])
+        record.children = [child for child, wanted in zip(record.children, kept, strict=True) if wanted]
 
     def _siblings(self, record: NodeRecord) -> list[NodeRecord]:
         return record.parent.children if record.parent is not None else self._body.roots
@@ -120,14 +139,3 @@ class NodeRecords:
 def _is_outside_calls(record: NodeRecord) -> bool:
     """Whether a node is not inside a call."""
     return record.parent is None or (not record.parent.is_call and _is_outside_calls(record.parent))
-
-
-def _as_earlier_start(record: NodeRecord) -> tuple[EarlierStart, ...]:
-    if record.end is None:
-        return ()
-    failure = record.end.failure
-    return (
-        EarlierStart(
-            ended=record.end.time, status=record.status, message=failure.message if failure is not None else ""
-        ),
-    )

@@ -1,4 +1,4 @@
-"""The reasons that events carry: why a parameter has its value, and the context in which a call failed."""
+"""What events say of calls: why a parameter has its value, the context of a failure, the moments to show."""
 
 from __future__ import annotations
 
@@ -30,6 +30,14 @@ class ParameterReason(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=T
     how: Literal["passed", "default", "inferred"]
     conditions: tuple[DecidingCondition, ...] = ()
     others: tuple[LabelledIri, ...] = ()
+
+
+class Highlight(msgspec.Struct, frozen=True):
+    """What `what` is, for example `pressed`, when a call begins or ends successfully: a moment to show in a report."""
+
+    when: Literal["begins", "ends"]
+    what: LabelledIri
+    word: str
 
 
 class UntriedImplementation(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):

@@ -12,9 +12,9 @@ from skillc.services.replaying.inputs import read_inputs
 from skillc.services.reporting import Reporter
 from skillc.services.run_result import PRIMITIVE_LOOKS, RunResult, begin_film, check_film, make_samples, report_run
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.execution.execute import describe_execution
 from skillc_runtime.execution.repeat import NotRepeatable
+from skillc_runtime.recording.history_builder import HistoryBuilder
 
 
 def report_recorded(
@@ -39,9 +39,9 @@ def report_recorded(
     reporter.say(f"running {inputs.start.task} again from its seed, requests and plans")
     with closing(build_cell(inputs)) as cell:
         filming = begin_film(cell, looks, gif, reporter) if film else None
-        samples, choices = make_samples(cell, filming), ChoiceListener()
+        samples, told = make_samples(cell, filming), HistoryBuilder()
         try:
-            repeated = repeat(inputs, cell, (choices,), (samples.sample,))
+            repeated = repeat(inputs, cell, (told,), (samples.sample,))
         except NotRepeatable as error:
             raise ServiceError(f"no report can be made: {error}") from error
         if repeated.difference is not None:
@@ -53,4 +53,4 @@ def report_recorded(
         with writing_to(out):
             out.mkdir(parents=True, exist_ok=True)
         execution = describe_execution(repeated.run, cell, inputs.wall_time_s)
-        return report_run(execution, choices, inputs.library, samples, out, reporter)
+        return report_run(execution, told, inputs.library, samples, out, reporter)

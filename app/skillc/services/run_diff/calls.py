@@ -118,8 +118,7 @@ def _format_values(values: Mapping[str, LabelledValue]) -> dict[str, str]:
 
 def _describe_outcome(call: RecordedCall) -> str:
     why = f": {call.failure.message}" if call.failure is not None else ""
-    often = f", started {call.starts} times" if call.starts > 1 else ""
-    return f"{call.status}{often}{why}"
+    return f"{call.status}{why}"
 
 
 def _duration(call: RecordedCall) -> float | None:

@@ -10,8 +10,8 @@ from pathlib import Path
 import msgspec
 from msgspec import structs
 
-from skillc_runtime.evaluation.report.interrupted import draw_attempts, summarise_recording
 from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.summary import summarise_recording
 from skillc_runtime.evaluation.report.write import write_report, write_result
 from skillc_runtime.platforms.watchdog_program import STATE, SharedState
 from skillc_runtime.recording.ending import end_recording
@@ -42,15 +42,16 @@ def write_interrupted_end(run: RunDescription, why: str, now: float) -> TaskResu
     `why` is the reason, to which the calls that ran are added, `now` the time of the cell in s. A recording that has
     its last event keeps it. OSError or TraceError if the files cannot be read or written.
     """
-    history = end_recording(Path(run.events), lambda history: f"{why}{_describe_place(history)}", now)
+    told = end_recording(Path(run.events), lambda history: f"{why}{_describe_place(history)}", now)
     wall_s = time.time() - run.began_s
+    history = told.build()
     if history is None:
         result = structs.replace(run.start, wall_time_s=wall_s, failure=f"{why}, before the task began")
     else:
         result = summarise_recording(run.start, history, wall_s)
     if run.out is not None:
         write_result(Path(run.out), result)
-        write_report(Path(run.out), result, draw_attempts(history) if history is not None else ())
+        write_report(Path(run.out), result, told.draw())
     return result
 
 

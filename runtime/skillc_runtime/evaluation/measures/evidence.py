@@ -2,30 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from skillc_model.conditions import Literal
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.metrics.intervals import subtract_intervals, total_s
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.wiping import Wiping
-from skillc_runtime.recording.events import ImplementationChosen
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history import RecordedCall, RunHistory
 from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
 class RunEvidence:
-    """The world model and the truth after a run, its trees with the chosen implementations, and the rated wipings."""
+    """The world model and the truth after a run, its history, and the rated wipings: the last one of each surface."""
 
     library: SkillLibrary
     state: WorldState
     truth: GroundTruth
-    trees: tuple[NodeOutcome, ...]
-    choices: ChoiceListener
+    history: RunHistory
     wipings: tuple[tuple[Wiping, WipingResult], ...]
 
     def duration_share(self, subject: str) -> float | None:
@@ -35,20 +32,18 @@ class RunEvidence:
 
         None if there is no such call, or its skill declares no constant duration.
         """
-        for call in reversed(tuple(_outermost_calls(self.trees, self.choices, subject))):
-            literal = self.library.skills[self.choices[call.id].skill].duration
+        steps = (step for attempt in self.history.attempts for step in attempt.steps)
+        for call in reversed(tuple(_outermost_calls(steps, subject))):
+            literal = self.library.skills[call.skill].duration
             if isinstance(literal, Literal) and call.started is not None and call.ended is not None:
-                taken = subtract_intervals([(call.started, call.ended)], self.choices.pauses)
+                taken = subtract_intervals([(call.started, call.ended)], self.history.paused)
                 return total_s(taken) / float(literal.value)
         return None
 
 
-def _outermost_calls(
-    nodes: Iterable[NodeOutcome], choices: Mapping[int, ImplementationChosen], subject: str
-) -> Iterator[NodeOutcome]:
-    for node in nodes:
-        choice = choices.get(node.id)
-        if choice is not None and subject in choice.individuals:
-            yield node
+def _outermost_calls(calls: Iterable[RecordedCall], subject: str) -> Iterator[RecordedCall]:
+    for call in calls:
+        if call.has_run and subject in call.individuals:
+            yield call
         else:
-            yield from _outermost_calls(node.children, choices, subject)
+            yield from _outermost_calls(call.calls, subject)

@@ -2,61 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from math import inf
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.film.captions import Caption, FilmEnding
 from skillc_runtime.film.film import Moment, Story
-from skillc_runtime.recording.events import ImplementationChosen
+from skillc_runtime.recording.history import RecordedCall, RunHistory
 from skillc_runtime.recording.known_facts import format_status
-from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled import LabelledIri, display_name
 from skillc_runtime.world.state.terms import ARM_DEVICE, END_EFFECTOR, HAS_ARM
 from skillc_runtime.world.state.world_state import WorldState
 
 
 def make_story(
-    moments: Sequence[Moment],
-    trees: Iterable[NodeOutcome],
-    choices: Mapping[int, ImplementationChosen],
-    library: SkillLibrary,
-    result: TaskResult,
-    state: WorldState,
+    moments: Sequence[Moment], history: RunHistory, library: SkillLibrary, result: TaskResult, state: WorldState
 ) -> Story:
     """Return the story of a run with these stills."""
-    return Story(moments, tuple(_make_captions(trees, choices, library, state)), _describe_end(result))
+    return Story(moments, tuple(_make_captions(history, library, state)), _describe_end(result))
 
 
-def _make_captions(
-    trees: Iterable[NodeOutcome], choices: Mapping[int, ImplementationChosen], library: SkillLibrary, state: WorldState
-) -> Iterator[Caption]:
-    """Yield a caption for each of the outermost calls that ran, numbered within its attempt."""
-    for tree in trees:
-        calls = [each for each in _outermost_calls(tree) if each.id in choices and each.started is not None]
-        for number, call in enumerate(sorted(calls, key=_started), 1):
-            words = (f"{number}/{len(calls)}", *_words(choices[call.id], library, state))
-            yield Caption("  ".join(words), _started(call), inf if call.ended is None else call.ended)
+def _make_captions(history: RunHistory, library: SkillLibrary, state: WorldState) -> Iterator[Caption]:
+    """Yield a caption for each step that ran, numbered within its attempt."""
+    for attempt in history.attempts:
+        calls = [(call.started, call) for call in attempt.steps if call.has_run and call.started is not None]
+        for number, (started, call) in enumerate(calls, 1):
+            words = (f"{number}/{len(calls)}", *_words(call, library, state))
+            yield Caption("  ".join(words), started, inf if call.ended is None else call.ended)
 
 
-def _outermost_calls(node: NodeOutcome) -> Iterator[NodeOutcome]:
-    if node.kind == "call":
-        yield node
-        return
-    for child in node.children:
-        yield from _outermost_calls(child)
-
-
-def _started(call: NodeOutcome) -> float:
-    return inf if call.started is None else call.started
-
-
-def _words(choice: ImplementationChosen, library: SkillLibrary, state: WorldState) -> Iterator[str]:
+def _words(call: RecordedCall, library: SkillLibrary, state: WorldState) -> Iterator[str]:
     """Yield the skill and what it was called with; robots, arms and hands can be seen."""
-    yield choice.skill
-    given = [each.name for each in library.skills[choice.skill].parameters if each.direction == "in"]
-    values = (choice.bindings[name] for name in given if name in choice.bindings)
+    yield call.skill
+    given = [each.name for each in library.skills[call.skill].parameters if each.direction == "in"]
+    values = (call.bindings[name] for name in given if name in call.bindings)
     things = [each.iri for each in values if isinstance(each, LabelledIri)]
     yield ", ".join(display_name(each) for each in things if not _is_device(each, state))
 

@@ -15,7 +15,7 @@ MOST_ROWS, LAST_ROWS = 100, 10
 MOST_NODES = 2500
 """Of larger trees the upper nodes are shown, and those that lead to what did not succeed."""
 
-FINE = ("success", "idle", "skipped")
+FINE = ("success", "idle", "skipped", "not started")
 
 T = TypeVar("T")
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from skillc_runtime.recording.events import ImplementationChosen
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history import RecordedCall, RunHistory
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledPose
 from skillc_runtime.world.state.terms import ARM_DEVICE, END_EFFECTOR
 from skillc_runtime.world.state.world_state import WorldState
@@ -34,12 +33,10 @@ class Handling:
     target_m: tuple[float, float] | None = None
 
 
-def find_handlings(
-    trees: Iterable[NodeOutcome], choices: Mapping[int, ImplementationChosen], state: WorldState
-) -> tuple[Handling, ...]:
+def find_handlings(history: RunHistory, state: WorldState) -> tuple[Handling, ...]:
     """Return what was picked up in a run, in order of time, from the highlights of its primitives."""
-    ended = (node for tree in trees for node in tree.nodes() if node.id in choices and node.status == "success")
-    calls = sorted(((node.ended, choices[node.id]) for node in ended if node.ended is not None), key=_by_time)
+    ended = ((call.ended, call) for call in history.calls if call.status == "success" and call.ended is not None)
+    calls = sorted(ended, key=_by_time)
     found: list[Handling] = []
     highlights = ((time, choice, each) for time, choice in calls for each in choice.highlights)
     for ended_s, call, highlight in highlights:
@@ -56,32 +53,32 @@ def find_targets(handlings: Sequence[Handling]) -> dict[str, tuple[float, float]
     return {thing: each.target_m for thing, each in last.items() if each.target_m is not None}
 
 
-def _by_time(call: tuple[float, ImplementationChosen]) -> float:
+def _by_time(call: tuple[float, RecordedCall]) -> float:
     return call[0]
 
 
-def _begin(thing: str, choice: ImplementationChosen, time: float, state: WorldState) -> Iterator[Handling]:
+def _begin(thing: str, call: RecordedCall, time: float, state: WorldState) -> Iterator[Handling]:
     """Yield the handling that begins with a call, if it names an arm and a gripper."""
     arm, gripper = (
-        next((each for each in choice.individuals if state.is_a(each, cls)), None) for cls in (ARM_DEVICE, END_EFFECTOR)
+        next((each for each in call.individuals if state.is_a(each, cls)), None) for cls in (ARM_DEVICE, END_EFFECTOR)
     )
     if arm is not None and gripper is not None:
         yield Handling(thing, arm, gripper, time)
 
 
-def _end(found: list[Handling], thing: str, time: float, calls: Sequence[tuple[float, ImplementationChosen]]) -> None:
+def _end(found: list[Handling], thing: str, time: float, calls: Sequence[tuple[float, RecordedCall]]) -> None:
     """Replace the last handling of a thing by the same with its end, if it has none yet."""
     number = next((i for i in reversed(range(len(found))) if found[i].thing == thing), None)
     if number is None or found[number].released_s is not None:
         return
     held = found[number]
-    targets = (_target(choice, held.arm) for at, choice in calls if held.grasped_s < at < time)
+    targets = (_target(call, held.arm) for at, call in calls if held.grasped_s < at < time)
     last = [each for each in targets if each is not None][-1:]
     found[number] = replace(held, released_s=time, target_m=last[0] if last else None)
 
 
-def _target(choice: ImplementationChosen, arm: str) -> tuple[float, float] | None:
+def _target(call: RecordedCall, arm: str) -> tuple[float, float] | None:
     """Return the place (x, y) in m to which a call moves an arm; None if it does not."""
-    target, moved = choice.bindings.get(TARGET), choice.bindings.get("arm")
+    target, moved = call.bindings.get(TARGET), call.bindings.get("arm")
     is_pose = isinstance(target, LabelledPose) and isinstance(moved, LabelledIri) and moved.iri == arm
     return target.position_m[:2] if is_pose and isinstance(target, LabelledPose) else None

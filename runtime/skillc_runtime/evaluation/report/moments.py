@@ -6,15 +6,14 @@ primitives declare, for example a button that is pressed.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import GroundTruth, Recording, join_recordings
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.film.film import Moment
-from skillc_runtime.recording.events import ImplementationChosen
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history import RecordedCall, RunHistory
 from skillc_runtime.world.state.labelled import display_name
 from skillc_runtime.world.state.terms import ARM_DEVICE
 from skillc_runtime.world.state.world_state import WorldState
@@ -24,27 +23,22 @@ GRASPED_S = 0.3
 
 
 def find_moments(
-    wipings: Sequence[Wiping],
-    trees: Iterable[NodeOutcome],
-    choices: Mapping[int, ImplementationChosen],
-    state: WorldState,
-    truth: GroundTruth,
+    wipings: Sequence[Wiping], history: RunHistory, state: WorldState, truth: GroundTruth
 ) -> tuple[Moment, ...]:
-    """Return the moments of all wipings whose arm is known, and the highlights of all calls in the trees."""
+    """Return the moments of all wipings whose arm is known, and the highlights of all calls."""
     wiped = (each for wiping in wipings if wiping.arm for each in _find_wiping_moments(wiping, truth))
-    calls = ((node, choices[node.id]) for tree in trees for node in tree.nodes() if node.id in choices)
-    return (*wiped, *(each for node, choice in calls for each in _find_highlights(node, choice, state)))
+    return (*wiped, *(each for call in history.calls for each in _find_highlights(call, state)))
 
 
-def _find_highlights(node: NodeOutcome, choice: ImplementationChosen, state: WorldState) -> Iterator[Moment]:
+def _find_highlights(call: RecordedCall, state: WorldState) -> Iterator[Moment]:
     """Yield the moments of a call's highlights, if an arm executed it."""
     arms = state.instances(ARM_DEVICE)
-    arm = next((each for each in choice.individuals if each in arms), None)
+    arm = next((each for each in call.individuals if each in arms), None)
     if arm is None:
         return
-    for highlight in choice.highlights:
-        time = node.started if highlight.when == "begins" else node.ended
-        occurred = highlight.when == "begins" or node.status == "success"
+    for highlight in call.highlights:
+        time = call.started if highlight.when == "begins" else call.ended
+        occurred = highlight.when == "begins" or call.status == "success"
         if occurred and time is not None:
             yield Moment(f"{display_name(highlight.what.iri)} {highlight.word}", time, arm)
 

@@ -12,6 +12,7 @@ from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.table import (
     PLACEMENT_COLUMNS,
     format_choice_reason,
+    format_step,
     list_failure_details,
     list_table_rows,
     split_placement,
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 SYMBOLS = {
     "success": "✓", "succeeded": "✓", "failure": "✗", "failed": "✗", "refused": "✗", "halted": "■", "stopped": "■",
-    "interrupted": "■", "running": "…", "idle": "·", "skipped": "·", "assumed": "?",
+    "interrupted": "■", "running": "…", "idle": "·", "skipped": "·", "not started": "·", "assumed": "?",
 }  # fmt: skip
 """The symbol of each status, so that colour is not needed to see it."""
 
@@ -56,6 +57,7 @@ def render_page(
         steps=shorten(result.plan, [step.status not in FINE for step in result.plan]),
         placements=shorten(result.placements),
         format_choice_reason=format_choice_reason,
+        format_step=format_step,
         format_value=format_value,
         trees=[fold_tree(tree) for tree in trees],
         split_placement=split_placement,

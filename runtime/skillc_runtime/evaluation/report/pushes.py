@@ -13,8 +13,7 @@ from skillc_runtime.evaluation.report.arm_trace import ArmPath
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.work_result import ForceSource, PushResult
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.recording.events import ImplementationChosen
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history import RecordedCall
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledVector, Quantity
 from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.terms import ARM_DEVICE, BUTTON, END_EFFECTOR, FIXTURE, LOCATION, ROBOT, SURFACE
@@ -42,14 +41,14 @@ class PushRecord:
     touched something: by the truth, or else when the arm knew a part of the commanded force; None if it never did.
     """
 
-    within: ImplementationChosen
+    within: RecordedCall
     on: tuple[str, ...]
     arm: str
     along: Array
     force_n: float
     start_s: float
     end_s: float
-    body: tuple[NodeOutcome, ...]
+    body: tuple[RecordedCall, ...]
     samples: ArmPath
     truth: Array | None
     contact_s: float | None
@@ -69,7 +68,7 @@ class PushRecord:
 
 def find_pushes(record: RunRecord) -> tuple[PushRecord, ...]:
     """Return all pushes of a run in order of time, also those that failed or were halted."""
-    found = [push for tree in record.trees for push in _find_below(tree, (), record)]
+    found = [push for attempt in record.history.attempts for push in _find_among(attempt.steps, (), record)]
     return tuple(sorted(found, key=lambda push: (push.start_s, push.arm)))
 
 
@@ -131,38 +130,44 @@ def _recording(tool: str, truth: GroundTruth) -> Recording:
         return Recording(np.empty((0, 25)))
 
 
-def _find_below(node: NodeOutcome, calls: tuple[ImplementationChosen, ...], record: RunRecord) -> Iterator[PushRecord]:
-    """Yield the pushes below a node, which is within these calls, the outermost first."""
-    choice = record.choices.get(node.id)
-    inside = calls if choice is None or choice.activity else (*calls, choice)
-    if node.kind == "with" and node.children:
-        yield from _read_scope(node, inside, record)
-    for child in node.children:
-        yield from _find_below(child, inside, record)
+def _find_among(
+    calls: Sequence[RecordedCall], around: tuple[RecordedCall, ...], record: RunRecord
+) -> Iterator[PushRecord]:
+    """Yield the pushes in the calls of a body, which is within the calls `around`, the outermost first."""
+    for call in calls:
+        if call.until is not None and around:
+            yield from _read_scope(call, (call.started or 0.0, call.until), calls, around, record)
+        yield from _find_among(call.calls, around if call.activity else (*around, call), record)
 
 
-def _read_scope(node: NodeOutcome, calls: tuple[ImplementationChosen, ...], record: RunRecord) -> Iterator[PushRecord]:
-    """Yield the pushes that last as long as a scope: one for each run of it."""
-    opening, *body = node.children
-    pressing = (record.choices.get(each.id) for each in opening.nodes())
-    choice = next((each for each in pressing if each is not None and each.activity == "press"), None)
-    if choice is None or not calls:
+def _read_scope(
+    opening: RecordedCall,
+    scope: Interval,
+    calls: Sequence[RecordedCall],
+    around: tuple[RecordedCall, ...],
+    record: RunRecord,
+) -> Iterator[PushRecord]:
+    """Yield the push that lasts as long as a scope, if its opening call presses."""
+    pressing = next((each for each in opening.all if each.activity == "press"), None)
+    if pressing is None:
         return
-    arm, along, force = (choice.bindings.get(name) for name in (ARM, ALONG, FORCE))
+    arm, along, force = (pressing.bindings.get(name) for name in (ARM, ALONG, FORCE))
     if not (isinstance(arm, LabelledIri) and isinstance(along, LabelledVector) and isinstance(force, Quantity)):
         return
-    for start, end in record.runs_of(node):
-        samples = record.arm_path(arm.iri).between(start - 0.5, end)
-        if len(samples.time) >= LEAST_SAMPLES:
-            on, axis = _find_objects(calls, record), np.array(along.components)
-            truth = _find_true_force(on, arm.iri, (start, end), record)
-            contact_s = _find_contact(samples, axis, force.value, truth, start)
-            yield PushRecord(
-                calls[-1], on, arm.iri, axis, force.value, start, end, tuple(body), samples, truth, contact_s
-            )  # fmt: skip
+    samples = record.arm_path(arm.iri).between(scope[0] - 0.5, scope[1])
+    if len(samples.time) >= LEAST_SAMPLES:
+        on, axis = _find_objects(around, record), np.array(along.components)
+        truth = _find_true_force(on, arm.iri, scope, record)
+        contact_s = _find_contact(samples, axis, force.value, truth, scope[0])
+        body = tuple(each for each in calls if each is not opening and _is_within(each, scope))
+        yield PushRecord(around[-1], on, arm.iri, axis, force.value, *scope, body, samples, truth, contact_s)
 
 
-def _find_objects(calls: tuple[ImplementationChosen, ...], record: RunRecord) -> tuple[str, ...]:
+def _is_within(call: RecordedCall, scope: Interval) -> bool:
+    return call.started is not None and scope[0] <= call.started <= scope[1]
+
+
+def _find_objects(calls: tuple[RecordedCall, ...], record: RunRecord) -> tuple[str, ...]:
     """Return the individuals besides devices and places that the innermost call with any of them names."""
     for call in reversed(calls):
         found = [each for each in call.individuals if _is_object(each, record.state)]

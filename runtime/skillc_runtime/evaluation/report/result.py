@@ -9,16 +9,18 @@ import msgspec
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.work_result import WorkResult
 from skillc_runtime.recording.failure import Failure, Rejection
+from skillc_runtime.recording.history import LoopRound
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.states import EndState
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledValue
 
 
 class StepResult(msgspec.Struct, frozen=True, kw_only=True):
-    """A step of a plan or of a given body, with its arguments by parameter name and its source line.
+    """One call that a plan or a given body made, or was to make, with its arguments by parameter name and its line.
 
-    `implementation` is empty if the step never started; `alternatives` is the number of the skill's other
-    implementations, of which `rejected` could not be used.
+    `number` is that by which `skillc why` knows it; `rounds` are those of the loops around it, the outermost first.
+    `implementation` is empty if it never started; `alternatives` is the number of the skill's other
+    implementations, of which `rejected` could not be used. Times in s; `failure` is why it did not succeed.
     """
 
     skill: str
@@ -26,6 +28,11 @@ class StepResult(msgspec.Struct, frozen=True, kw_only=True):
     arguments: dict[str, LabelledValue]
     source: str
     status: str
+    number: str = ""
+    rounds: tuple[LoopRound, ...] = ()
+    start_s: float | None = None
+    end_s: float | None = None
+    failure: str | None = None
     alternatives: int = 0
     rejected: tuple[Rejection, ...] = ()
 
@@ -39,13 +46,17 @@ class ChoiceResult(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class WipingResult(msgspec.Struct, frozen=True, kw_only=True):
-    """The quality of the wiping of a surface, measured by the simulator and not by the controller.
+    """The quality of one wiping of a surface, measured by the simulator and not by the controller.
+
+    `start_s` and `end_s` are those of its path, in s.
 
     `lane_dwell_s` is the time lost at each corner of the lanes, None without corners; if an overlay hides the dwell of
     the tool, it is the dwell of the commanded path.
     """
 
     surface: LabelledIri
+    start_s: float
+    end_s: float
     coverage: float
     force_command_n: float
     force_mean_n: float
@@ -114,8 +125,9 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
     which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed, and no
     claim is false. `false_claims` are sentences about what the world model claims of things at the end that is not so
-    in the simulator. `plan` is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one
-    entry for each surface that was wiped, `wiping` is the first of them; `placements` has one for each thing that was
+    in the simulator. `plan` has the steps of the last plan, which has `planned_steps`, or of the body, and before them
+    those that earlier plans have started, each call in order of time; `replanned` is why each was abandoned. `wipings`
+    has one entry for each time a surface was wiped, `wiping` is the first of them; `placements` has one for each thing that was
     moved, `works` one for each other piece of work, `touches` one for each contact of a link, a hand or a base. What
     only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its clock.
     """
@@ -127,6 +139,7 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     false_claims: tuple[str, ...] = ()
     plan: tuple[StepResult, ...] = ()
     choices: tuple[ChoiceResult, ...] = ()
+    planned_steps: int = 0
     plan_optimal: bool | None = None
     plan_quality: str = ""
     planner: str = ""

@@ -68,13 +68,12 @@ def measure_search(search: Search, record: RunRecord) -> SearchResult:
 
 def _find_in(push: PushRecord, record: RunRecord) -> Iterator[Search]:
     names, across = _find_plane(push.along)
-    for node in (node for part in push.body for node in part.nodes()):
-        choice = record.choices.get(node.id)
-        if choice is None or choice.activity != "search" or node.started is None:
+    for call in (call for part in push.body for call in part.all if push.arm in call.individuals):
+        if call.activity != "search" or call.started is None:
             continue
-        end = record.end_s if node.ended is None else node.ended
-        if push.start_s <= node.started and end <= push.end_s and len(push.samples.between(node.started, end).time) > 1:
-            yield Search(push, node.started, end, node.status == "success", across, names)
+        end = record.end_s if call.ended is None else call.ended
+        if push.start_s <= call.started and end <= push.end_s and len(push.samples.between(call.started, end).time) > 1:
+            yield Search(push, call.started, end, call.status == "success", across, names)
 
 
 def _find_plane(along: Array) -> tuple[tuple[str, str], Array]:

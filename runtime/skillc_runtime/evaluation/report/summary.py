@@ -1,26 +1,22 @@
-"""Makes the result of a task from its execution."""
+"""Makes the result of a task from its history, and from its execution where that is known."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 from msgspec import structs
 
-from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets
 from skillc_runtime.evaluation.report.placements import measure_placements
 from skillc_runtime.evaluation.report.result import ChoiceResult, FailedCall, StepResult, TaskResult, TouchResult
 from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
 from skillc_runtime.evaluation.report.work_result import WorkResult
-from skillc_runtime.execution.attempt import AttemptResult
 from skillc_runtime.execution.execute import Execution
-from skillc_runtime.planning.plan import describe_quality
-from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.recording.failure_text import describe_failure
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history import Attempt, RecordedCall, RunHistory
 from skillc_runtime.recording.states import EndState
 from skillc_runtime.world.state.labelled import LabelledIri
 from skillc_runtime.world.state.labelling import label
@@ -44,40 +40,57 @@ def summarise_start(task: str, backend: Backend) -> TaskResult:
 
 def summarise_run(
     execution: Execution[Any],
-    choices: Mapping[int, ImplementationChosen],
-    library: SkillLibrary,
+    history: RunHistory,
     wipings: Sequence[Wiping],
     backend: Backend,
     works: tuple[WorkResult, ...] = (),
     began_s: float = 0.0,
 ) -> TaskResult:
-    """Return the result of a task for reports, tables and JSON; `wipings` and `works` were found in it.
+    """Return the result of a task for reports, tables and JSON; `wipings` and `works` were found in its history.
 
     The task began at `began_s` of its cell.
     """
     state, truth = backend.cell.world.snapshot(), backend.capabilities.truth
-    handlings = find_handlings((each.tree for each in execution.attempts), choices, state)
     judged = () if truth is None else tuple(rate_wiping(wiping, state, truth) for wiping in wipings)
-    took_s, wall = backend.clock.now - began_s, execution.wall_time_s
+    targets = find_targets(find_handlings(history, state))
     result = structs.replace(
         summarise_start(execution.task, backend),
         status=_find_status(execution),
         verified=execution.verified,
         facts=execution.facts,
         false_claims=execution.false_claims,
-        sim_time_s=took_s,
-        wall_time_s=wall,
-        real_time_factor=took_s / wall if wall else 0.0,
         wiping=judged[0] if judged else None,
         wipings=judged,
-        placements=measure_placements(backend.cell.world, truth, find_targets(handlings)),
+        placements=measure_placements(backend.cell.world, truth, targets),
         works=works,
         touches=() if truth is None else tuple(TouchResult(**asdict(each)) for each in truth.contacts()),
-        replanned=tuple(each.reason for each in execution.attempts[:-1]),
         failure=describe_failure(execution.failure) if execution.failure else None,
         cause=execution.failure,
     )
-    return _add_attempt(result, execution.last, choices, library) if execution.attempts else result
+    result = _add_times(result, backend.clock.now - began_s, execution.wall_time_s)
+    return _add_history(result, history) if execution.attempts else result
+
+
+def summarise_recording(start: TaskResult, history: RunHistory, wall_time_s: float) -> TaskResult:
+    """Return the result of a run from its recording, which has its end, and from what was known at its `start`.
+
+    What is measured at the end, such as the quality of a wiping, is missing.
+    """
+    result = structs.replace(
+        start,
+        status=cast(EndState, history.status),
+        verified=history.verified,
+        false_claims=history.false_claims,
+        facts=history.known,
+        failure=describe_failure(history.failure) if history.failure is not None else None,
+        cause=history.failure,
+    )
+    return _add_history(_add_times(result, history.last, wall_time_s), history)
+
+
+def _add_times(result: TaskResult, took_s: float, wall_time_s: float) -> TaskResult:
+    factor = took_s / wall_time_s if wall_time_s > 0.0 else 0.0
+    return structs.replace(result, sim_time_s=took_s, wall_time_s=wall_time_s, real_time_factor=factor)
 
 
 def _find_status(execution: Execution[Any]) -> EndState | Literal["refused"]:
@@ -87,64 +100,62 @@ def _find_status(execution: Execution[Any]) -> EndState | Literal["refused"]:
     return "refused" if unprepared else execution.status
 
 
-def _add_attempt(
-    result: TaskResult, last: AttemptResult, choices: Mapping[int, ImplementationChosen], library: SkillLibrary
-) -> TaskResult:
-    """Return a result with what the last attempt planned and did."""
-    solved = last.prepared.planned.solved if last.prepared.planned else None
+def _add_history(result: TaskResult, history: RunHistory) -> TaskResult:
+    """Return a result with what was planned and done."""
+    last = history.attempts[-1]
+    failed = (each for each in history.chain if each.kind == "call")
     return structs.replace(
         result,
-        plan=_make_steps(last.tree, choices, library),
-        choices=_make_choices(choices, library),
-        plan_optimal=None if solved is None else solved.optimal == "proven",
-        plan_quality="" if solved is None else describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
-        planner="" if solved is None else solved.planner,
-        failed_calls=tuple(_failed_calls(last.tree)) if result.status == "failed" else (),
+        plan=tuple(_make_step(each) for attempt in history.attempts for each in _list_steps(attempt, attempt is last)),
+        planned_steps=last.planned,
+        choices=_make_choices(history.calls),
+        plan_optimal=last.optimal == "proven" if last.planner else None,
+        plan_quality=last.quality,
+        planner=last.planner,
+        replanned=tuple(each.replaces for each in history.attempts[1:]),
+        failed_calls=tuple(FailedCall(name=each.name, source=each.source) for each in failed)
+        if result.status == "failed"
+        else (),
     )
 
 
-def _make_steps(
-    tree: NodeOutcome, choices: Mapping[int, ImplementationChosen], library: SkillLibrary
-) -> tuple[StepResult, ...]:
-    """Return the outermost calls of the tree in the order of their starts; those that never started come last."""
-    calls = sorted(_outermost_calls(tree), key=lambda call: (call.started is None, call.started))
-    return tuple(_make_step(call, choices.get(call.id), library) for call in calls)
+def _list_steps(attempt: Attempt, is_last: bool) -> Iterator[RecordedCall]:
+    """Yield the steps of an attempt; of one that was abandoned, those that were started."""
+    yield from (step for step in attempt.steps if is_last or step.node)
 
 
-def _outermost_calls(tree: NodeOutcome) -> Iterator[NodeOutcome]:
-    """Yield the outermost calls; one that was not needed has the status `skipped`."""
-    if tree.kind == "call":
-        yield tree
-    for child in () if tree.kind == "call" else tree.children:
-        is_skipped = tree.kind == "if" and tree.status == "success" and child.status == "idle"
-        yield from _outermost_calls(structs.replace(child, status="skipped") if is_skipped else child)
-
-
-def _make_step(call: NodeOutcome, choice: ImplementationChosen | None, library: SkillLibrary) -> StepResult:
-    skill = choice.skill if choice else call.name
-    objects = {p.name for p in library.skills[skill].parameters if p.direction in ("in", "infer")}
-    bindings = choice.bindings if choice else {}
+def _make_step(call: RecordedCall) -> StepResult:
+    defaults = {each.parameter for each in call.determined if each.how == "default"}
     return StepResult(
-        skill=skill,
-        implementation=choice.implementation if choice else "",
-        arguments={name: value for name, value in bindings.items() if name in objects},
-        source=str(choice.source if choice else call.source),
+        skill=call.skill,
+        implementation=call.implementation,
+        arguments={name: value for name, value in call.bindings.items() if name not in defaults},
+        source=str(call.implementation_source or call.source or ""),
         status=call.status,
-        alternatives=len(library.skills[skill].implementations) - 1,
+        number=call.number,
+        rounds=call.rounds,
+        start_s=call.started,
+        end_s=call.ended,
+        failure=call.failure.message if call.failure is not None else None,
+        alternatives=_count_alternatives(call),
         rejected=call.rejected,
     )
 
 
-def _make_choices(choices: Mapping[int, ImplementationChosen], library: SkillLibrary) -> tuple[ChoiceResult, ...]:
+def _make_choices(calls: Iterator[RecordedCall]) -> tuple[ChoiceResult, ...]:
     """Return each choice between several implementations once."""
     found = {
-        (choice.skill, choice.implementation): ChoiceResult(
-            skill=choice.skill, implementation=choice.implementation, rejected=choice.rejected
+        (call.skill, call.implementation): ChoiceResult(
+            skill=call.skill, implementation=call.implementation, rejected=call.rejected
         )
-        for choice in choices.values()
-        if len(library.skills[choice.skill].implementations) > 1
+        for call in calls
+        if call.implementation and _count_alternatives(call)
     }
     return tuple(found[key] for key in sorted(found))
+
+
+def _count_alternatives(call: RecordedCall) -> int:
+    return len(call.rejected) + len(call.untried)
 
 
 def _robots(state: WorldState) -> list[LabelledIri]:
@@ -156,12 +167,3 @@ def _robots(state: WorldState) -> list[LabelledIri]:
 def _controllers(state: WorldState) -> list[str]:
     found = (state.value(arm, COMPLIANT_CONTROLLER) for arm in state.instances(ARM_DEVICE))
     return sorted({str(controller) for controller in found if controller is not None})
-
-
-def _failed_calls(node: NodeOutcome) -> Iterator[FailedCall]:
-    """Yield the calls from the top of the tree to the innermost one that failed."""
-    if node.kind == "call":
-        yield FailedCall(name=node.name, source=node.source)
-    failed = [child for child in node.children if child.status == "failure"]
-    if failed:
-        yield from _failed_calls(failed[-1])

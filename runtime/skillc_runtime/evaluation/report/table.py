@@ -23,6 +23,18 @@ def format_choice_reason(taken: StepResult | ChoiceResult) -> str:
     return "the only one" if isinstance(taken, StepResult) and not taken.alternatives else "the first that fits"
 
 
+def format_step(step: StepResult) -> str:
+    """Return how a step was done, in which rounds of loops, and why it failed; or why it was not done."""
+    match step.status:
+        case "skipped":
+            return "achieved already"
+        case "not started":
+            return "not reached"
+        case _:
+            done = ", ".join((step.implementation or "did not start", *map(str, step.rounds)))
+            return f"{done}: {step.failure}" if step.failure else done
+
+
 def list_table_rows(result: TaskResult) -> list[tuple[str, str]]:
     """Return the rows about a run as names and values."""
     planned = [] if result.plan_optimal is None else [("plan", _describe_plan(result))]
@@ -64,7 +76,7 @@ def _robot_rows(result: TaskResult) -> list[tuple[str, str]]:
 
 
 def _describe_plan(result: TaskResult) -> str:
-    return f"{len(result.plan)} step{'s' * (len(result.plan) != 1)} by {result.planner}, {result.plan_quality}"
+    return f"{result.planned_steps} step{'s' * (result.planned_steps != 1)} by {result.planner}, {result.plan_quality}"
 
 
 def format_placement(placed: PlacementResult) -> str:

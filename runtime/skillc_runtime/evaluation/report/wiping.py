@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from math import inf
 
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.metrics.intervals import Interval, exclude_pauses
 from skillc_runtime.evaluation.metrics.wiping import WipingSetup, measure_wiping
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.primitives.primitive import Activity
-from skillc_runtime.recording.events import ImplementationChosen
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history import RecordedCall, RunHistory
 from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.space.surfaces import least_force_n, surface_layout
 from skillc_runtime.world.state.labelled import Quantity
@@ -62,23 +59,35 @@ class Wiping:
         return self.strokes[-1][1]
 
 
-def find_wipings(trees: Iterable[NodeOutcome], choices: ChoiceListener, state: WorldState) -> tuple[Wiping, ...]:
-    """Return for each surface the last call with it and a tool in which paths were followed under pressure."""
-    arms, found = state.instances(ARM_DEVICE), dict[str, Wiping]()
-    for node in (node for tree in trees for node in tree.nodes()):
-        choice = choices.get(node.id)
-        individuals = [each for each in choice.individuals if each in state.individuals] if choice else []
-        surfaces = [each for each in individuals if state.is_a(each, SURFACE)]
-        tools = [each for each in individuals if state.is_a(each, TOOL)]
-        arm = next((each for each in individuals if each in arms), "")
-        forces = [choice.bindings.get(FORCE) for choice, _ in _find_activities(node, choices, "press")]
-        pressed = [force.value for force in forces if isinstance(force, Quantity)]
-        strokes = tuple(sorted(_find_strokes(node, choices)))
-        if surfaces and tools and pressed and strokes:
-            began = node.started or 0.0
-            pauses = tuple(pause for pause in choices.pauses if began < pause[1] and pause[0] < strokes[-1][1])
-            found[surfaces[0]] = Wiping(surfaces[0], arm, tools[0], pressed[-1], began, strokes, pauses)
-    return tuple(found.values())
+def find_wipings(history: RunHistory, state: WorldState) -> tuple[Wiping, ...]:
+    """Return in order of time the innermost calls with a surface and a tool that follow paths under pressure."""
+    steps = (step for attempt in history.attempts for step in attempt.steps)
+    found = (wiping for step in steps for wiping in _find_below(step, history, state))
+    return tuple(sorted(found, key=lambda wiping: wiping.began))
+
+
+def _find_below(call: RecordedCall, history: RunHistory, state: WorldState) -> list[Wiping]:
+    """Return the wipings in a call: those of the calls inside, else its own."""
+    return [each for inner in call.calls for each in _find_below(inner, history, state)] or list(
+        _make_wiping(call, history, state)
+    )
+
+
+def _make_wiping(call: RecordedCall, history: RunHistory, state: WorldState) -> Iterator[Wiping]:
+    """Yield what a call has wiped, if it names a surface and a tool and paths were followed under pressure in it."""
+    individuals = [each for each in call.individuals if each in state.individuals]
+    surfaces = [each for each in individuals if state.is_a(each, SURFACE)]
+    tools = [each for each in individuals if state.is_a(each, TOOL)]
+    forces = [each.bindings.get(FORCE) for each in _find_activities(call, "press")]
+    pressed = [force.value for force in forces if isinstance(force, Quantity)]
+    followed = _find_activities(call, "follow-path")
+    strokes = tuple((each.started, each.ended) for each in followed if each.started is not None and each.ended)
+    if not (surfaces and tools and pressed and strokes):
+        return
+    arms, began = state.instances(ARM_DEVICE), call.started or 0.0
+    arm = next((each for each in individuals if each in arms), "")
+    pauses = tuple(pause for pause in history.paused if began < pause[1] and pause[0] < strokes[-1][1])
+    yield Wiping(surfaces[0], arm, tools[0], pressed[-1], began, strokes, pauses)
 
 
 def wiping_setup(wiping: Wiping, state: WorldState, truth: GroundTruth) -> WipingSetup:
@@ -100,6 +109,8 @@ def rate_wiping(wiping: Wiping, state: WorldState, truth: GroundTruth) -> Wiping
     dwell = metrics.lane_dwell
     return WipingResult(
         surface=label(wiping.surface, state.vocabulary),
+        start_s=wiping.start,
+        end_s=wiping.end,
         coverage=metrics.coverage,
         force_command_n=metrics.force_command_n,
         force_mean_n=metrics.force_mean_n,
@@ -114,18 +125,7 @@ def rate_wiping(wiping: Wiping, state: WorldState, truth: GroundTruth) -> Wiping
     )
 
 
-def _find_strokes(node: NodeOutcome, choices: ChoiceListener) -> Iterator[Interval]:
-    """Yield the start and end of each path below a node, in the node's last run."""
-    for _, path in _find_activities(node, choices, "follow-path"):
-        first, last = node.started or 0.0, inf if node.ended is None else node.ended
-        yield from (run for run in choices.runs.get(path.id, []) if run[0] >= first and run[1] <= last)
-
-
-def _find_activities(
-    node: NodeOutcome, choices: Mapping[int, ImplementationChosen], activity: Activity
-) -> Iterator[tuple[ImplementationChosen, NodeOutcome]]:
-    """Yield the successful calls below a node with an activity."""
-    for each in node.nodes():
-        choice = choices.get(each.id)
-        if choice is not None and choice.activity == activity and each.status == "success":
-            yield choice, each
+def _find_activities(call: RecordedCall, activity: Activity) -> list[RecordedCall]:
+    """Return the successful calls with an activity in a call, in order of time."""
+    found = (each for each in call.all if each.activity == activity and each.status == "success")
+    return sorted(found, key=lambda each: each.started or 0.0)

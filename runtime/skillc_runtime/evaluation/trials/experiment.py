@@ -15,7 +15,6 @@ from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.measures import buttons, placements, poses, sockets, surfaces
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import Work
-from skillc_runtime.evaluation.report.choice_listener import ChoiceListener
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
@@ -32,6 +31,7 @@ from skillc_runtime.execution.assignment import (
 )
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.events import Listener
+from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.recording.known_facts import unverified_facts
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frame_tree import FrameError
@@ -92,16 +92,15 @@ class TrialRunner:
             return self._run(self._prepared, cell, listeners).result
 
     def _run(self, prepared: PreparedTask, cell: TrialCell, listeners: Sequence[Listener] = ()) -> _Executed:
-        choices, push, take = ChoiceListener(), PushDisturbance(cell), TakeDisturbance(cell)
+        told, push, take = HistoryBuilder(), PushDisturbance(cell), TakeDisturbance(cell)
         disturbances: Sequence[Listener] = (push,) if self._disturbance == "push" else ()
         update = take.update if self._disturbance == "take" else push.update
-        execution = execute_task(prepared, self._library, cell, (choices, *disturbances, *listeners), update)
-        trees = tuple(attempt.tree for attempt in execution.attempts)
-        state, truth = cell.world.snapshot(), cell.ground_truth
-        wipings = find_wipings(trees, choices, state)
-        result = summarise_run(execution, choices, self._library, wipings, cell)
-        rated = tuple(zip(wipings, result.wipings, strict=True))
-        evidence = RunEvidence(self._library, state, truth, trees, choices, rated)
+        execution = execute_task(prepared, self._library, cell, (told, *disturbances, *listeners), update)
+        history, state, truth = told.history, cell.world.snapshot(), cell.ground_truth
+        wipings = find_wipings(history, state)
+        result = summarise_run(execution, history, wipings, cell)
+        rated = {each.surface: (each, how) for each, how in zip(wipings, result.wipings, strict=True)}
+        evidence = RunEvidence(self._library, state, truth, history, tuple(rated.values()))
         return _Executed(result, evidence, push.pushed, take.taken)
 
 

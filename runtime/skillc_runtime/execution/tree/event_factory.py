@@ -13,9 +13,9 @@ from skillc_runtime.execution.selection.select import ranked_implementations
 from skillc_runtime.execution.tree.activation import Activation
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.primitives.primitive import Phase
-from skillc_runtime.recording.events import Highlight, ImplementationChosen, WorldChanged
+from skillc_runtime.recording.events import ImplementationChosen, WorldChanged
 from skillc_runtime.recording.failure import Rejection
-from skillc_runtime.recording.reasons import FailedCallContext, UntriedImplementation
+from skillc_runtime.recording.reasons import FailedCallContext, Highlight, UntriedImplementation
 from skillc_runtime.world.eval.deciding_facts import deciding_facts
 from skillc_runtime.world.state.labelled import LabelledFact, LabelledIri, LabelledValue
 from skillc_runtime.world.state.labelling import label_bindings, label_change
