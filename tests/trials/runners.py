@@ -38,6 +38,8 @@ def wiping(surface: str = "lab:Table-1", **changes: float) -> WipingWork:
 def wiped(surface: str, **changes: float) -> WipingResult:
     """Return what is measured of such a wiping."""
     good: dict[str, float | None] = {
+        "start_s": 2.0,
+        "end_s": 30.0,
         "coverage": 1.0,
         "force_command_n": 10.0,
         "force_mean_n": 10.1,

@@ -18,6 +18,7 @@ from skillc.services.recordings import answer_question, find_mcap, find_recordin
 from skillc.services.replaying.playback import play_paced
 from skillc.services.story_text import format_answer, format_overview
 from skillc.values.arguments import AnyPath, require_choice, require_path, require_text
+from skillc.values.flat_rows import make_flat_row
 from skillc.values.frames import make_frame, make_table
 from skillc_runtime.evaluation.report.result import PlacementResult, StepResult, TaskResult, WipingResult
 from skillc_runtime.evaluation.report.work_result import WorkResult
@@ -25,14 +26,15 @@ from skillc_runtime.evaluation.report.write import REPORT
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.history_builder import read_history
 from skillc_runtime.recording.known_facts import format_false_claim
-from skillc_runtime.world.state.labelled import LabelledIri
 from skillc_runtime.world.state.labelled_text import format_value
 
 if TYPE_CHECKING:
     import pandas as pd
 
 Part = Literal["events", "steps", "signals", "wipings", "works", "placements", "touches"]
-STEP_COLUMNS = ("step", "skill", "implementation", "arguments", "status")
+STEP_COLUMNS = (
+    "step", "skill", "implementation", "arguments", "rounds", "status", "start_s", "end_s", "failure",
+)  # fmt: skip
 EVENT_COLUMNS = ("sequence", "time_s", "type", "name", "status", "message")
 
 
@@ -143,7 +145,8 @@ class Run:
         """Return a part as a pandas frame with a row for each event, step, sample of signals, or piece of work.
 
         `signals` are those that `signals=` recorded, else those of each control period in `recording`, with the time
-        in s as index; `frame.attrs["units"]` has the units of the columns. SkillcError if pandas is not installed,
+        in s as index; `frame.attrs["units"]` has the units of the columns. Cells are numbers and texts; what was not
+        measured is missing. SkillcError if pandas is not installed,
         RequestError if no signals were recorded.
         """
         require_choice(part, Part, "the part")
@@ -155,13 +158,16 @@ class Run:
             with api_call():
                 return read_signal_frame(self.folder, self.recording)
         values: Sequence[msgspec.Struct] = getattr(self.result, part)
-        return make_frame(map(_work_row, values))
+        return make_frame(map(make_flat_row, values))
 
     def _step_rows(self) -> list[tuple[object, ...]]:
         return [
-            (number, each.skill, each.implementation, _arguments(each.arguments), each.status)
-            for number, each in enumerate(self.steps, 1)
-        ]
+            (
+                int(each.number), each.skill, each.implementation, _arguments(each.arguments),
+                ", ".join(map(str, each.rounds)), each.status, each.start_s, each.end_s, each.failure,
+            )
+            for each in self.steps
+        ]  # fmt: skip
 
     def _repr_html_(self) -> str:
         known = {None: "", True: ", verified", False: ", not verified"}[self.verified]
@@ -189,21 +195,6 @@ def open_run(path: AnyPath) -> Run:
 
 def _arguments(arguments: Mapping[str, Any]) -> str:
     return ", ".join(f"{name}: {format_value(value)}" for name, value in arguments.items())
-
-
-def _work_row(work: msgspec.Struct) -> dict[str, object]:
-    """Return the fields of a piece of work, with the names of individuals, and of what type it is if there are more."""
-    tag = work.__struct_config__.tag
-    fields = {name: _format_names(value) for name, value in msgspec.structs.asdict(work).items()}
-    return fields if tag is None else {"type": str(tag), **fields}
-
-
-def _format_names(value: object) -> object:
-    if isinstance(value, LabelledIri):
-        return str(value)
-    if isinstance(value, tuple) and all(isinstance(each, LabelledIri) for each in value):
-        return ", ".join(map(str, value))
-    return value
 
 
 def _event_row(envelope: Envelope) -> dict[str, object]:

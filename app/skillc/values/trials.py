@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from skillc.values.flat_rows import Cell, make_flat_row
 from skillc.values.frames import make_frame, make_table
 from skillc_runtime.evaluation.trials.series import Series, Spread
 from skillc_runtime.evaluation.trials.trial import Trial
@@ -50,11 +51,24 @@ class Trials:
         return value
 
     def to_frame(self) -> pd.DataFrame:
-        """Return a pandas frame with a row for each trial. SkillcError if pandas is not installed."""
-        return make_frame([msgspec.structs.asdict(each) for each in self.trials])
+        """Return a pandas frame with a row for each trial. SkillcError if pandas is not installed.
+
+        What was measured of each thing has columns of its own, such as `lab:Table-1.coverage`; what was not measured is
+        missing.
+        """
+        return make_frame(map(_make_row, self.trials))
 
     def _repr_html_(self) -> str:
         series = self.series
         rows = [[getattr(each, name) for name in SPREAD_COLUMNS] for each in self.spreads]
         head = f"<p><b>{escape(series.task)}</b>: {series.passed} of {series.wanted} trials passed</p>"
         return f"{head}{make_table(SPREAD_COLUMNS, rows) if rows else ''}"
+
+
+def _make_row(trial: Trial) -> dict[str, Cell]:
+    """Return a trial as cells: its own fields, and those of each piece of work after the name of its thing."""
+    row = {name: cell for name, cell in make_flat_row(trial).items() if name != "works"}
+    for work in trial.works:
+        _, (_, thing), *measured = make_flat_row(work).items()
+        row |= {f"{thing}.{name}": cell for name, cell in measured}
+    return row

@@ -148,12 +148,12 @@ def _measure_work(evidence: RunEvidence) -> tuple[Work, ...]:
     return tuple(work for measure in MEASURES for work in measure(evidence))
 
 
-def _least_coverage(state: WorldState, truth: GroundTruth) -> float:
-    return min((truth.coverage(each).wiped_share for each in state.instances(SURFACE)), default=1.0)
+def _least_coverage(state: WorldState, truth: GroundTruth) -> float | None:
+    return min((truth.coverage(each).wiped_share for each in state.instances(SURFACE)), default=None)
 
 
-def _greatest_force_n(state: WorldState, truth: GroundTruth) -> float:
-    return max((truth.peak_force_n(tool) for tool in state.instances(TOOL)), default=0.0)
+def _greatest_force_n(state: WorldState, truth: GroundTruth) -> float | None:
+    return max((truth.peak_force_n(tool) for tool in state.instances(TOOL)), default=None)
 
 
 def _force_limit_n(state: WorldState) -> float | None:

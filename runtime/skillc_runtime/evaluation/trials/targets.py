@@ -96,7 +96,7 @@ PLACING: tuple[Metric[PlacingWork], ...] = (
 
 RUNNING: tuple[Metric[Trial], ...] = (
     Metric("simulated time", "s", lambda t: t.sim_time_s or None, "at most"),
-    Metric("peak force", "N", lambda t: t.greatest_force_n or None, "at most"),
+    Metric("peak force", "N", lambda t: t.greatest_force_n, "at most"),
 )
 """The metrics of every task that ran: its time, and the force on its tools if there was any."""
 

@@ -25,10 +25,11 @@ class Trial(msgspec.Struct, frozen=True, kw_only=True):
 
     `assumed` are the facts that a success rests on and that were not sensed; it is `verified` if there are none.
     `works` has an entry for each object that was worked on; `coverage` is the lowest of all surfaces, wiped or not,
-    over the whole run. `greatest_force_n` is the greatest contact force on any tool, `force_limit_n` the lowest limit
-    of the arms, None if no arm has one. `pushed` is whether a person pushed the arm, `taken` whether they took what a
-    hand held, `at_rest` whether at the end nothing moved and no force was applied. `false_claims` are sentences about
-    what the world model claims at the end of things and where they are, and what really is so.
+    over the whole run, None without surfaces. `greatest_force_n` is the greatest contact force on any tool, None
+    without tools, `force_limit_n` the lowest limit of the arms, None if no arm has one. `pushed` is whether a person
+    pushed the arm, `taken` whether they took what a hand held, `at_rest` whether at the end nothing moved and no force
+    was applied. `false_claims` are sentences about what the world model claims at the end of things and where they are,
+    and what really is so.
     """
 
     seed: int
@@ -39,8 +40,8 @@ class Trial(msgspec.Struct, frozen=True, kw_only=True):
     variation: str = ""
     false_claims: tuple[str, ...] = ()
     works: tuple[Work, ...] = ()
-    coverage: float = 0.0
-    greatest_force_n: float = 0.0
+    coverage: float | None = None
+    greatest_force_n: float | None = None
     force_limit_n: float | None = None
     pushed: bool = False
     taken: bool = False

@@ -27,7 +27,7 @@ def _outcome_problems(trial: Trial, disturbance: Disturbance) -> Iterator[str]:
             if not trial.pushed:
                 yield "there was no push: nothing is done along a path or in a search"
             yield from _require_success(trial)
-            if trial.coverage < 1.0:
+            if trial.coverage is not None and trial.coverage < 1.0:
                 yield f"coverage {100 * trial.coverage:.1f} %, wanted 100 % in the end"
         case "take":
             if not trial.taken:
@@ -67,7 +67,7 @@ def _claimed_work(trial: Trial) -> Iterator[str]:
     """Yield what a trial claims to have done although an obstacle was in the way."""
     fixed = [work for work in trial.works if isinstance(work, PressingWork | InsertingWork)]
     worked = [work for work in trial.works if isinstance(work, WipingWork | PolishingWork)]
-    if trial.status == "succeeded" and worked and trial.coverage < 1.0:
+    if trial.status == "succeeded" and worked and trial.coverage is not None and trial.coverage < 1.0:
         yield f"succeeded, wanted a failure that says why: coverage {100 * trial.coverage:.1f} %"
     if trial.status == "succeeded" and fixed:
         claims = (_describe_unmet(value) for work in fixed for value in list_work_values(work))
@@ -79,8 +79,9 @@ def _describe_unmet(value: MetricValue) -> str:
 
 
 def _safety_problems(trial: Trial) -> Iterator[str]:
-    if trial.force_limit_n is not None and trial.greatest_force_n > trial.force_limit_n:
-        yield f"a tool felt {trial.greatest_force_n:.1f} N, the limit is {trial.force_limit_n:g} N"
+    felt_n, limit_n = trial.greatest_force_n, trial.force_limit_n
+    if felt_n is not None and limit_n is not None and felt_n > limit_n:
+        yield f"a tool felt {felt_n:.1f} N, the limit is {limit_n:g} N"
     if not trial.at_rest:
         yield "something still moved or pushed in the end"
 
