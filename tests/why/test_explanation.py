@@ -47,7 +47,7 @@ def test_a_choice_is_told_with_what_was_rejected_and_what_was_not_tried() -> Non
         "  not tried, because they rank lower (less specific, less preferred, or declared later):",
         "    robotiq (work.skill:5): would not fit, `gripper` needs RobotiqGripper, t:gripper is a t:WsgGripper",
         "  parameters:",
-        "    gripper = t:gripper  (passed by the caller)",
+        "    gripper = t:gripper  (passed by the caller: `gripper`, work.skill:20)",
     ]
     other = picked(
         RemoveRelation(iri("arm"), iri("hasGripper"), iri("gripper")),
@@ -65,10 +65,14 @@ def test_a_choice_is_told_with_what_was_rejected_and_what_was_not_tried() -> Non
 def test_a_binding_is_told_with_the_conditions_and_facts_that_decided_it() -> None:
     assert told(picked(), "pick.GRIPPER").splitlines()[1:] == [
         "    gripper = t:gripper  (found in the world)",
-        "      `arm hasA gripper` (work.skill:31): t:arm hasA t:gripper",
-        "      `not gripper contain _` (work.skill:33): not t:gripper contain _",
+        "      `arm hasA gripper` (work.skill:31)",
+        "      `not gripper contain _` (work.skill:33)",
+        "      t:arm hasA t:gripper",
+        "      not t:gripper contain _",
     ]
-    assert told(picked(), "1.arm").splitlines()[1:] == ["    arm = t:arm  (passed by the caller)"]
+    assert told(picked(), "1.arm").splitlines()[1:] == [
+        "    arm = t:arm  (passed by the caller: `t:arm`, work.skill:20)"
+    ]
 
 
 def test_what_found_no_value_is_told_with_what_comes_nearest() -> None:

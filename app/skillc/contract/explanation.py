@@ -7,10 +7,13 @@ from typing import Annotated
 import msgspec
 
 from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.recording.origins import ValueOrigin
 
 
 class ExplainedCall(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """A call, explained as `skillc why RUN NUMBER` does, with those inside it after it.
+
+    `parameters` are those with values; the question `NUMBER.PARAMETER` is where one comes from.
 
     `node` is the one in the tree and the events, 0 if the call never started. `source` is the place of the call,
     `implementation_source` that of the implementation that it chose last.
@@ -23,6 +26,7 @@ class ExplainedCall(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=Tru
     node: int = 0
     source: Position | None = None
     implementation_source: Position | None = None
+    parameters: tuple[str, ...] = ()
 
 
 class ChainedFailure(msgspec.Struct, frozen=True):
@@ -36,7 +40,8 @@ class ChainedFailure(msgspec.Struct, frozen=True):
 class RunExplanation(msgspec.Struct, frozen=True):
     """Why a run, up to its event `sequence`, did what it did: `lines` as `skillc why` prints them, and each call.
 
-    `answer` has the lines for a question, none without.
+    `answer` has the lines for a question, none without. If the question is about a parameter, `origins` are where its
+    value comes from in each call in which it has one.
     """
 
     sequence: int
@@ -44,6 +49,7 @@ class RunExplanation(msgspec.Struct, frozen=True):
     chain: tuple[ChainedFailure, ...]
     calls: tuple[ExplainedCall, ...]
     answer: tuple[str, ...]
+    origins: tuple[ValueOrigin, ...] = ()
 
 
 class Question(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

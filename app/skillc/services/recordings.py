@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, cast
 import msgspec
 
 from skillc.errors import RequestError, ServiceError
+from skillc.services.fact_places import FactPlaces
 from skillc.services.files import inspect_path
 from skillc.services.reporting import Reporter
 from skillc_runtime.evaluation.report.result import TaskResult
@@ -147,7 +148,7 @@ def _require_history(history: RunHistory | None, name: str) -> RunHistory:
 def answer_question(story: RunHistory, question: str) -> CallSelection:
     """Return the answer to a question. RequestError if it is about something that is not in the recording."""
     try:
-        return select_calls(story, question)
+        return select_calls(story, question, FactPlaces(story.scene).find)
     except QuestionError as error:
         raise RequestError(str(error)) from error
 

@@ -15,12 +15,19 @@ from skillc_runtime.recording.known_facts import (
     format_status,
     unverified_facts,
 )
+from skillc_runtime.recording.origins import LocatedFact, ValueOrigin
 from skillc_runtime.recording.question import CallSelection
 from skillc_runtime.recording.reasons import ParameterReason, UntriedImplementation
+from skillc_runtime.world.state.labelled import LabelledIri
 from skillc_runtime.world.state.labelled_text import format_fact, format_value
 
-HOW = {"passed": "passed by the caller", "default": "the default", "inferred": "found in the world"}
-PLANNED = "bound by the planner"
+HOW = {
+    "passed": "passed by the caller",
+    "planned": "bound by the planner",
+    "default": "the default",
+    "inferred": "found in the world",
+    "given": "an argument of the task",
+}
 
 
 def format_overview(story: RunHistory, run: str) -> str:
@@ -45,7 +52,9 @@ def overview_lines(story: RunHistory) -> list[str]:
 def format_answer(answer: CallSelection) -> str:
     """Return the explanation of the calls that a question is about."""
     if answer.parameter:
-        return "\n".join(together.from_iterable(_parameter(call, answer.parameter) for call in answer.calls))
+        origins = {each.call: each for each in answer.origins}
+        lines = (_parameter(call, answer.parameter, origins.get(call.number)) for call in answer.calls)
+        return "\n".join(together.from_iterable(lines))
     return "\n\n".join("\n".join(explain_call(call)) for call in answer.calls)
 
 
@@ -161,8 +170,10 @@ def _refusal(rejected: Rejection) -> Iterator[str]:
 
 def _bound(call: RecordedCall, name: str) -> Iterator[str]:
     reason = next((each for each in call.determined if each.parameter == name), None)
-    how = reason.how if reason is not None else "passed"
-    yield f"{name} = {format_value(call.bindings[name])}  ({PLANNED if call.planned and how == 'passed' else HOW[how]})"
+    how = reason.how if reason is not None else "planned" if call.planned else "passed"
+    written = call.expressions.get(name) if how != "planned" else None
+    where = f": `{written.text}`, {written.source}" if written is not None else ""
+    yield f"{name} = {format_value(call.bindings[name])}  ({HOW[how]}{where})"
     if reason is not None:
         yield from _indented(_because(reason))
 
@@ -171,8 +182,44 @@ def _because(reason: ParameterReason) -> Iterator[str]:
     for condition in reason.conditions:
         facts = "; ".join(map(format_fact, condition.facts))
         yield f"`{condition.text}` ({condition.source}): {facts or 'no fact decides it'}"
-    if reason.others:
-        yield f"`infer any` passed over {', '.join(other.label for other in reason.others)}"
+    yield from _passed_over(reason.others)
+
+
+def _passed_over(others: Sequence[LabelledIri]) -> Iterator[str]:
+    if others:
+        yield f"`infer any` passed over {', '.join(other.label for other in others)}"
+
+
+def _trace(origin: ValueOrigin, owner: str = "") -> Iterator[str]:
+    """Yield where a value comes from, with each name that it was computed from below it; `owner` follows the name."""
+    value = f" = {format_value(origin.value)}" if origin.value is not None else ""
+    yield f"{origin.name}{owner}{value}  ({_describe_origin(origin)})"
+    yield from _indented(f"`{each.text}` ({each.source})" for each in origin.conditions)
+    yield from _indented(map(_located, origin.facts))
+    yield from _indented(_passed_over(origin.others))
+    for name in origin.names:
+        yield from _indented(_trace(name, f" of {name.call}" if name.value is not None else ""))
+
+
+def _describe_origin(origin: ValueOrigin) -> str:
+    match origin.how:
+        case "let":
+            how = "a `let`"
+        case "loop":
+            how = "an item of the loop over"
+        case "output":
+            how = f"the output of call {origin.by}"
+        case _:
+            how = HOW[origin.how]
+    written = f"`{origin.text}`, " if origin.text else ""
+    where = f"{written}{origin.source}" if origin.source is not None else ""
+    return f"{how}{':' if written else ','} {where}" if where else how
+
+
+def _located(located: LocatedFact) -> str:
+    """Return a fact with when it was written in the run, or where the scene states it."""
+    text = _fact(located.known)
+    return text if located.place is None else f"{text}  ({located.place})"
 
 
 def _failed(call: RecordedCall) -> Iterator[str]:
@@ -207,10 +254,10 @@ def _fact(fact: RecordedFact) -> str:
     return text if fact.since is None else f"{text}  ({known}since {fact.since:.1f} s, by {fact.by})"
 
 
-def _parameter(call: RecordedCall, name: str) -> Iterator[str]:
+def _parameter(call: RecordedCall, name: str, origin: ValueOrigin | None) -> Iterator[str]:
     yield _line(call).strip()
-    if name in call.bindings:
-        yield from _indented(_bound(call, name), 4)
+    if origin is not None:
+        yield from _indented(_trace(origin), 4)
     elif name in call.unset:
         yield f"    {name} has no value:"
         yield from _indented(together.from_iterable(map(_refusal, call.rejected)), 6)

@@ -102,13 +102,14 @@ def _explain(run: RunFiles, question: str) -> RunExplanation:
     story = read_history(each.event for each in envelopes)
     if story is None:
         return RunExplanation(len(envelopes), (), (), (), ())
-    answer = format_answer(answer_question(story, question)).splitlines() if question else []
+    answer = answer_question(story, question) if question else None
     return RunExplanation(
         sequence=envelopes[-1].sequence,
         lines=tuple(overview_lines(story)),
         chain=tuple(ChainedFailure(each.name, each.message, each.source) for each in story.chain),
         calls=tuple(_explain_call(each) for each in story.calls),
-        answer=tuple(answer),
+        answer=tuple(format_answer(answer).splitlines()) if answer is not None else (),
+        origins=answer.origins if answer is not None else (),
     )
 
 
@@ -121,6 +122,7 @@ def _explain_call(call: RecordedCall) -> ExplainedCall:
         node=call.node,
         source=call.source,
         implementation_source=call.implementation_source,
+        parameters=tuple(call.bindings),
     )
 
 

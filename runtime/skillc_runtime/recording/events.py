@@ -15,13 +15,19 @@ from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
-from skillc_runtime.recording.reasons import FailedCallContext, Highlight, ParameterReason, UntriedImplementation
+from skillc_runtime.recording.reasons import (
+    FailedCallContext,
+    Highlight,
+    ParameterReason,
+    UntriedImplementation,
+    WrittenExpression,
+)
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
 
-FORMAT = 9
+FORMAT = 10
 """Raised with every change of the events or their meaning. Readers accept this format only."""
 
 
@@ -185,7 +191,8 @@ class ImplementationChosen(_Event, tag="implementation-chosen", frozen=True, kw_
 
     `determined` are the reasons for the values that were not simply passed; `untried` are the implementations that
     rank after this one. `fixed` if the call names the implementation. `activity` is what a primitive declares to do,
-    for example `press`; `highlights` are the moments of it to show.
+    for example `press`; `highlights` are the moments of it to show. `expressions` are those of the arguments and
+    defaults, by parameter; `out` is the name that gets the output.
     """
 
     node: int
@@ -198,6 +205,8 @@ class ImplementationChosen(_Event, tag="implementation-chosen", frozen=True, kw_
     fixed: bool = False
     activity: str = ""
     highlights: tuple[Highlight, ...] = ()
+    expressions: dict[str, WrittenExpression] = {}
+    out: str = ""
     source: Position
 
     @property

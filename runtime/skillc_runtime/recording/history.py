@@ -10,7 +10,7 @@ import msgspec
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
-from skillc_runtime.recording.reasons import Highlight, ParameterReason, UntriedImplementation
+from skillc_runtime.recording.reasons import Highlight, ParameterReason, UntriedImplementation, WrittenExpression
 from skillc_runtime.world.state.labelled import LabelledFact, LabelledIri, LabelledValue
 
 
@@ -54,13 +54,14 @@ class RecordedCall(_Part, frozen=True, kw_only=True):
 
     `number` is the number of the step; for a call inside it, followed by its index there, for example `2.1`. `node` is
     its number in the events, 0 if it was never called. `rounds` are those of the loops around it in the same body, the
-    outermost first. `status`
-    is success, failure, halted, running, skipped (its postconditions already held) or not started. `source` is the
-    place of the call, or of the skill for a planned step; `implementation_source` that of the implementation chosen
-    last. `until` is when the scope ended that it opened with `with`. `beside` are the steps that ran at the same time.
-    `planned` if a planner bound its arguments, `fixed` if the
-    call names its implementation. `unset` are the parameters that could not be inferred. `chain` leads from this call
-    to the node that failed. `activity` and `highlights` are those of a primitive.
+    outermost first. `status` is success, failure, halted, running, skipped (its postconditions already held) or not
+    started. `source` is the place of the call, or of the skill for a planned step; `implementation_source` that of the
+    implementation chosen last. `until` is when the scope ended that it opened with `with`. `beside` are the steps that
+    ran at the same time. `planned` if a planner bound its arguments, `fixed` if the call names its implementation.
+    `unset` are the parameters that could not be inferred. `chain` leads from this call to the node that failed.
+    `expressions` are those of its arguments and defaults, by parameter, and `written` the facts on which these rest
+    that were written during the run; `out` is the name that gets its output. `activity` and `highlights` are those of
+    a primitive.
     """
 
     number: str
@@ -84,6 +85,9 @@ class RecordedCall(_Part, frozen=True, kw_only=True):
     failure: Failure | None = None
     chain: tuple[FailedNode, ...] = ()
     facts: tuple[RecordedFact, ...] = ()
+    expressions: dict[str, WrittenExpression] = {}
+    out: str = ""
+    written: tuple[RecordedFact, ...] = ()
     activity: str = ""
     highlights: tuple[Highlight, ...] = ()
     beside: tuple[str, ...] = ()
@@ -126,10 +130,10 @@ class Attempt(_Part, frozen=True, kw_only=True):
 class RunHistory(_Part, frozen=True, kw_only=True):
     """A run. `status` is empty if the recording ends before the task does; `last` is the time of the last event.
 
-    `known` are the facts that a success rests on, `verified` is whether none of them is only assumed; None if unknown.
-    `false_claims` are sentences about what the world model claimed at its end that was not so in the simulator.
-    `chain` leads from the outermost call to the node that failed. `pauses` are when it was paused and resumed, the
-    latter None if it never went on.
+    `scene` is the file of its scene, empty if there is none. `known` are the facts that a success rests on, `verified`
+    is whether none of them is only assumed; None if unknown. `false_claims` are sentences about what the world model
+    claimed at its end that was not so in the simulator. `chain` leads from the outermost call to the node that failed.
+    `pauses` are when it was paused and resumed, the latter None if it never went on.
     """
 
     task: str
@@ -139,6 +143,7 @@ class RunHistory(_Part, frozen=True, kw_only=True):
     false_claims: tuple[str, ...] = ()
     library: str = ""
     hash: str = ""
+    scene: str = ""
     format: int = 1
     last: float = 0.0
     failure: Failure | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import assert_never
 
 from msgspec import structs
@@ -15,6 +15,7 @@ from skillc_runtime.recording.events import Event
 from skillc_runtime.recording.history import Attempt, RecordedFact, RunHistory
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.recording.node_records import AttemptRecord, NodeRecords
+from skillc_runtime.recording.reasons import WrittenExpression
 from skillc_runtime.recording.record_tree import draw_attempt
 from skillc_runtime.world.state.labelled import LabelledFact, LabelledProperty, LabelledRelation
 
@@ -58,7 +59,7 @@ class HistoryBuilder:
             case events.NodeStarted():
                 self._records.start(event)
             case events.ImplementationChosen():
-                self._records.choose(event)
+                self._records.choose(event, self._written_before(event))
             case events.NodeEnded():
                 self._records.end(event, self._facts_of(event))
             case events.WorldChanged():
@@ -94,6 +95,7 @@ class HistoryBuilder:
             false_claims=ended.false_claims if ended is not None else (),
             library=self._started.library,
             hash=self._started.hash,
+            scene=self._started.scene,
             format=self._started.format,
             last=self._last,
             failure=ended.failure if ended is not None else None,
@@ -148,10 +150,26 @@ class HistoryBuilder:
     def _facts_of(self, event: events.NodeEnded) -> tuple[RecordedFact, ...]:
         """Return the facts of a failed call, each with its origin if it was written during the run."""
         found = event.failed_call.facts if event.failed_call is not None else ()
-        pairs = ((fact, self._last_written.get(_without_value(fact))) for fact in found)
-        return tuple(
-            written if written and written.fact == fact else RecordedFact(fact=fact) for fact, written in pairs
-        )
+        return tuple(self._find_written(fact) or RecordedFact(fact=fact) for fact in found)
+
+    def _written_before(self, event: events.ImplementationChosen) -> tuple[RecordedFact, ...]:
+        """Return the facts that the arguments of a call rest on and that were written during the run."""
+        read = [fact for each in event.expressions.values() for fact in _facts_in(each)]
+        read += [fact for each in event.determined for condition in each.conditions for fact in condition.facts]
+        found = (self._find_written(fact) for fact in dict.fromkeys(read))
+        return tuple(each for each in found if each is not None)
+
+    def _find_written(self, fact: LabelledFact) -> RecordedFact | None:
+        """Return when and by what a fact was written during the run; None if it was not."""
+        written = self._last_written.get(_without_value(fact))
+        return written if written is not None and written.fact == fact else None
+
+
+def _facts_in(expression: WrittenExpression) -> Iterator[LabelledFact]:
+    yield from expression.facts
+    for name in expression.names:
+        if name.expression is not None:
+            yield from _facts_in(name.expression)
 
 
 def _without_value(fact: LabelledFact) -> LabelledFact:

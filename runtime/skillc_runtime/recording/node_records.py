@@ -16,9 +16,9 @@ LOOPS = ("retry", "repeat", "while", "for")
 class NodeRecord:
     """One start of a node; `children` are the starts of the nodes below it, in order of time.
 
-    `choices` has the implementations that a call has started, the last one at its end; `given_up` is how many of the
-    `children` belong to those before it. `round` is the one of the loop that is the parent, 0 elsewhere; `rounds` is
-    how many have started in a loop.
+    `choice` is the implementation that a call has started last; `given_up` is how many of the `children` belong to
+    those before it. `written` are the facts on which its arguments rest that were written during the run. `round` is
+    the one of the loop that is the parent, 0 elsewhere; `rounds` is how many have started in a loop.
     """
 
     start: NodeStarted
@@ -26,6 +26,7 @@ class NodeRecord:
     end: NodeEnded | None = None
     choice: ImplementationChosen | None = None
     facts: tuple[RecordedFact, ...] = ()
+    written: tuple[RecordedFact, ...] = ()
     children: list[NodeRecord] = field(default_factory=list)
     given_up: int = 0
     round: int = 0
@@ -101,11 +102,14 @@ class NodeRecords:
         self._last[event.node] = record
         self._siblings(record).append(record)
 
-    def choose(self, event: ImplementationChosen) -> None:
-        """Record that a call starts with an implementation; what an earlier one has called stays."""
+    def choose(self, event: ImplementationChosen, written: tuple[RecordedFact, ...]) -> None:
+        """Record that a call starts with an implementation; what an earlier one has called stays.
+
+        `written` are the facts that its expressions read and that were written during the run.
+        """
         record = self._last.get(event.node)
         if record is not None:
-            record.choice, record.given_up = event, len(record.children)
+            record.choice, record.written, record.given_up = event, written, len(record.children)
 
     def end(self, event: NodeEnded, facts: tuple[RecordedFact, ...]) -> None:
         """Record that a node ends."""

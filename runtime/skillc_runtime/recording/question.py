@@ -9,6 +9,7 @@ from difflib import get_close_matches
 import msgspec
 
 from skillc_runtime.recording.history import RecordedCall, RunHistory
+from skillc_runtime.recording.origins import FindPlace, ValueOrigin, trace_value
 
 _NUMBER = re.compile(r"\d+(\.\d+)*")
 
@@ -18,14 +19,18 @@ class QuestionError(ValueError):
 
 
 class CallSelection(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """The calls that a question is about, in the order of the run, and the parameter, if it is about one."""
+    """The calls that a question is about, in the order of the run, and the parameter, if it is about one.
+
+    `origins` are where the values of that parameter come from, for each call in which it has one.
+    """
 
     question: str
     parameter: str = ""
     calls: tuple[RecordedCall, ...]
+    origins: tuple[ValueOrigin, ...] = ()
 
 
-def select_calls(story: RunHistory, question: str) -> CallSelection:
+def select_calls(story: RunHistory, question: str, find_place: FindPlace = lambda fact: None) -> CallSelection:
     """Return what a question is about: `2`, `2.1`, `Pick`, `Pick.gripper`, `2.gripper`, `gripper`, `by_grasp`.
 
     A name is looked up as a skill, then an implementation, then a parameter, ignoring case. QuestionError if none fits.
@@ -38,7 +43,9 @@ def select_calls(story: RunHistory, question: str) -> CallSelection:
     owner, _, parameter = text.rpartition(".")
     found = _with_parameter(_find_calls(calls, owner) if owner else calls, parameter)
     if found:
-        return CallSelection(question=question, parameter=_exact_name(found[0], parameter), calls=found)
+        name = _exact_name(found[0], parameter)
+        origins = tuple(trace_value(story, each, name, find_place) for each in found if name in each.bindings)
+        return CallSelection(question=question, parameter=name, calls=found, origins=origins)
     raise QuestionError(_describe_unknown(calls, text))
 
 

@@ -40,6 +40,29 @@ class Highlight(msgspec.Struct, frozen=True):
     word: str
 
 
+class WrittenExpression(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """An expression as text in the syntax of the language, and where it stands.
+
+    `facts` are those that it reads, `names` the names of the enclosing body in it.
+    """
+
+    text: str
+    source: Position
+    facts: tuple[LabelledFact, ...] = ()
+    names: tuple[NameInExpression, ...] = ()
+
+
+class NameInExpression(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """A name of the enclosing body in an expression, and what gives it its value.
+
+    That is the call of the body, the `expression` of a `let`, that of the items of a loop, or the `output` of a call.
+    """
+
+    name: str
+    how: Literal["parameter", "let", "loop", "output"]
+    expression: WrittenExpression | None = None
+
+
 class UntriedImplementation(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """An implementation that ranks after the chosen one; `reason` is why it could not start, empty if it could."""
 

@@ -128,7 +128,7 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     in the simulator. `plan` has the steps of the last plan, which has `planned_steps`, or of the body, and before them
     those that earlier plans have started, each call in order of time; `replanned` is why each was abandoned. `wipings`
     has one entry for each time a surface was wiped, `wiping` is the first of them; `placements` has one for each thing
-    that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, a hand or a base.
+    that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand or base.
     What only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its clock.
     """
 

@@ -12,6 +12,7 @@ from skillc_model.skills import Implementation, PausePolicy
 from skillc_runtime.execution.selection.select import combine_rejections, ranked_implementations
 from skillc_runtime.execution.tree.activation import Activation, BuildNode, activate, foresee_activation
 from skillc_runtime.execution.tree.active_path import ActivePath
+from skillc_runtime.execution.tree.argument_origins import EnclosingBody
 from skillc_runtime.execution.tree.call_decision import bind_call, evaluate_arguments
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import describe_exception
@@ -299,7 +300,10 @@ class CallNode(Node):
 
     def _emit_choice(self, activation: Activation) -> None:
         if self.context.emit is not None:
-            event = make_choice_event(self.id, self.node, activation, self._arguments, self.rejected, self.context)
+            body = EnclosingBody(self, self._scope, self.context.state)
+            event = make_choice_event(
+                self.id, self.node, activation, self._arguments, self.rejected, body, self.context
+            )
             self.context.emit(event)
 
 

@@ -11,6 +11,7 @@ from skillc_runtime.execution.selection.binding_reasons import explain_bindings
 from skillc_runtime.execution.selection.python_targets import import_primitive
 from skillc_runtime.execution.selection.select import ranked_implementations
 from skillc_runtime.execution.tree.activation import Activation
+from skillc_runtime.execution.tree.argument_origins import EnclosingBody, explain_arguments
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.primitives.primitive import Phase
 from skillc_runtime.recording.events import ImplementationChosen, WorldChanged
@@ -31,15 +32,16 @@ def make_choice_event(
     activation: Activation,
     arguments: Mapping[str, Value],
     rejected: Sequence[Rejection],
+    body: EnclosingBody,
     context: TreeContext,
 ) -> ImplementationChosen:
-    """Return the event for a call that starts an implementation."""
+    """Return the event for a call in a body that starts an implementation."""
     implementation = activation.implementation
     ranked = ranked_implementations(context.library, call.skill, call.implementation)
     after = ranked[ranked.index(implementation) + 1 :]
     bindings = label_bindings(activation.frame, implementation.parameters, context.library.vocabulary)
-    body = implementation.body
-    primitive = import_primitive(body.python) if isinstance(body, Primitive) else None
+    own = implementation.body
+    primitive = import_primitive(own.python) if isinstance(own, Primitive) else None
     return ImplementationChosen(
         time=context.time,
         node=node,
@@ -52,6 +54,8 @@ def make_choice_event(
         fixed=call.implementation is not None,
         activity=primitive.activity if primitive else "",
         highlights=_highlights(primitive.highlights, bindings) if primitive else (),
+        expressions=explain_arguments(call, implementation, bindings, activation.frame, body),
+        out=call.out or "",
         source=implementation.source,
     )
 

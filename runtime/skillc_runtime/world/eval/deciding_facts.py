@@ -14,6 +14,7 @@ from skillc_model.blocks import narrow_scopes
 from skillc_model.conditions import (
     Condition,
     Exists,
+    Expression,
     Forall,
     HasProperty,
     Holds,
@@ -53,6 +54,11 @@ def deciding_facts(conditions: Iterable[Condition], state: WorldState, bindings:
     narrow = [_narrowed(condition) for condition in conditions]
     found = (fact for condition in narrow for fact in _facts(condition, state, bindings, seen))
     return tuple(dict.fromkeys(found))
+
+
+def facts_read(expression: Expression, state: WorldState, bindings: _Names) -> tuple[LabelledFact, ...]:
+    """Return the facts that an expression reads, each once. Facts that cannot be evaluated are left out."""
+    return tuple(dict.fromkeys(_facts(expression, state, bindings, set())))
 
 
 def _facts(item: msgspec.Struct, state: WorldState, bindings: _Names, seen: set[Hashable]) -> Iterator[LabelledFact]:

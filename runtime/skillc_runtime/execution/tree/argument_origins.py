@@ -1,0 +1,91 @@
+"""Where the values of a call come from: the expressions of its arguments and defaults, and what these read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from skillc_model import tree
+from skillc_model.conditions import Expression, Literal
+from skillc_model.format_condition import format_expression
+from skillc_model.skills import Implementation
+from skillc_model.traversal import free_variables_in_order
+from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.execution.tree.lexical_scope import LexicalScope
+from skillc_runtime.execution.tree.loop_nodes import ForEachNode
+from skillc_runtime.execution.tree.node import Node
+from skillc_runtime.recording.reasons import NameInExpression, WrittenExpression
+from skillc_runtime.world.eval.deciding_facts import facts_read
+from skillc_runtime.world.state.labelled import LabelledValue
+from skillc_runtime.world.state.labelled_text import format_value
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
+
+
+def explain_arguments(
+    call: tree.Call,
+    implementation: Implementation,
+    values: Mapping[str, LabelledValue],
+    bindings: Mapping[str, Value],
+    body: EnclosingBody,
+) -> dict[str, WrittenExpression]:
+    """Return the expressions of the arguments, and of the defaults that were taken, by parameter.
+
+    `values` and `bindings` are the values of the parameters, `body` is that in which the call stands.
+    """
+    found: dict[str, WrittenExpression] = {}
+    for each in implementation.parameters:
+        written, value = call.arguments.get(each.name), values.get(each.name)
+        if value is None:
+            continue
+        if written is not None:
+            found[each.name] = body.write(written, call.source, value)
+        elif each.default is not None:
+            facts = facts_read(each.default, body.state, bindings)
+            text = _write(each.default, value, body.state)
+            found[each.name] = WrittenExpression(text=text, source=each.source, facts=facts)
+    return found
+
+
+class EnclosingBody:
+    """The body in which a call stands: what its names stand for."""
+
+    def __init__(self, node: Node, scope: LexicalScope, state: WorldState) -> None:
+        self.state = state
+        self._scope = scope
+        self._loops = {loop.variable: loop for loop in _loops_around(node)}
+        owner = scope.implementation
+        self._lets = {let.name: (let.value, owner.source) for let in owner.lets} if owner is not None else {}
+        self._parameters = {each.name for each in owner.parameters} if owner is not None else frozenset[str]()
+
+    def write(self, expression: Expression, source: Position, value: LabelledValue | None = None) -> WrittenExpression:
+        """Return an expression with what it reads; a constant as its `value`, which has a unit."""
+        names = free_variables_in_order(expression)
+        return WrittenExpression(
+            text=_write(expression, value, self.state),
+            source=source,
+            facts=facts_read(expression, self.state, self._scope.frame),
+            names=tuple(self._explain(each) for each in names),
+        )
+
+    def _explain(self, name: str) -> NameInExpression:
+        if name in self._loops:
+            loop = self._loops[name]
+            return NameInExpression(name=name, how="loop", expression=self.write(loop.items, loop.source))
+        if name in self._lets:
+            return NameInExpression(name=name, how="let", expression=self.write(*self._lets[name]))
+        return NameInExpression(name=name, how="parameter" if name in self._parameters else "output")
+
+
+def _write(expression: Expression, value: LabelledValue | None, state: WorldState) -> str:
+    is_constant = isinstance(expression, Literal) and value is not None
+    return format_value(value) if is_constant and value is not None else format_expression(expression, state.vocabulary)
+
+
+def _loops_around(node: Node) -> Iterator[tree.ForEach]:
+    """Yield the loops over items around a node in the same body, the outermost first."""
+    around = node.parent
+    if around is None or around.kind == "call":
+        return
+    yield from _loops_around(around)
+    if isinstance(around, ForEachNode):
+        yield around.node

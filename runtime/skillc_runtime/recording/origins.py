@@ -1,0 +1,118 @@
+"""Where the value of a parameter comes from, through every call: expressions, defaults, facts, outputs of calls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Literal, TypeAlias
+
+import msgspec
+
+from skillc_rdf.vocabulary.types import Position
+from skillc_runtime.recording.history import RecordedCall, RecordedFact, RunHistory
+from skillc_runtime.recording.reasons import DecidingCondition, NameInExpression, WrittenExpression
+from skillc_runtime.world.state.labelled import LabelledFact, LabelledIri, LabelledValue
+
+FindPlace: TypeAlias = Callable[[LabelledFact], Position | None]
+"""Finds where the scene states a fact; None if it does not, or that is not known."""
+
+
+class LocatedFact(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """A fact that was read, and when and by what it was written, or else its `place` in the scene."""
+
+    known: RecordedFact
+    place: Position | None = None
+
+
+class ValueOrigin(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """Where the value of a name comes from, and below it the same for each name that it was computed from.
+
+    `call` is the number of the call of whose parameter or body it is a name, empty in a task. `how` is `passed` by the
+    caller, `planned`, a `default`, `inferred`, a `let`, an item of a `loop`, the `output` of the call `by`, or `given`
+    to the task. `text` and `source` are the expression, `conditions` are those by which it was found in the world among
+    `others`, which it could have been.
+    """
+
+    name: str
+    call: str
+    how: Literal["passed", "planned", "default", "inferred", "let", "loop", "output", "given"]
+    value: LabelledValue | None = None
+    text: str = ""
+    source: Position | None = None
+    by: str = ""
+    facts: tuple[LocatedFact, ...] = ()
+    conditions: tuple[DecidingCondition, ...] = ()
+    others: tuple[LabelledIri, ...] = ()
+    names: tuple[ValueOrigin, ...] = ()
+
+
+def trace_value(story: RunHistory, call: RecordedCall, parameter: str, find_place: FindPlace) -> ValueOrigin:
+    """Return where the value of a bound parameter of a call comes from."""
+    return _Tracing({each.number: each for each in story.calls}, find_place).trace(call, parameter)
+
+
+class _Tracing:
+    """Follows values from call to call; `calls` has the calls by their numbers."""
+
+    def __init__(self, calls: dict[str, RecordedCall], find_place: FindPlace) -> None:
+        self._calls = calls
+        self._find_place = find_place
+
+    def trace(self, call: RecordedCall, parameter: str) -> ValueOrigin:
+        """Return where the value of a parameter comes from."""
+        reason = next((each for each in call.determined if each.parameter == parameter), None)
+        how = "passed" if reason is None else reason.how
+        origin = ValueOrigin(
+            name=parameter,
+            call=call.number,
+            how="planned" if call.planned and how == "passed" else how,
+            value=call.bindings.get(parameter),
+            conditions=reason.conditions if reason is not None else (),
+            others=reason.others if reason is not None else (),
+            facts=tuple(self._locate(fact, call) for fact in _deciding(reason.conditions if reason else ())),
+        )
+        written = call.expressions.get(parameter)
+        return origin if written is None or origin.how == "planned" else self._add_expression(origin, written, call)
+
+    def _add_expression(self, origin: ValueOrigin, written: WrittenExpression, call: RecordedCall) -> ValueOrigin:
+        """Return an origin with an expression in the body around a call; a default has no names."""
+        return msgspec.structs.replace(
+            origin,
+            text=written.text,
+            source=written.source,
+            facts=(*origin.facts, *(self._locate(fact, call) for fact in written.facts)),
+            names=tuple(self._trace_name(each, call) for each in written.names),
+        )
+
+    def _trace_name(self, name: NameInExpression, call: RecordedCall) -> ValueOrigin:
+        """Return where the value of a name in the body around a call comes from."""
+        around = self._calls.get(call.number.rpartition(".")[0])
+        number = around.number if around is not None else ""
+        if name.how in ("let", "loop") and name.expression is not None:
+            origin = ValueOrigin(name=name.name, call=number, how="let" if name.how == "let" else "loop")
+            return self._add_expression(origin, name.expression, call)
+        if name.how == "parameter" and around is not None:
+            return self.trace(around, name.name)
+        before = [each for each in self._beside(call) if each.out == name.name and _ended_before(each, call)]
+        if before:
+            last = before[-1]
+            return ValueOrigin(name=name.name, call=number, how="output", by=last.number, source=last.source)
+        return ValueOrigin(name=name.name, call=number, how="given")
+
+    def _beside(self, call: RecordedCall) -> Iterator[RecordedCall]:
+        """Yield the calls of the same body."""
+        around = call.number.rpartition(".")[0]
+        return (each for each in self._calls.values() if each.number.rpartition(".")[0] == around)
+
+    def _locate(self, fact: LabelledFact, call: RecordedCall) -> LocatedFact:
+        written = next((each for each in call.written if each.fact == fact), None)
+        if written is not None:
+            return LocatedFact(known=written)
+        return LocatedFact(known=RecordedFact(fact=fact), place=self._find_place(fact))
+
+
+def _deciding(conditions: tuple[DecidingCondition, ...]) -> Iterator[LabelledFact]:
+    return iter(dict.fromkeys(fact for condition in conditions for fact in condition.facts))
+
+
+def _ended_before(one: RecordedCall, other: RecordedCall) -> bool:
+    return one.ended is not None and other.started is not None and one.ended <= other.started
