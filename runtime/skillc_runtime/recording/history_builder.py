@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import assert_never
 
+import msgspec
 from msgspec import structs
 
 from skillc_model import tree
-from skillc_model.traversal import find_calls
+from skillc_model.traversal import children
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording import events
 from skillc_runtime.recording.attempt_steps import collect_steps, failure_chain
 from skillc_runtime.recording.events import Event
@@ -165,6 +167,15 @@ class HistoryBuilder:
         return written if written is not None and written.fact == fact else None
 
 
+def _find_wanted(node: msgspec.Struct, decided: Sequence[Position]) -> Iterator[tree.Call]:
+    """Yield the calls of a body in the order of the text, without those in branches that have been decided."""
+    if isinstance(node, tree.Call):
+        yield node
+    elif not (isinstance(node, tree.If) and node.source in decided):
+        for child in children(node):
+            yield from _find_wanted(child, decided)
+
+
 def _facts_in(expression: WrittenExpression) -> Iterator[LabelledFact]:
     yield from expression.facts
     for name in expression.names:
@@ -181,7 +192,7 @@ def _without_value(fact: LabelledFact) -> LabelledFact:
 
 def _make_attempt(record: AttemptRecord, before: int, body: tree.Node | None) -> Attempt:
     """Return an attempt whose steps are numbered from `before` + 1; `body` is what was to be done without a plan."""
-    calls = () if body is None or not record.roots else tuple(find_calls(body))
+    calls = () if body is None or not record.roots else tuple(_find_wanted(body, record.decided))
     plan = record.plan
     return Attempt(
         steps=collect_steps(record, before, calls),

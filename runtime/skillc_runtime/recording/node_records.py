@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.events import ImplementationChosen, NodeEnded, NodeStarted, PlanMade
 from skillc_runtime.recording.history import LoopRound, RecordedFact
 
@@ -74,12 +75,16 @@ class NodeRecord:
 
 @dataclass(slots=True)
 class AttemptRecord:
-    """One attempt: its plan, if any, why it replaces the previous one, its root nodes and the steps it skipped."""
+    """One attempt: its plan, if any, why it replaces the previous one, its root nodes and the steps it skipped.
+
+    `decided` are the places of branches outside of calls that have succeeded: what they did not call was not wanted.
+    """
 
     plan: PlanMade | None = None
     replaces: str = ""
     roots: list[NodeRecord] = field(default_factory=list)
     skipped: list[NodeEnded] = field(default_factory=list)
+    decided: list[Position] = field(default_factory=list)
 
 
 class NodeRecords:
@@ -117,9 +122,10 @@ class NodeRecords:
         if record is None:
             return
         record.end, record.facts = event, facts
-        is_empty_branch = record.start.kind == "if" and event.status == "success" and not any(record.calls)
-        if is_empty_branch and _is_outside_calls(record):
-            self._body.skipped.append(event)
+        if record.start.kind == "if" and event.status == "success" and _is_outside_calls(record):
+            self._body.decided.append(event.source)
+            if not any(record.calls):
+                self._body.skipped.append(event)
 
     def _thin(self, record: NodeRecord) -> None:
         """Drop what an earlier start of a node has besides calls, and the nodes around these; all if it has none."""
