@@ -1561,7 +1561,8 @@ export interface components {
          *
          *         `determined` are the reasons for the values that were not simply passed; `untried` are the implementations that
          *         rank after this one. `fixed` if the call names the implementation. `activity` is what a primitive declares to do,
-         *         for example `press`; `highlights` are the moments of it to show.
+         *         for example `press`; `highlights` are the moments of it to show. `expressions` are those of the arguments and
+         *         defaults, by parameter; `out` is the name that gets the output.
          */
         ImplementationChosen: {
             /** @enum {unknown} */
@@ -1585,6 +1586,12 @@ export interface components {
             activity?: string;
             /** @default [] */
             highlights?: components["schemas"]["Highlight"][];
+            /** @default {} */
+            expressions?: {
+                [key: string]: components["schemas"]["WrittenExpression"];
+            };
+            /** @default  */
+            out?: string;
             source: components["schemas"]["Position"];
         };
         /**
@@ -1631,6 +1638,33 @@ export interface components {
             when: "begins" | "ends";
             what: components["schemas"]["LabelledIri"];
             word: string;
+        };
+        /**
+         * WrittenExpression
+         * @description An expression as text in the syntax of the language, and where it stands.
+         *
+         *         `facts` are those that it reads, `names` the names of the enclosing body in it.
+         */
+        WrittenExpression: {
+            text: string;
+            source: components["schemas"]["Position"];
+            /** @default [] */
+            facts?: (components["schemas"]["LabelledRelation"] | components["schemas"]["LabelledProperty"] | components["schemas"]["LabelledClass"] | components["schemas"]["LabelledIdentity"])[];
+            /** @default [] */
+            names?: components["schemas"]["NameInExpression"][];
+        };
+        /**
+         * NameInExpression
+         * @description A name of the enclosing body in an expression, and what gives it its value.
+         *
+         *         That is the call of the body, the `expression` of a `let`, that of the items of a loop, or the `output` of a call.
+         */
+        NameInExpression: {
+            name: string;
+            /** @enum {unknown} */
+            how: "let" | "loop" | "output" | "parameter";
+            /** @default null */
+            expression?: components["schemas"]["WrittenExpression"] | null;
         };
         /**
          * WorldChanged
@@ -1794,7 +1828,8 @@ export interface components {
          * RunExplanation
          * @description Why a run, up to its event `sequence`, did what it did: `lines` as `skillc why` prints them, and each call.
          *
-         *         `answer` has the lines for a question, none without.
+         *         `answer` has the lines for a question, none without. If the question is about a parameter, `origins` are where its
+         *         value comes from in each call in which it has one.
          */
         RunExplanation: {
             sequence: number;
@@ -1802,6 +1837,8 @@ export interface components {
             chain: components["schemas"]["ChainedFailure"][];
             calls: components["schemas"]["ExplainedCall"][];
             answer: string[];
+            /** @default [] */
+            origins?: components["schemas"]["ValueOrigin"][];
         };
         /**
          * ChainedFailure
@@ -1815,6 +1852,8 @@ export interface components {
         /**
          * ExplainedCall
          * @description A call, explained as `skillc why RUN NUMBER` does, with those inside it after it.
+         *
+         *         `parameters` are those with values; the question `NUMBER.PARAMETER` is where one comes from.
          *
          *         `node` is the one in the tree and the events, 0 if the call never started. `source` is the place of the call,
          *         `implementation_source` that of the implementation that it chose last.
@@ -1830,6 +1869,63 @@ export interface components {
             source?: components["schemas"]["Position"] | null;
             /** @default null */
             implementation_source?: components["schemas"]["Position"] | null;
+            /** @default [] */
+            parameters?: string[];
+        };
+        /**
+         * ValueOrigin
+         * @description Where the value of a name comes from, and below it the same for each name that it was computed from.
+         *
+         *         `call` is the number of the call of whose parameter or body it is a name, empty in a task. `how` is `passed` by the
+         *         caller, `planned`, a `default`, `inferred`, a `let`, an item of a `loop`, the `output` of the call `by`, or `given`
+         *         to the task. `text` and `source` are the expression, `conditions` are those by which it was found in the world among
+         *         `others`, which it could have been.
+         */
+        ValueOrigin: {
+            name: string;
+            call: string;
+            /** @enum {unknown} */
+            how: "default" | "given" | "inferred" | "let" | "loop" | "output" | "passed" | "planned";
+            /** @default null */
+            value?: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]) | null;
+            /** @default  */
+            text?: string;
+            /** @default null */
+            source?: components["schemas"]["Position"] | null;
+            /** @default  */
+            by?: string;
+            /** @default [] */
+            facts?: components["schemas"]["LocatedFact"][];
+            /** @default [] */
+            conditions?: components["schemas"]["DecidingCondition"][];
+            /** @default [] */
+            others?: components["schemas"]["LabelledIri"][];
+            /** @default [] */
+            names?: components["schemas"]["ValueOrigin"][];
+        };
+        /**
+         * LocatedFact
+         * @description A fact that was read, and when and by what it was written, or else its `place` in the scene.
+         */
+        LocatedFact: {
+            known: components["schemas"]["RecordedFact"];
+            /** @default null */
+            place?: components["schemas"]["Position"] | null;
+        };
+        /**
+         * RecordedFact
+         * @description A fact at one time; `since` and `by` are when and by what it was written, if that was during the run.
+         *
+         *         `known` is its evidence: sensed, reported or assumed; empty if unknown.
+         */
+        RecordedFact: {
+            fact: components["schemas"]["LabelledRelation"] | components["schemas"]["LabelledProperty"] | components["schemas"]["LabelledClass"] | components["schemas"]["LabelledIdentity"];
+            /** @default null */
+            since?: number | null;
+            /** @default  */
+            by?: string;
+            /** @default  */
+            known?: string;
         };
         /**
          * SignalRows
@@ -2287,10 +2383,11 @@ export interface components {
          *         `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
          *         which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed, and no
          *         claim is false. `false_claims` are sentences about what the world model claims of things at the end that is not so
-         *         in the simulator. `plan` is the last plan; `replanned` is why each earlier one was abandoned. `wipings` has one
-         *         entry for each surface that was wiped, `wiping` is the first of them; `placements` has one for each thing that was
-         *         moved, `works` one for each other piece of work, `touches` one for each contact of a link, a hand or a base. What
-         *         only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its clock.
+         *         in the simulator. `plan` has the steps of the last plan, which has `planned_steps`, or of the body, and before them
+         *         those that earlier plans have started, each call in order of time; `replanned` is why each was abandoned. `wipings`
+         *         has one entry for each time a surface was wiped, `wiping` is the first of them; `placements` has one for each thing
+         *         that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand or base.
+         *         What only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its clock.
          */
         TaskResult: {
             task: string;
@@ -2305,6 +2402,8 @@ export interface components {
             plan?: components["schemas"]["StepResult"][];
             /** @default [] */
             choices?: components["schemas"]["ChoiceResult"][];
+            /** @default 0 */
+            planned_steps?: number;
             /** @default null */
             plan_optimal?: boolean | null;
             /** @default  */
@@ -2348,10 +2447,11 @@ export interface components {
         };
         /**
          * StepResult
-         * @description A step of a plan or of a given body, with its arguments by parameter name and its source line.
+         * @description One call that a plan or a given body made, or was to make, with its arguments by parameter name and its line.
          *
-         *         `implementation` is empty if the step never started; `alternatives` is the number of the skill's other
-         *         implementations, of which `rejected` could not be used.
+         *         `number` is that by which `skillc why` knows it; `rounds` are those of the loops around it, the outermost first.
+         *         `implementation` is empty if it never started; `alternatives` is the number of the skill's other
+         *         implementations, of which `rejected` could not be used. Times in s; `failure` is why it did not succeed.
          */
         StepResult: {
             skill: string;
@@ -2361,10 +2461,28 @@ export interface components {
             };
             source: string;
             status: string;
+            /** @default  */
+            number?: string;
+            /** @default [] */
+            rounds?: components["schemas"]["LoopRound"][];
+            /** @default null */
+            start_s?: number | null;
+            /** @default null */
+            end_s?: number | null;
+            /** @default null */
+            failure?: string | null;
             /** @default 0 */
             alternatives?: number;
             /** @default [] */
             rejected?: components["schemas"]["Rejection"][];
+        };
+        /**
+         * LoopRound
+         * @description The round of a loop in which a call was made, from 1; `loop` is its node, for example `retry 3`.
+         */
+        LoopRound: {
+            loop: string;
+            number: number;
         };
         /**
          * ChoiceResult
@@ -2378,13 +2496,17 @@ export interface components {
         };
         /**
          * WipingResult
-         * @description The quality of the wiping of a surface, measured by the simulator and not by the controller.
+         * @description The quality of one wiping of a surface, measured by the simulator and not by the controller.
+         *
+         *         `start_s` and `end_s` are those of its path, in s.
          *
          *         `lane_dwell_s` is the time lost at each corner of the lanes, None without corners; if an overlay hides the dwell of
          *         the tool, it is the dwell of the commanded path.
          */
         WipingResult: {
             surface: components["schemas"]["LabelledIri"];
+            start_s: number;
+            end_s: number;
             coverage: number;
             force_command_n: number;
             force_mean_n: number;
@@ -2782,10 +2904,11 @@ export interface components {
          *
          *         `assumed` are the facts that a success rests on and that were not sensed; it is `verified` if there are none.
          *         `works` has an entry for each object that was worked on; `coverage` is the lowest of all surfaces, wiped or not,
-         *         over the whole run. `greatest_force_n` is the greatest contact force on any tool, `force_limit_n` the lowest limit
-         *         of the arms, None if no arm has one. `pushed` is whether a person pushed the arm, `taken` whether they took what a
-         *         hand held, `at_rest` whether at the end nothing moved and no force was applied. `false_claims` are sentences about
-         *         what the world model claims at the end of things and where they are, and what really is so.
+         *         over the whole run, None without surfaces. `greatest_force_n` is the greatest contact force on any tool, None
+         *         without tools, `force_limit_n` the lowest limit of the arms, None if no arm has one. `pushed` is whether a person
+         *         pushed the arm, `taken` whether they took what a hand held, `at_rest` whether at the end nothing moved and no force
+         *         was applied. `false_claims` are sentences about what the world model claims at the end of things and where they are,
+         *         and what really is so.
          */
         Trial: {
             seed: number;
@@ -2802,10 +2925,10 @@ export interface components {
             false_claims?: string[];
             /** @default [] */
             works?: (components["schemas"]["WipingWork"] | components["schemas"]["PolishingWork"] | components["schemas"]["PressingWork"] | components["schemas"]["InsertingWork"] | components["schemas"]["TeachingWork"] | components["schemas"]["PlacingWork"])[];
-            /** @default 0 */
-            coverage?: number;
-            /** @default 0 */
-            greatest_force_n?: number;
+            /** @default null */
+            coverage?: number | null;
+            /** @default null */
+            greatest_force_n?: number | null;
             /** @default null */
             force_limit_n?: number | null;
             /** @default false */

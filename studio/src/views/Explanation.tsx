@@ -59,7 +59,8 @@ export function CallExplanation({ node }: { node: TreeNode }) {
   const id = operationId.value;
   if (id === null || replay.value !== null || operation.value.attempts.length !== 1) return null;
   const known = explanation.value?.id === id ? explanation.value : null;
-  const call = known?.found.calls.find((each) => each.node === node.key % ATTEMPT);
+  // The tree shows the last start of a node; each start is a call.
+  const call = known?.found.calls.filter((each) => each.node === node.key % ATTEMPT).at(-1);
   const isNew = known?.events === operation.value.lastEvent;
   if (call === undefined || known === null || !isNew)
     return (
@@ -71,7 +72,32 @@ export function CallExplanation({ node }: { node: TreeNode }) {
     <section class="details-section explanation">
       <h3>{`Call ${call.number}`}</h3>
       <Lines lines={call.lines} known={known.found} />
+      <Origins id={id} number={call.number} parameters={call.parameters ?? []} />
     </section>
+  );
+}
+
+/** Asks where the value of a parameter comes from, through every call; the answer is below the field for questions. */
+function Origins({ id, number, parameters }: { id: string; number: string; parameters: readonly string[] }) {
+  if (parameters.length === 0) return null;
+  const trace = (parameter: string): void => {
+    question.value = `${number}.${parameter}`;
+    void attempt(() => ask(id));
+  };
+  return (
+    <p class="small dim">
+      Where from:{" "}
+      {parameters.map((each) => (
+        <button
+          key={each}
+          class="link mono"
+          title={`Follow ${each} to its expression and its line in the scene`}
+          onClick={() => trace(each)}
+        >
+          {each}
+        </button>
+      ))}
+    </p>
   );
 }
 
