@@ -34,7 +34,7 @@ def add_operations(host: CellHost, first: int, count: int) -> None:
     request = OperationRequest(task="clean_table")
     for number in range(first, first + count):
         name = f"operation-{number}"
-        host._journal.add_operation(name, request)
+        host._journal.add_operation(name, request, number + 1)
         for value in (True, False):
             host.world.commit([SetProperty(surface, clean, value)], "Inspect", "sensed")
         for sequence in range(1, 5):

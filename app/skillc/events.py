@@ -1,6 +1,7 @@
 """The events of runs and what they consist of, for programs that listen to them."""
 
 from skillc_runtime.devices.prompts import Prompt
+from skillc_runtime.recording.account import CallOutput, Measure
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import (
     Disturbed,
@@ -24,11 +25,13 @@ from skillc_runtime.recording.events import (
 from skillc_runtime.recording.failure import Failure, Rejection
 
 __all__ = [
+    "CallOutput",
     "Disturbed",
     "Envelope",
     "Event",
     "Failure",
     "ImplementationChosen",
+    "Measure",
     "NodeEnded",
     "NodeStarted",
     "Note",

@@ -87,6 +87,9 @@ def test_commands_are_obeyed_or_refused() -> None:
         operation.resume()
         operation.stop("that will do")
     run = operation.wait()
+    assert operation.started_at is not None and operation.ended_at is not None
+    assert operation.submitted_at <= operation.started_at <= operation.ended_at
+    assert operation.failure is not None and operation.failure.kind == "halted" and operation.outputs == ()
     assert run.status == "stopped" and "that will do" in (run.failure or "")
     events = [each.event for each in run.events]
     assert any(isinstance(each, WorldChanged) and each.origin == "Ada: it is clean" for each in events)

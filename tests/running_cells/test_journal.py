@@ -48,7 +48,7 @@ def reading(path: Path) -> Iterator[JournalReader]:
 def test_only_what_is_committed_is_kept(tmp_path: Path) -> None:
     path = tmp_path / "journal.sqlite"
     with closing(CellJournal(path, NullStore())) as journal:
-        journal.add_operation("op", OperationRequest(task="tidy"))
+        journal.add_operation("op", OperationRequest(task="tidy"), 1)
         for number in (1, 2, 3):
             journal.record(note(number))
         journal.commit()

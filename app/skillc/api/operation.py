@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
+from datetime import datetime
 from types import TracebackType
 from typing import Literal
 
@@ -16,7 +17,9 @@ from skillc.errors import RequestError, ServiceError
 from skillc.values.arguments import read_pace, require_choice, require_text
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording import commands
+from skillc_runtime.recording.account import CallOutput, Measure
 from skillc_runtime.recording.commands import Command
+from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.states import State
 from skillc_runtime.world.state.labelling import label_change
 from skillc_runtime.world.state.open_transaction import OpenTransaction
@@ -69,6 +72,36 @@ class Operation:
     def time_s(self) -> float:
         """The time of the cell in s."""
         return self._shared.time_s
+
+    @property
+    def submitted_at(self) -> datetime:
+        """When it was submitted."""
+        return self._shared.submitted_at
+
+    @property
+    def started_at(self) -> datetime | None:
+        """When its first attempt began; None before."""
+        return self._shared.account.started_at
+
+    @property
+    def ended_at(self) -> datetime | None:
+        """When it ended; None before."""
+        return self._shared.account.ended_at
+
+    @property
+    def failure(self) -> Failure | None:
+        """Why it did not succeed, or why the step failed after which somebody has to decide how it goes on."""
+        return self._shared.account.failure
+
+    @property
+    def outputs(self) -> tuple[CallOutput, ...]:
+        """What its outermost calls have returned so far, the last hundred."""
+        return self._shared.account.outputs
+
+    @property
+    def measures(self) -> tuple[Measure, ...]:
+        """The properties that it has measured so far, the last hundred."""
+        return self._shared.account.measures
 
     @property
     def ended(self) -> bool:

@@ -7,12 +7,15 @@ from collections import deque
 from collections.abc import Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from functools import partial
 from math import inf
 
 from skillc.api.run import Run
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
+from skillc_runtime.recording.account import RunAccount
 from skillc_runtime.recording.commands import Command, Stop
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import Event, Requested
@@ -36,8 +39,8 @@ class GivenCommand:
 class OperationState:
     """The state of an operation; all is read and written under the condition `changed`, but for single fields.
 
-    `world` is the world model, once it is loaded. `waiting` are the commands that its thread has not taken, `taken`
-    those whose effect is not known, `settled` those whose effect is.
+    `world` is the world model, once it is loaded, `account` what it has come to so far. `waiting` are the commands that
+    its thread has not taken, `taken` those whose effect is not known, `settled` those whose effect is.
     """
 
     id: str
@@ -54,6 +57,8 @@ class OperationState:
     prompts: tuple[Prompt, ...] = ()
     time_s: float = 0.0
     world: WorldModel | None = None
+    submitted_at: datetime = field(default_factory=partial(datetime.now, UTC))
+    account: RunAccount = field(default_factory=RunAccount)
     run: Run | None = None
     error: BaseException | None = None
 
@@ -138,6 +143,7 @@ class Monitor:
         """Keep a numbered event."""
         with self._state.changed:
             self._state.events.append(envelope)
+            self._state.account(envelope)
             self._state.time_s = envelope.cell_time_s
             self._state.changed.notify_all()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
 from dataclasses import replace
@@ -48,6 +49,7 @@ from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import prepare_after
 from skillc_runtime.execution.tree.gate import format_breakpoints
 from skillc_runtime.execution.world_edit import recorded_changes
+from skillc_runtime.recording.account import RunAccount
 from skillc_runtime.recording.commands import Command, SetBreakpoints
 from skillc_runtime.recording.events import Disturbed
 from skillc_runtime.recording.publisher import Publisher
@@ -263,15 +265,17 @@ class CellHost:
         spec = specify(request, origin.scene, origin.seed, origin.backend)
         prepared, plan = continuation.prepared, self.loop.start_preparation
         start = plan if prepared is None else prepare_after(prepared, plan)
-        self._journal.add_operation(operation, request)
+        account, submitted_ns = RunAccount(), time.time_ns()
+        self._journal.add_operation(operation, request, submitted_ns)
         beginning = self.devices.begin(self._operations)
         self.loop.backend = self.devices.backend
         self._recordings.note_company(operation)
         recorders = self._recordings.begin(operation, request, self.library, beginning, self.loop.ticks)
-        publisher = Publisher(operation, (self._journal.record, *recorders))
+        publisher = Publisher(operation, (account, self._journal.record, *recorders))
         run = self.loop.submit(continuation.assignment, (publisher,), spec, gate, operation, start)
-        self._operations[operation] = SubmittedOperation(request, run, publisher, self.library.hash)
-        return self._operations[operation]
+        submitted = SubmittedOperation(request, submitted_ns, run, publisher, account, self.library.hash)
+        self._operations[operation] = submitted
+        return submitted
 
     def _assign(self, request: OperationRequest) -> Assignment:
         state = self.world.snapshot()

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import time
-
 from skillc.cells.continuing import decisions_about
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader, RecordedOperation
 from skillc.contract.operation import OperationStatus
+from skillc_runtime.recording.account import RunAccount, to_instant
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import TaskEnded, TaskStarted
 from skillc_runtime.recording.failure import Failure
@@ -21,23 +20,36 @@ def end_interrupted(cell: str, reader: JournalReader, journal: CellJournal, ende
     `ended` is why its process has ended, as far as that is known. NotDurable if that cannot be written.
     """
     for operation in reader.unfinished():
-        last = reader.last_sequence(operation.id)
-        final = reader.envelopes(operation.id, last - 1)[-1]
+        account, final = _read_account(operation.id, reader)
         if not isinstance(final.event, TaskEnded):
             final = _interrupt(final, f"{REASON}: {ended}" if ended else REASON)
             journal.record(final)
-        journal.end_operation(_describe(cell, operation, reader, final))
+            account(final)
+        journal.end_operation(_describe(cell, operation, reader, final, account))
     journal.commit()
 
 
+def _read_account(operation: str, reader: JournalReader) -> tuple[RunAccount, Envelope]:
+    """Return what an operation has come to by its recorded events, and the last one of these."""
+    account, page = RunAccount(), reader.envelopes(operation)
+    last = page[-1]
+    while page:
+        for last in page:
+            account(last)
+        page = reader.envelopes(operation, last.sequence)
+    return account, last
+
+
 def _interrupt(last: Envelope, reason: str) -> Envelope:
-    """Return the event that ends an operation after its last one."""
+    """Return the event that ends an operation after its last one, at the same time: nobody knows of a later one."""
     failure = Failure(kind="interrupted", message=reason)
     ended = TaskEnded(time=last.cell_time_s, task=last.run, status="interrupted", failure=failure)
-    return Envelope(run=last.run, sequence=last.sequence + 1, wall_time_ns=time.time_ns(), event=ended)
+    return Envelope(run=last.run, sequence=last.sequence + 1, wall_time_ns=last.wall_time_ns, event=ended)
 
 
-def _describe(cell: str, operation: RecordedOperation, reader: JournalReader, final: Envelope) -> OperationStatus:
+def _describe(
+    cell: str, operation: RecordedOperation, reader: JournalReader, final: Envelope, account: RunAccount
+) -> OperationStatus:
     started, ended = reader.envelopes(operation.id, limit=1)[0].event, final.event
     assert isinstance(started, TaskStarted) and isinstance(ended, TaskEnded), "the first and the last event"
     return OperationStatus(
@@ -49,7 +61,12 @@ def _describe(cell: str, operation: RecordedOperation, reader: JournalReader, fi
         events=final.sequence,
         verified=ended.verified,
         false_claims=ended.false_claims,
+        submitted_at=to_instant(operation.submitted_ns),
+        started_at=account.started_at,
+        ended_at=account.ended_at,
         failure=ended.failure,
+        outputs=account.outputs,
+        measures=account.measures,
         library_hash=started.hash,
         decisions=decisions_about(operation.id, reader) if ended.status == "interrupted" else (),
     )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from typing import Annotated
 
 import msgspec
 
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.planning.progress import PlanningProgress
+from skillc_runtime.recording.account import CallOutput, Measure
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.run_spec import RunRequest
 from skillc_runtime.recording.states import ENDS as ENDS
@@ -33,6 +35,10 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
 
     `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
     whether a success rests on no fact that is only assumed, and no claim is false; None if it did not succeed.
+    It was submitted, its first attempt began, and it ended at `submitted_at`, `started_at` and `ended_at`, null before.
+    `failure` is why it did not succeed, or why the step failed after which somebody has to decide how it goes on.
+    `outputs` are what its outermost calls have returned, `measures` the properties that it has measured, so far; of
+    each the last hundred.
     `false_claims` are sentences about what the world model claimed at its end that is not so in the simulator.
     `library_hash` identifies what it runs. `devices` are the IRIs of those that it holds, null for the whole cell.
     `prompts` are what its skills ask operators. `planning` is how far its planner is; null if none works. `breakpoints`
@@ -49,7 +55,12 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     events: int = 0
     verified: bool | None = None
     false_claims: tuple[str, ...] = ()
+    submitted_at: datetime | None = None
+    started_at: datetime | None = None
+    ended_at: datetime | None = None
     failure: Failure | None = None
+    outputs: tuple[CallOutput, ...] = ()
+    measures: tuple[Measure, ...] = ()
     library_hash: str = ""
     devices: tuple[str, ...] | None = ()
     prompts: tuple[Prompt, ...] = ()

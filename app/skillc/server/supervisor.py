@@ -7,6 +7,7 @@ import time
 from collections import Counter
 from collections.abc import Callable
 from contextlib import suppress
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import assert_never
 
@@ -150,7 +151,8 @@ class CellSupervisor:
         reason = self._problem or f"its process ended with {f'signal {-code}' if code < 0 else f'code {code}'}"
         self._ended = reason
         for operation in tuple(self.operations.values()):
-            ended = structs.replace(operation, state="interrupted", reason=reason, allowed=())
+            now = datetime.now(UTC)
+            ended = structs.replace(operation, state="interrupted", reason=reason, allowed=(), ended_at=now)
             self._hear(Happened(operation=ended))
         self._set_status(_off(self.settings, reason))
 

@@ -217,7 +217,7 @@ class TaskRun(RunStatus):
         conclusion = conclude(self.attempts, self._context.failures, backend.cell.world)
         if self.spec.ask_after_failure and last.status is Status.FAILURE and backend.broken is None:
             self._context.gate.open()
-            return self._enter("paused", last.reason)
+            return self._enter("paused", last.reason, last.failure)
         match conclusion:
             case NeedsPlan():
                 return self._prepare() if backend.broken is None else self._finish("failed", last.failure)
@@ -277,11 +277,11 @@ class TaskRun(RunStatus):
         if self._attempt is not None and self._ending is None:
             self._enter(self._pause.state, self._pause.reason)
 
-    def _enter(self, state: State, reason: str = "") -> None:
+    def _enter(self, state: State, reason: str = "", failure: Failure | None = None) -> None:
         if (state, reason) != (self.state, self.reason):
             self._state_since = self._now if state != self.state else self._state_since
             self.state, self.reason = state, reason
-            self._emit(StateChanged(time=self._now, state=state, reason=reason))
+            self._emit(StateChanged(time=self._now, state=state, reason=reason, failure=failure))
 
     def _emit(self, event: Event) -> None:
         for listener in self._context.listeners:

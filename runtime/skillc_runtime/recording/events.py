@@ -62,10 +62,14 @@ class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
 
 
 class StateChanged(_Event, tag="state-changed", frozen=True, kw_only=True):
-    """The task run is in another state, and why; its end is a `TaskEnded`."""
+    """The task run is in another state, and why; its end is a `TaskEnded`.
+
+    `failure` is that of a step if somebody has to decide how to go on after it.
+    """
 
     state: State
     reason: str = ""
+    failure: Failure | None = None
 
 
 class Requested(_Event, tag="requested", frozen=True, kw_only=True):
@@ -176,13 +180,17 @@ class NodeStarted(_Event, tag="node-started", frozen=True, kw_only=True):
 
 
 class NodeEnded(_Event, tag="node-ended", frozen=True, kw_only=True):
-    """A node succeeded, failed or was halted; `failure` is the reason, `failed_call` the context of a failed call."""
+    """A node succeeded, failed or was halted; `failure` is the reason, `failed_call` the context of a failed call.
+
+    `outputs` are the values that a call has returned, by parameter name.
+    """
 
     node: int
     name: str
     status: str
     failure: Failure | None = None
     failed_call: FailedCallContext | None = None
+    outputs: dict[str, LabelledValue] = {}
     source: Position
 
 

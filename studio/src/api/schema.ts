@@ -288,6 +288,10 @@ export interface components {
          *
          *         `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
          *         whether a success rests on no fact that is only assumed, and no claim is false; None if it did not succeed.
+         *         It was submitted, its first attempt began, and it ended at `submitted_at`, `started_at` and `ended_at`, null before.
+         *         `failure` is why it did not succeed, or why the step failed after which somebody has to decide how it goes on.
+         *         `outputs` are what its outermost calls have returned, `measures` the properties that it has measured, so far; of
+         *         each the last hundred.
          *         `false_claims` are sentences about what the world model claimed at its end that is not so in the simulator.
          *         `library_hash` identifies what it runs. `devices` are the IRIs of those that it holds, null for the whole cell.
          *         `prompts` are what its skills ask operators. `planning` is how far its planner is; null if none works. `breakpoints`
@@ -310,7 +314,17 @@ export interface components {
             /** @default [] */
             false_claims?: string[];
             /** @default null */
+            submitted_at?: string | null;
+            /** @default null */
+            started_at?: string | null;
+            /** @default null */
+            ended_at?: string | null;
+            /** @default null */
             failure?: components["schemas"]["Failure"] | null;
+            /** @default [] */
+            outputs?: components["schemas"]["CallOutput"][];
+            /** @default [] */
+            measures?: components["schemas"]["Measure"][];
             /** @default  */
             library_hash?: string;
             /** @default [] */
@@ -515,6 +529,38 @@ export interface components {
             /** @enum {unknown} */
             type: "list";
             values: (boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]))[];
+        };
+        /**
+         * CallOutput
+         * @description What an outermost call of a run has returned for its parameter `name`; `node` is its number in the events.
+         */
+        CallOutput: {
+            skill: string;
+            node: number;
+            name: string;
+            value: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+        };
+        /**
+         * Measure
+         * @description A property as a skill or a device, `by`, has found it last, at the time `time_s` of the cell.
+         */
+        Measure: {
+            fact: components["schemas"]["LabelledProperty"];
+            /** @enum {unknown} */
+            known: "assumed" | "idealised" | "reported" | "sensed";
+            by: string;
+            time_s: number;
+        };
+        /**
+         * LabelledProperty
+         * @description A property of an individual with its value; None for no value.
+         */
+        LabelledProperty: {
+            /** @enum {unknown} */
+            type: "property";
+            individual: components["schemas"]["LabelledIri"];
+            property: components["schemas"]["LabelledIri"];
+            value: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]) | null;
         };
         /**
          * Prompt
@@ -1230,6 +1276,8 @@ export interface components {
         /**
          * StateChanged
          * @description The task run is in another state, and why; its end is a `TaskEnded`.
+         *
+         *         `failure` is that of a step if somebody has to decide how to go on after it.
          */
         StateChanged: {
             /** @enum {unknown} */
@@ -1238,6 +1286,8 @@ export interface components {
             state: ("paused" | "pausing" | "planned" | "planning" | "queued" | "running" | "stopping") | ("failed" | "interrupted" | "stopped" | "succeeded");
             /** @default  */
             reason?: string;
+            /** @default null */
+            failure?: components["schemas"]["Failure"] | null;
         };
         /**
          * Requested
@@ -1301,17 +1351,6 @@ export interface components {
             object: components["schemas"]["LabelledIri"] | null;
             /** @default true */
             holds?: boolean;
-        };
-        /**
-         * LabelledProperty
-         * @description A property of an individual with its value; None for no value.
-         */
-        LabelledProperty: {
-            /** @enum {unknown} */
-            type: "property";
-            individual: components["schemas"]["LabelledIri"];
-            property: components["schemas"]["LabelledIri"];
-            value: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]) | null;
         };
         /**
          * IndividualAdded
@@ -1483,6 +1522,8 @@ export interface components {
         /**
          * NodeEnded
          * @description A node succeeded, failed or was halted; `failure` is the reason, `failed_call` the context of a failed call.
+         *
+         *         `outputs` are the values that a call has returned, by parameter name.
          */
         NodeEnded: {
             /** @enum {unknown} */
@@ -1495,6 +1536,10 @@ export interface components {
             failure?: components["schemas"]["Failure"] | null;
             /** @default null */
             failed_call?: components["schemas"]["FailedCallContext"] | null;
+            /** @default {} */
+            outputs?: {
+                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+            };
             source: components["schemas"]["Position"];
         };
         /**

@@ -80,9 +80,9 @@ class CellJournal:
         except sqlite3.Error as error:
             raise NotDurable(str(describe_error(self.path, error))) from error
 
-    def add_operation(self, operation: str, request: OperationRequest) -> None:
-        """Record that an operation was submitted."""
-        self._pending.operations.append((operation, time.time_ns(), self._encoder.encode(request)))
+    def add_operation(self, operation: str, request: OperationRequest, submitted_ns: int) -> None:
+        """Record that an operation was submitted, at a wall time in ns since 1970."""
+        self._pending.operations.append((operation, submitted_ns, self._encoder.encode(request)))
 
     def end_operation(self, operation: OperationStatus) -> None:
         """Record how an operation has ended, after its last event."""

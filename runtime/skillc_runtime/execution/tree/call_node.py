@@ -18,6 +18,7 @@ from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import describe_exception
 from skillc_runtime.execution.tree.event_factory import (
     collect_facts_at_failure,
+    label_outputs,
     make_choice_event,
     make_failure_context,
 )
@@ -29,7 +30,7 @@ from skillc_runtime.execution.tree.withdrawn_facts import lead_with_withdrawal
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure, Rejection, as_failure
 from skillc_runtime.recording.reasons import FailedCallContext
-from skillc_runtime.world.state.labelled import LabelledFact
+from skillc_runtime.world.state.labelled import LabelledFact, LabelledValue
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 
@@ -292,6 +293,9 @@ class CallNode(Node):
     def describe_call(self) -> FailedCallContext:
         self._record_facts()
         return make_failure_context(self.skill, self._arguments, self.rejected, self._facts or (), self.context)
+
+    def describe_outputs(self) -> dict[str, LabelledValue]:
+        return {} if self.activation is None else label_outputs(self.activation, self.context)
 
     def _record_facts(self) -> None:
         """Record the facts that the conditions read, once per failure, before undoing changes them."""

@@ -92,6 +92,12 @@ def make_failure_context(
     return FailedCallContext(arguments=values, unset=unset, rejected=tuple(rejected), facts=facts)
 
 
+def label_outputs(activation: Activation, context: TreeContext) -> dict[str, LabelledValue]:
+    """Return what a call that has succeeded returns, by parameter name."""
+    outputs = tuple(each for each in activation.implementation.parameters if each.direction == "out")
+    return label_bindings(activation.frame, outputs, context.library.vocabulary)
+
+
 def collect_facts_at_failure(
     tried: Sequence[Implementation], running: Activation | None, arguments: Mapping[str, Value], state: WorldState
 ) -> tuple[LabelledFact, ...]:

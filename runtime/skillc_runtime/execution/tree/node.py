@@ -13,6 +13,7 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import NodeEnded, NodeStarted
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.reasons import FailedCallContext
+from skillc_runtime.world.state.labelled import LabelledValue
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 RUNNING, SUCCESS, FAILURE, HALTED = Status.RUNNING, Status.SUCCESS, Status.FAILURE, Status.HALTED
@@ -142,6 +143,10 @@ class Node:
         """Return the details of a failed call, or None for other nodes; only called if there are listeners."""
         return None
 
+    def describe_outputs(self) -> dict[str, LabelledValue]:
+        """Return what a call has returned, by parameter name; only called if there are listeners."""
+        return {}
+
     def _finish(self, status: Status, failure: Failure | None) -> Status:
         context = self.context
         self.status, self.failure, self.ended = status, failure, context.time
@@ -153,6 +158,7 @@ class Node:
                 status=status.value,
                 failure=failure,
                 failed_call=self.describe_call() if status is FAILURE else None,
+                outputs=self.describe_outputs() if status is SUCCESS else {},
                 source=self.source,
             )
             context.emit(ended)
