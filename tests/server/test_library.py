@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import os
+import signal
 from importlib.metadata import version
 from pathlib import Path
 
+import pytest
+
 import skillc
-from server.running import RunningServer
+from server.running import RunningServer, find_cell_process
+from skillc.cells.snapshot import CellSnapshot, decode_snapshot, encode_snapshot
 from skillc.contract.device import Figure
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import find_library, find_scene
@@ -31,6 +36,25 @@ def test_skills_and_tasks_are_described(server: RunningServer) -> None:
     tasks = {each["name"]: each for each in found["tasks"]}
     assert list(tasks) == ["carry", "carry_all", "carry_two", "confirm"]
     assert (tasks["carry"]["doc"], tasks["carry"]["goal"]) == ("Bring one crate to a place.", "to contain crate")
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="stops a process")
+def test_the_description_is_kept_and_asks_neither_the_cell_nor_a_worker(server: RunningServer) -> None:
+    cell = find_cell_process(server)
+    os.kill(cell, signal.SIGSTOP)
+    try:
+        found = server.client.get("/cells/yard/library")
+    finally:
+        os.kill(cell, signal.SIGCONT)
+    assert found.status_code == 200 and {each["name"] for each in found.json()["skills"]} >= {"Load", "Unload"}
+
+
+def test_workers_read_a_library_once_whatever_the_world_is() -> None:
+    library = compile_valid(find_library(Path("wiping")))
+    state = load_world(find_scene(Path("iiwa_table.ttl")), library.vocabulary, SilentReporter())
+    first, second = (decode_snapshot(encode_snapshot(CellSnapshot(library, state, (), number))) for number in (1, 2))
+    assert (first.sequence, second.sequence) == (1, 2)
+    assert first.library is second.library and first.library == library
 
 
 def test_the_python_client_has_library_robots_and_version(server: RunningServer) -> None:

@@ -21,6 +21,11 @@ def decode_library(content: bytes) -> SkillLibrary:
     return msgspec.msgpack.decode(content, type=SkillLibrary)
 
 
+def encode_library(library: SkillLibrary) -> bytes:
+    """Return a library for another process."""
+    return msgspec.msgpack.encode(library)
+
+
 def load_library(settings: CellSettings) -> SkillLibrary:
     """Return the library of a cell, with the modules loaded that it was checked with, and all that it names.
 

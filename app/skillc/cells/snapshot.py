@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import pickle
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
-from typing import cast
+from functools import cached_property, lru_cache
+from typing import Any, cast
 
+from skillc.cells.library import decode_library, encode_library
 from skillc.services.backends import BackendName
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.world.state.evidence import EvidenceLedger, UndoableWrite
@@ -33,6 +35,21 @@ class CellSnapshot:
         ledger = EvidenceLedger()
         ledger.restore(self.state, self.writes)
         return ledger
+
+    def __reduce__(self) -> tuple[Callable[..., CellSnapshot], tuple[Any, ...]]:
+        """Be pickled with the library as cells get it, which is thirty times as fast to write as its objects."""
+        others = (self.state, self.writes, self.sequence, self.backend, self.devices)
+        return _restore, (encode_library(self.library), *others)
+
+
+def _restore(library: bytes, *others: Any) -> CellSnapshot:
+    return CellSnapshot(_decode(library), *others)
+
+
+@lru_cache(maxsize=2)
+def _decode(library: bytes) -> SkillLibrary:
+    """Return a library; a worker reads each once, since a large one takes longer than most answers."""
+    return decode_library(library)
 
 
 def encode_snapshot(snapshot: CellSnapshot) -> bytes:

@@ -218,7 +218,7 @@ LIST_LIBRARIES = Endpoint(
 )
 SHOW_LIBRARY = Endpoint(
     "show_library", "GET", "/cells/{cell}/library", "view", "Describe the library of a cell", LibraryDescription,
-    refusals=OF_CELLS, call="library",
+    refusals=(NOT_FOUND,), call="library",
 )
 LIST_ROBOTS = Endpoint(
     "list_robots", "GET", "/cells/{cell}/robots", "view", "List the devices of a cell, and which operation holds each",

@@ -52,10 +52,6 @@ class ListWrites(msgspec.Struct, frozen=True, tag="writes"):
     limit: int
 
 
-class DescribeLibrary(msgspec.Struct, frozen=True, tag="library"):
-    """Describe the library of the cell."""
-
-
 class ListDevices(msgspec.Struct, frozen=True, tag="devices"):
     """List the devices of the cell."""
 
@@ -129,7 +125,6 @@ AnsweredJob: TypeAlias = (
     | WriteWorld
     | ListThings
     | ListWrites
-    | DescribeLibrary
     | ListDevices
     | ListPoses
     | CheckOperation

@@ -86,6 +86,10 @@ class ServerContext:
         """Return the cells that run a library."""
         return tuple(each for each in self.cells.values() if each.settings.library == library.path)
 
+    def library_of(self, cell: CellSupervisor) -> ServedLibrary:
+        """Return the library that a cell runs."""
+        return next(each for each in self.libraries if each.path == cell.settings.library)
+
     def find_library(self, name: str) -> ServedLibrary:
         """Return a library; ApiRefusal (404) if there is none of this name."""
         found = {each.checked.name: each for each in reversed(self.libraries)}

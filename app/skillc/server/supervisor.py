@@ -32,12 +32,15 @@ from skillc.workers.library_check import CheckedLibrary
 from skillc_runtime.recording.states import ENDS, State
 
 SILENCE_S = 30.0
-"""How long the loop of a cell may stand still before its process is ended, in s of wall time."""
+"""How long the loop of a cell may stand still before its process is ended, in s in which this process can see it."""
+LOOK_S = 1.0
+"""How often it is looked at, in s. More that passes between two looks counts as this: then the machine was busy or
+asleep, or this process was, and nobody knows whether the cell would have gone on."""
 FIRST_DELAY_S, MAX_DELAY_S = 0.5, 60.0
 """How long to wait before a cell is started again: the delay doubles each time until a cell has run for SETTLED_S."""
 SETTLED_S = 60.0
 LONGEST_START_S = 600.0
-"""How long a process may take until it is ready, in s of wall time: its first start compiles the control laws."""
+"""How long a process may take until it is ready, in s as of SILENCE_S: its first start compiles the control laws."""
 START_S = 20.0
 """How long requests wait for a cell that starts, in s."""
 END_S = 20.0
@@ -66,7 +69,7 @@ class CellSupervisor:
         self.starts, self.ended = 0, Counter[State]()
         self._publish = publish
         self._cell: RemoteCell | None = None
-        self.alive, self._heard_at = Alive(rounds=0), time.monotonic()
+        self.alive, self._silent_s = Alive(rounds=0), 0.0
         self._settled = asyncio.Event()  # whether it has started, or failed to
         self._problem = self._library_problem = self._ended = ""
 
@@ -119,7 +122,7 @@ class CellSupervisor:
         """Start the process of the cell, and return when it has ended."""
         folder = Path(self.settings.folder)
         folder.mkdir(parents=True, exist_ok=True)
-        self._problem, self._heard_at = "", time.monotonic()
+        self._problem = ""
         self._settled.clear()
         if obstacle := await asyncio.to_thread(self._find_obstacle):
             self._set_status(_off(self.settings, obstacle))
@@ -133,16 +136,23 @@ class CellSupervisor:
             self._set_status(_off(self.settings, f"its process cannot be started: {error.strerror or error}"))
             self._settled.set()
             return
-        cell = self._cell
         self.starts += 1
+        await self._watch(self._cell)
+        self._bury(self._cell.gone.result())
+
+    async def _watch(self, cell: RemoteCell) -> None:
+        """Return when the process of a cell has ended; end it if it falls silent."""
+        self._silent_s, before = 0.0, time.monotonic()
         while not cell.gone.done():
-            await asyncio.wait((cell.gone,), timeout=1.0)
+            await asyncio.wait((cell.gone,), timeout=LOOK_S)
+            now = time.monotonic()
+            self._silent_s += min(now - before, LOOK_S)
+            before = now
             limit_s = SILENCE_S if self.ready else LONGEST_START_S
-            if time.monotonic() - self._heard_at > limit_s and not cell.gone.done():
+            if self._silent_s > limit_s and not cell.gone.done():
                 what = "its loop stood still for" if self.ready else "it was not ready within"
                 self._problem = f"{what} {limit_s:g} s, so its process was ended"
                 cell.kill()
-        self._bury(cell.gone.result())
 
     def _bury(self, code: int) -> None:
         """The process has ended: nothing of it goes on."""
@@ -177,11 +187,13 @@ class CellSupervisor:
                     self.operations[operation.id] = operation
                 self._publish(report)
             case StatusChanged(status=status):
+                if not self.ready:
+                    self._silent_s = 0.0  # how long it was silent while it started counts no more
                 self._set_status(status)
                 self._settled.set()
             case Alive(rounds=rounds):
                 if rounds != self.alive.rounds:
-                    self._heard_at = time.monotonic()
+                    self._silent_s = 0.0
                 self.alive = report
             case Preparing(reason=reason):
                 self._set_status(_off(self.settings, f"it starts: {reason}"))

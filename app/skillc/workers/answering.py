@@ -18,7 +18,6 @@ from skillc.contract.device import Device
 from skillc.contract.jobs import (
     CheckOperation,
     CheckTrials,
-    DescribeLibrary,
     Job,
     JobRefused,
     ListDevices,
@@ -35,7 +34,6 @@ from skillc.contract.jobs import (
     SimulationJob,
     WriteWorld,
 )
-from skillc.contract.library import LibraryDescription
 from skillc.contract.plan import PlanPreview
 from skillc.contract.sample import PoseNumbers
 from skillc.contract.world import PlacedThing, QueryRows, WorldFact, WorldFacts, WorldText, WorldWrite
@@ -45,7 +43,6 @@ from skillc.services.diagnosis import diagnose
 from skillc.services.scene_show import list_placed
 from skillc.services.scenes import describe_state, find_individuals, query_document, view_world
 from skillc.workers.devices import list_devices
-from skillc.workers.libraries import describe_library
 from skillc.workers.planning import preview_plan
 from skillc.workers.rehearsing import rehearse
 from skillc.workers.reporting import make_report
@@ -74,7 +71,6 @@ JobAnswer: TypeAlias = (
     | WorldText
     | tuple[PlacedThing, ...]
     | tuple[WorldWrite, ...]
-    | LibraryDescription
     | tuple[Device, ...]
     | dict[str, PoseNumbers]
     | PlanPreview
@@ -116,8 +112,6 @@ def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
             return preview_plan(job, known)
         case ListWrites():
             return _list_writes(job, known)
-        case DescribeLibrary():
-            return describe_library(known.library)
         case ListDevices():
             return list_devices(known.state)
         case ListPoses():

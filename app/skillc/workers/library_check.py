@@ -15,13 +15,15 @@ from pathlib import Path
 import msgspec
 from msgspec import structs
 
-from skillc.cells.library import find_modules, module_of
+from skillc.cells.library import encode_library, find_modules, module_of
+from skillc.contract.library import LibraryDescription
 from skillc.errors import DiagnosticsError, ServiceError
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import LibraryFiles, find_library
 from skillc.services.project.loading import find_project
+from skillc.workers.libraries import describe_library
 from skillc_dsl.encoding import decode, read_file
-from skillc_model.skills import Primitive, SkillLibrary
+from skillc_model.skills import Primitive
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.platforms.memory import limit_memory
@@ -48,11 +50,12 @@ class LibraryBasis(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True, slots=True)
 class CheckedLibrary:
-    """A library without errors; `content` is what cells run."""
+    """A library without errors; `content` is what cells run, `description` what people and programs are told of it."""
 
     name: str
     hash: str
     content: bytes
+    description: LibraryDescription
     basis: LibraryBasis
 
 
@@ -74,7 +77,7 @@ def read_checked(path: Path, scenes: Iterable[Path] = ()) -> CheckedLibrary:
     named = {module for text in texts for module in _NAMED.findall(text)}
     modules = sorted({*named, *find_modules(library)})
     basis = LibraryBasis(find_folders(files), tuple(modules), digest_vocabulary(library.vocabulary))
-    return CheckedLibrary(library.name, library.hash, encode_library(library), basis)
+    return CheckedLibrary(library.name, library.hash, encode_library(library), describe_library(library), basis)
 
 
 def check_again(request: tuple[str, LibraryBasis]) -> CheckedLibrary | LibraryRefused:
@@ -107,7 +110,7 @@ def _check(path: Path, basis: LibraryBasis) -> CheckedLibrary | LibraryRefused:
             return LibraryRefused(f"{each.source}: {why}")
     if digest_vocabulary(library.vocabulary) != basis.vocabulary:
         return LibraryRefused(f"its vocabulary has changed, which the worlds of the cells are made of; {RESTART}")
-    return CheckedLibrary(library.name, library.hash, encode_library(library), basis)
+    return CheckedLibrary(library.name, library.hash, encode_library(library), describe_library(library), basis)
 
 
 def find_folders(files: LibraryFiles) -> tuple[str, ...]:
@@ -122,11 +125,6 @@ def digest_vocabulary(vocabulary: Vocabulary) -> str:
     tables = (vocabulary.classes, vocabulary.relations, vocabulary.properties, vocabulary.functions)
     terms = [structs.replace(each, source=None, comment="") for table in tables for _, each in sorted(table.items())]
     return sha256(msgspec.json.encode(terms, order="deterministic")).hexdigest()
-
-
-def encode_library(library: SkillLibrary) -> bytes:
-    """Return a library for a cell."""
-    return msgspec.msgpack.encode(library)
 
 
 def _is_known(module: str, basis: LibraryBasis) -> bool:
