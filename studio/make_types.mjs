@@ -5,7 +5,7 @@ import openapiTS, { astToString } from "openapi-typescript";
 
 const document = JSON.parse(await text(process.stdin));
 const types = astToString(
-  await openapiTS({ ...document, paths: {} }, { silent: true, defaultNonNullable: false }),
+  await openapiTS({ ...document, paths: {} }, { silent: true, defaultNonNullable: false, arrayLength: true }),
 );
 const comment = "// Made from the OpenAPI document of the server by `npm run types`; do not edit.\n\n";
 const file = process.argv[2] ?? new URL("src/api/schema.ts", import.meta.url);

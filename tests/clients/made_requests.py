@@ -13,6 +13,7 @@ import msgspec
 from docs.pages import ROOT
 from skillc.contract.endpoint import JSON, Endpoint
 from skillc.contract.endpoints import ENDPOINTS
+from skillc.server.portable_schemas import name_type
 
 FILE = ROOT / "studio/src/api/requests.ts"
 HEAD = """// Made from the endpoints of the contract by `python tests/accept.py`; do not edit.
@@ -101,7 +102,7 @@ def _name_components() -> dict[type, str]:
     """Return the names of structs in the OpenAPI document, where two may have the same name in Python."""
     kinds = tuple({each for kind in TYPES for each in _list_structs(kind)})
     schemas, _ = msgspec.json.schema_components((*TYPES, *kinds), ref_template="{name}")
-    return {kind: str(schema["$ref"]) for kind, schema in zip(kinds, schemas[len(TYPES) :], strict=True)}
+    return {kind: name_type(str(schema["$ref"])) for kind, schema in zip(kinds, schemas[len(TYPES) :], strict=True)}
 
 
 def _list_structs(kind: Any) -> Iterator[type]:

@@ -10,7 +10,9 @@ from typing import Any
 import msgspec
 
 from skillc.contract.endpoint import JSON, Endpoint
+from skillc.contract.examples import EXAMPLES, PATH_EXAMPLES
 from skillc.contract.problem import ProblemDetails
+from skillc.server.portable_schemas import name_type, simplify_arrays
 from skillc.server.problems import MEDIA_TYPE
 
 VERSION = "1"
@@ -33,6 +35,26 @@ OPEN = {
 }
 """The paths that need no token, with their operations and what they are for."""
 REF = "#/components/schemas/{name}"
+OTHER = "server"
+TAGS = {
+    "cells": "Cells: how they are, their pace, stops, and what is in them.",
+    "lease": "Who may command a cell.",
+    "operations": "What cells do and have done, with events, recordings and reports.",
+    "orders": "Operations that are submitted at a time.",
+    "world": "What a cell knows: facts, queries, edits and their history.",
+    "libraries": "The libraries that cells run, and their texts.",
+    "plans": "What would be done, or why nothing can be.",
+    "rehearsals": "Operations that are tried in a simulated twin.",
+    "trials": "Tasks that are run many times in simulation.",
+    "session": "Sessions of browsers.",
+    "tokens": "Tokens of clients.",
+    OTHER: "The server itself.",
+}
+"""The tags of operations: the last part of a path that is one of these, else OTHER."""
+SERVER = {"url": "/", "description": "The server that this document comes from"}
+CONTENT: dict[str, dict[str, Any]] = {"text/plain": {"type": "string"}}
+BYTES = {"type": "string", "format": "binary"}
+"""The schemas of files by their media type; those of others are bytes."""
 
 
 def make_openapi(endpoints: Iterable[Endpoint[Any]], prefix: str) -> dict[str, Any]:
@@ -46,21 +68,26 @@ def make_openapi(endpoints: Iterable[Endpoint[Any]], prefix: str) -> dict[str, A
     paths: dict[str, dict[str, Any]] = {}
     for each in endpoints:
         paths.setdefault(prefix + each.path, {})[each.method.lower()] = _describe(each, schema_of)
-    return {
+    document = {
         "openapi": "3.1.0",
         "info": {"title": "skillc", "version": VERSION, "description": "Cells that run skills, and their operations."},
+        "servers": [SERVER],
+        "tags": [{"name": name, "description": about} for name, about in TAGS.items()],
         "security": [{"token": []}],
         "paths": paths | {prefix + path: {"get": _describe_open(*each)} for path, each in OPEN.items()},
         "components": {
-            "schemas": components,
+            "schemas": {name_type(name): {**each, "title": name_type(name)} for name, each in components.items()},
             "securitySchemes": {"token": {"type": "http", "scheme": "bearer"}},
         },
     }
+    references = {REF.format(name=each): REF.format(name=name_type(each)) for each in components}
+    return dict(simplify_arrays(document, references))
 
 
 def _describe(endpoint: Endpoint[Any], schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:
     described: dict[str, Any] = {
         "operationId": endpoint.name,
+        "tags": [find_tag(endpoint.path)],
         "summary": endpoint.summary,
         "description": f"Needs the role `{endpoint.role}`.",
         "security": [{"token": [endpoint.role]}],
@@ -68,14 +95,27 @@ def _describe(endpoint: Endpoint[Any], schema_of: dict[int, dict[str, Any]]) -> 
         "responses": _responses(endpoint, schema_of),
     }
     if endpoint.body is not None:
-        content = {JSON: {"schema": schema_of[id(endpoint.body)]}}
+        content: dict[str, Any] = {JSON: {"schema": schema_of[id(endpoint.body)]}}
+        if endpoint.name in EXAMPLES:
+            content[JSON]["example"] = msgspec.to_builtins(EXAMPLES[endpoint.name])
         described["requestBody"] = {"required": endpoint.needs_body, "content": content}
     return described
 
 
 def _describe_open(operation: str, summary: str) -> dict[str, Any]:
     answer = {"description": HTTPStatus.OK.phrase, "content": {JSON: {"schema": {"type": "object"}}}}
-    return {"operationId": operation, "summary": summary, "security": [], "responses": {"200": answer}}
+    return {
+        "operationId": operation,
+        "tags": [OTHER],
+        "summary": summary,
+        "security": [],
+        "responses": {"200": answer},
+    }
+
+
+def find_tag(path: str) -> str:
+    """Return the tag of the operations of a path."""
+    return next((part for part in reversed(path.split("/")) if part in TAGS), OTHER)
 
 
 def _responses(endpoint: Endpoint[Any], schema_of: dict[int, dict[str, Any]]) -> dict[str, Any]:
@@ -83,7 +123,7 @@ def _responses(endpoint: Endpoint[Any], schema_of: dict[int, dict[str, Any]]) ->
     if endpoint.answer is not NoneType:
         success["content"] = {JSON: {"schema": schema_of[id(endpoint.answer)]}}
     elif endpoint.media_types != (JSON,):
-        success["content"] = {each: {} for each in endpoint.media_types}
+        success["content"] = {each: {"schema": CONTENT.get(each, BYTES)} for each in endpoint.media_types}
     refused = {*ALWAYS, *endpoint.refusals, *(WITH_BODY if endpoint.body is not None else ())}
     if endpoint.takes_key:
         refused.add(HTTPStatus.BAD_REQUEST)
@@ -93,8 +133,14 @@ def _responses(endpoint: Endpoint[Any], schema_of: dict[int, dict[str, Any]]) ->
 
 
 def _path_parameters(endpoint: Endpoint[Any]) -> list[dict[str, Any]]:
-    schema = {"type": "string"}
-    return [{"name": name, "in": "path", "required": True, "schema": schema} for name in endpoint.path_parameters]
+    return [
+        {"name": name, "in": "path", "required": True, "schema": {"type": "string"}, **_example_of(name)}
+        for name in endpoint.path_parameters
+    ]
+
+
+def _example_of(parameter: str) -> dict[str, str]:
+    return {"example": PATH_EXAMPLES[parameter]} if parameter in PATH_EXAMPLES else {}
 
 
 def _query_parameters(endpoint: Endpoint[Any]) -> list[dict[str, Any]]:

@@ -114,7 +114,7 @@ export interface Requests {
   give_command: {
     path: [operation: string];
     query: Record<string, never>;
-    body: Schemas["Approve"] | Schemas["Pause"] | Schemas["Resume"] | Schemas["StepInto"] | Schemas["StepOver"] | Schemas["StepOut"] | Schemas["skillc_runtime.recording.commands.Retry"] | Schemas["Skip"] | Schemas["Replan"] | Schemas["Answer"] | Schemas["SetBreakpoints"];
+    body: Schemas["Approve"] | Schemas["Pause"] | Schemas["Resume"] | Schemas["StepInto"] | Schemas["StepOver"] | Schemas["StepOut"] | Schemas["CommandsRetry"] | Schemas["Skip"] | Schemas["Replan"] | Schemas["Answer"] | Schemas["SetBreakpoints"];
     answer: Required<Schemas["OperationStatus"]>;
   };
   /** Stop an operation; nothing happens if it has ended. */

@@ -660,10 +660,10 @@ export interface components {
             who?: string;
         };
         /**
-         * Retry
+         * CommandsRetry
          * @description After a failure: run the failed step again.
          */
-        "skillc_runtime.recording.commands.Retry": {
+        CommandsRetry: {
             /** @enum {unknown} */
             type: "retry";
             /** @default  */
@@ -758,7 +758,7 @@ export interface components {
              */
             minimise?: "" | "makespan" | "work";
             /** @default null */
-            body?: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"]) | null;
+            body?: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"]) | null;
             /** @default {} */
             settings?: components["schemas"]["RunSpec"];
             /** @default [] */
@@ -953,7 +953,7 @@ export interface components {
         Sequence: {
             /** @enum {unknown} */
             type: "seq";
-            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
+            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
             reactive: boolean;
             source: components["schemas"]["Position"];
         };
@@ -964,7 +964,7 @@ export interface components {
         Selector: {
             /** @enum {unknown} */
             type: "sel";
-            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
+            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
             reactive: boolean;
             source: components["schemas"]["Position"];
         };
@@ -977,18 +977,18 @@ export interface components {
             type: "par";
             /** @enum {unknown} */
             policy: "all" | "any" | "lead" | "race";
-            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
+            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
             source: components["schemas"]["Position"];
         };
         /**
-         * Retry
+         * TreeRetry
          * @description Runs the child up to `count` times until it succeeds.
          */
-        "skillc_model.tree.Retry": {
+        TreeRetry: {
             /** @enum {unknown} */
             type: "retry";
             count: number;
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -999,7 +999,7 @@ export interface components {
             /** @enum {unknown} */
             type: "repeat";
             count: number;
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1010,7 +1010,7 @@ export interface components {
             /** @enum {unknown} */
             type: "timeout";
             seconds: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1020,7 +1020,7 @@ export interface components {
         Try: {
             /** @enum {unknown} */
             type: "try";
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1030,7 +1030,7 @@ export interface components {
         Invert: {
             /** @enum {unknown} */
             type: "invert";
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1040,7 +1040,7 @@ export interface components {
         Once: {
             /** @enum {unknown} */
             type: "once";
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1073,8 +1073,8 @@ export interface components {
             type: "if";
             condition: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
             text: string;
-            then: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
-            orelse: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"]) | null;
+            then: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            orelse: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"]) | null;
             source: components["schemas"]["Position"];
         };
         /**
@@ -1087,7 +1087,7 @@ export interface components {
             condition: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
             text: string;
             limit: number;
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1099,7 +1099,7 @@ export interface components {
             type: "for";
             variable: string;
             items: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1146,7 +1146,7 @@ export interface components {
             /** @enum {unknown} */
             type: "with";
             call: components["schemas"]["Call"];
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["skillc_model.tree.Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1297,7 +1297,7 @@ export interface components {
             /** @enum {unknown} */
             type: "requested";
             time: number;
-            command: components["schemas"]["Approve"] | components["schemas"]["Pause"] | components["schemas"]["Resume"] | components["schemas"]["StepInto"] | components["schemas"]["StepOver"] | components["schemas"]["StepOut"] | components["schemas"]["Stop"] | components["schemas"]["Abort"] | components["schemas"]["skillc_runtime.recording.commands.Retry"] | components["schemas"]["Skip"] | components["schemas"]["Replan"] | components["schemas"]["Answer"] | components["schemas"]["SetBreakpoints"] | components["schemas"]["EditWorld"];
+            command: components["schemas"]["Approve"] | components["schemas"]["Pause"] | components["schemas"]["Resume"] | components["schemas"]["StepInto"] | components["schemas"]["StepOver"] | components["schemas"]["StepOut"] | components["schemas"]["Stop"] | components["schemas"]["Abort"] | components["schemas"]["CommandsRetry"] | components["schemas"]["Skip"] | components["schemas"]["Replan"] | components["schemas"]["Answer"] | components["schemas"]["SetBreakpoints"] | components["schemas"]["EditWorld"];
             tick: number;
             /** @default  */
             refused?: string;
