@@ -18,6 +18,7 @@ from skillc_runtime.primitives.standing_bases import place_standing_bases
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +58,16 @@ class CellBackend:
         self.backend.close()
         self._use(backend)
         return Beginning(checkpoint)
+
+    def try_out(self, state: WorldState, saved: bytes | None) -> None:
+        """Raise what `build` would raise with this version of the world."""
+        make_backend(self._settings.backend, WorldModel(state), self._settings.seed, saved).close()
+
+    def build(self, saved: bytes | None) -> None:
+        """Build the cell again as it was saved, or as its facts say; errors as of `make_backend`."""
+        backend = make_backend(self._settings.backend, self._world, self._settings.seed, saved)
+        self.backend.close()
+        self._use(backend)
 
     def _use(self, backend: Backend) -> None:
         self.backend = backend

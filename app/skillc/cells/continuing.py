@@ -44,6 +44,10 @@ def find_interrupted(request: OperationRequest, reader: JournalReader) -> Record
         raise RequestError(f"{name} has {state}; only an operation that was interrupted can be continued")
     if ended.continued_by:
         raise RequestError(f"{name} was continued by {ended.continued_by}")
+    if not ended.decisions:
+        raise RequestError(
+            f"{name} cannot be continued, or the cell was reset since; submit its task again"
+        )
     return operation
 
 

@@ -21,14 +21,27 @@ PERIOD = 1000
 """After how many writes those that the ledger has merged are saved again."""
 
 
+class StoredWrite(msgspec.Struct, frozen=True):
+    """A write that is kept with how its facts are known; `undo` leads back to the version before."""
+
+    evidence: Evidence | None
+    origin: str
+    changes: str
+    undo: str
+
+
 class MergedWrites(msgspec.Struct, frozen=True):
-    """All writes up to `sequence` as one, as the ledger keeps them; `undo` leads back to the scene."""
+    """All writes up to `sequence` as one, as the ledger keeps them; `undo` leads back to the scene.
+
+    `separate` are those after that one, up to `sequence`, if the world was restored.
+    """
 
     sequence: int
     evidence: Evidence | None
     origin: str
     changes: str
     undo: str
+    separate: tuple[StoredWrite, ...] = ()
 
 
 class EvidenceKeeper:
@@ -50,11 +63,35 @@ class EvidenceKeeper:
         saved = MergedWrites(self._sequence, write.evidence, write.origin, changes, undo)
         self._journal.set_state(MERGED, msgspec.msgpack.encode(saved))
 
+    def replace(self, writes: Sequence[UndoableWrite], origin: str) -> None:
+        """Let the facts be known as these writes to the world say, the last of which led to its present version.
 
-def keep_as_given(journal: CellJournal, sequence: int, origin: str) -> None:
-    """Record that all facts after the write `sequence` were given by a person, whatever was known before."""
+        Without any, they are given; `origin` says by whom.
+        """
+        world = self._world
+        world.ledger = EvidenceLedger()
+        world.ledger.restore(world.snapshot(), writes)
+        self._sequence = world.sequence
+        keep_as_given(self._journal, world.sequence, origin, tuple(map(store_write, writes)))
+
+
+def store_write(write: UndoableWrite) -> StoredWrite:
+    """Return a write as it is kept."""
+    return StoredWrite(write.evidence, write.origin, encode_changes(write.changes), encode_changes(write.undo))
+
+
+def read_write(stored: StoredWrite) -> UndoableWrite:
+    """Return a write that was kept; ValueError if it cannot be read."""
+    return UndoableWrite(stored.evidence, stored.origin, decode_changes(stored.changes), decode_changes(stored.undo))
+
+
+def keep_as_given(journal: CellJournal, sequence: int, origin: str, writes: tuple[StoredWrite, ...] = ()) -> None:
+    """Record that all facts after the write `sequence` were given by a person, whatever was known before.
+
+    They are but for what `writes` say, which led to them.
+    """
     nothing = encode_changes(())
-    journal.set_state(MERGED, msgspec.msgpack.encode(MergedWrites(sequence, None, origin, nothing, nothing)))
+    journal.set_state(MERGED, msgspec.msgpack.encode(MergedWrites(sequence, None, origin, nothing, nothing, writes)))
 
 
 def read_merged(reader: JournalReader) -> MergedWrites | None:
@@ -74,6 +111,7 @@ def restore_evidence(
     if merged is not None:
         changes, undo = decode_changes(merged.changes), decode_changes(merged.undo)
         kept.append(UndoableWrite(merged.evidence, merged.origin, changes, undo))
+        kept.extend(map(read_write, merged.separate))
     for each in writes:
         kept.append(UndoableWrite(each.evidence, each.transaction.origin, each.transaction.changes, each.undo))
     ledger.restore(state, kept)

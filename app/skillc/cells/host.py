@@ -12,6 +12,7 @@ from msgspec import structs
 
 from skillc.cells.assigning import assign_request
 from skillc.cells.cell_backend import CellBackend
+from skillc.cells.checkpoints import CellCheckpoints
 from skillc.cells.condition import CellCondition
 from skillc.cells.continuing import decisions_about, find_interrupted, prepare_continuation, take_over
 from skillc.cells.database import DatabaseError
@@ -29,7 +30,7 @@ from skillc.cells.snapshot import CellSnapshot, encode_snapshot
 from skillc.cells.submitted import SubmittedOperation
 from skillc.cells.world import restore_world
 from skillc.contract.cell import CellStatus
-from skillc.contract.messages import Edit, Place
+from skillc.contract.messages import Edit, Place, Reset, Restore, Turn
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.errors import RequestError
 from skillc.services.backends import DEFAULT_BACKEND
@@ -86,6 +87,8 @@ class CellHost:
         self.world, self._journal, self._reader = world, journal, reader
         self.devices = CellBackend(settings, world, journal, reader)
         self._evidence = EvidenceKeeper(world, journal, reader)
+        self._checkpoints = CellCheckpoints(settings, scene, self.devices, self._evidence, journal, reader)
+        self._resets = 0
         origin = CellOrigin(str(scene), settings.seed, settings.backend)
         self._recordings = CellRecordings(Path(settings.folder), self.devices, origin, reporter)
         self.loop = CellLoop(self.devices.backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
@@ -105,6 +108,8 @@ class CellHost:
             state=state,
             reason=reason,
             pace=pace,
+            resettable=self._checkpoints.possible,
+            resets=self._resets,
         )
 
     def acknowledge(self) -> None:
@@ -172,6 +177,19 @@ class CellHost:
         if self.loop.fault is not None:
             raise RequestError(f"the world of {self.settings.name} cannot be written: {self.loop.fault}")
         edit_world(self.world, wanted, self.loop, self._operations.values())
+
+    def turn(self, wanted: Turn) -> None:
+        """Reset the cell to its scene, save or restore it; RequestError or DiagnosticsError if that is not possible."""
+        if self._operations:
+            going = ", ".join(self._operations)
+            raise RequestError(f"{going} goes on or waits in {self.settings.name}; stop it, or wait until it has ended")
+        if self.loop.fault is not None:
+            raise RequestError(f"the journal of {self.settings.name} cannot be written: {self.loop.fault}")
+        self._checkpoints.carry_out(wanted, self.world, self.library)
+        self.loop.backend = self.devices.backend
+        self._resets += isinstance(wanted, Reset | Restore)
+        self._condition.update()
+        self._commit()
 
     def disturb(self, disturbance: Disturbance, who: str) -> None:
         """Let something happen to a simulated cell; RequestError if it is not possible."""

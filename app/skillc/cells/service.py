@@ -22,11 +22,15 @@ from skillc.contract.messages import (
     Disturb,
     Edit,
     End,
+    Forget,
     Give,
     Happened,
     Look,
     Place,
     Refused,
+    Reset,
+    Restore,
+    Save,
     SetPace,
     StatusChanged,
     Submit,
@@ -198,6 +202,8 @@ class CellService:
             case Disturb(disturbance=disturbance, who=who):
                 self._host.disturb(disturbance, who)
                 return _Pending(number, durable=False)
+            case Reset() | Save() | Restore() | Forget():
+                self._host.turn(message)
             case TakeLibrary(content=content):
                 self._host.take_library(content)
             case End(reason=reason):

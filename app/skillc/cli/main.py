@@ -45,6 +45,7 @@ SECTIONS = {
         "attach",
         "logs",
         "pace",
+        "cell",
         "lease",
         "answer",
         "acknowledge",

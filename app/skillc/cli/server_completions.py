@@ -72,6 +72,12 @@ def complete_order(context: click.Context, _parameter: click.Parameter, begun: s
     return _offer({name: made.task or made.goal or made.call or "" for name, made in requests.items()}, begun)
 
 
+def complete_checkpoint(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Return the checkpoints of the cell of a command, with who has saved them."""
+    found = _ask_server(context, lambda server: server.cell(context.params.get("cell")).checkpoints())
+    return _offer({each.name: each.who for each in found}, begun)
+
+
 def complete_token(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """Return the tokens, with their roles."""
     return _offer({each.name: each.role for each in _ask_server(context, lambda server: server.tokens())}, begun)

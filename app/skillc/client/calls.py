@@ -5,7 +5,7 @@ from __future__ import annotations
 from skillc.client.connection import Connection
 from skillc.contract.access import TokenInfo
 from skillc.contract.audit import AuditEntry, AuditPage
-from skillc.contract.cell import CellStatus
+from skillc.contract.cell import CellCheckpoint, CellStatus, CheckpointName, ResetReason
 from skillc.contract.device import DeviceStatus
 from skillc.contract.endpoints import (
     ACKNOWLEDGE_FAULT,
@@ -15,6 +15,7 @@ from skillc.contract.endpoints import (
     JUDGE_TRIALS,
     LIST_AUDIT_ENTRIES,
     LIST_CELLS,
+    LIST_CHECKPOINTS,
     LIST_LIBRARIES,
     LIST_LIBRARY_SOURCES,
     LIST_ORDERS,
@@ -28,9 +29,13 @@ from skillc.contract.endpoints import (
     READ_LIBRARY_SOURCE,
     READ_SIGNALS,
     RELEASE_LEASE,
+    REMOVE_CHECKPOINT,
     REMOVE_TRIALS,
     REPLAY_TRIAL,
+    RESET_CELL,
+    RESTORE_CELL,
     REVOKE_TOKEN,
+    SAVE_CELL,
     SHOW_CELL,
     SHOW_COVERAGE,
     SHOW_LEASE,
@@ -160,6 +165,35 @@ class CellCalls:
         Why an operation, or everything, is stopped. A long reason is cut, and what else a body has is ignored.
         """
         return await self._connection.call(STOP_CELL, self.name, body=StopReason(reason=reason))
+
+    async def reset(self, why: str = "") -> CellStatus:
+        """Make a simulated cell again as its scene says: its world and its reality.
+
+        Why a cell is reset or restored, for the history of its world.
+        """
+        return await self._connection.call(RESET_CELL, self.name, body=ResetReason(why=why))
+
+    async def checkpoints(self) -> tuple[CellCheckpoint, ...]:
+        """List how a simulated cell was saved, by name."""
+        return await self._connection.call(LIST_CHECKPOINTS, self.name)
+
+    async def save(self, name: str) -> CellCheckpoint:
+        """Save a simulated cell as it is, its world and its reality, under a name.
+
+        The name of a new checkpoint: letters, digits, `_`, `-` and `.`.
+        """
+        return await self._connection.call(SAVE_CELL, self.name, body=CheckpointName(name=name))
+
+    async def restore(self, checkpoint: str, why: str = "") -> CellStatus:
+        """Make a simulated cell again as it was saved.
+
+        Why a cell is reset or restored, for the history of its world.
+        """
+        return await self._connection.call(RESTORE_CELL, self.name, checkpoint, body=ResetReason(why=why))
+
+    async def remove_checkpoint(self, checkpoint: str) -> None:
+        """Forget how a simulated cell was saved."""
+        return await self._connection.call(REMOVE_CHECKPOINT, self.name, checkpoint)
 
     async def model(self) -> CellModel:
         """Show the shapes and joints of a simulated cell, as they really are."""

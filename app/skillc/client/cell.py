@@ -13,7 +13,7 @@ from skillc.client.requests import (
     PLANNING_S,
 )
 from skillc.client.waiting import WaitingCell
-from skillc.contract.cell import CellStatus
+from skillc.contract.cell import CellCheckpoint, CellStatus
 from skillc.contract.device import DeviceStatus
 from skillc.contract.disturbance import Disturbance
 from skillc.contract.geometry import CellModel, SurfaceCoverage
@@ -48,6 +48,35 @@ class ServerCell(WaitingCell):
         Why an operation, or everything, is stopped. A long reason is cut, and what else a body has is ignored.
         """
         return self._loop.run(self._client.stop(reason))
+
+    def reset(self, why: str = "") -> CellStatus:
+        """Make a simulated cell again as its scene says: its world and its reality.
+
+        Why a cell is reset or restored, for the history of its world.
+        """
+        return self._loop.run(self._client.reset(why))
+
+    def checkpoints(self) -> tuple[CellCheckpoint, ...]:
+        """List how a simulated cell was saved, by name."""
+        return self._loop.run(self._client.checkpoints())
+
+    def save(self, name: str) -> CellCheckpoint:
+        """Save a simulated cell as it is, its world and its reality, under a name.
+
+        The name of a new checkpoint: letters, digits, `_`, `-` and `.`.
+        """
+        return self._loop.run(self._client.save(name))
+
+    def restore(self, checkpoint: str, why: str = "") -> CellStatus:
+        """Make a simulated cell again as it was saved.
+
+        Why a cell is reset or restored, for the history of its world.
+        """
+        return self._loop.run(self._client.restore(checkpoint, why))
+
+    def remove_checkpoint(self, checkpoint: str) -> None:
+        """Forget how a simulated cell was saved."""
+        self._loop.run(self._client.remove_checkpoint(checkpoint))
 
     def model(self) -> CellModel:
         """Show the shapes and joints of a simulated cell, as they really are."""

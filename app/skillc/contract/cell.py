@@ -19,7 +19,8 @@ class CellStatus(msgspec.Struct, frozen=True, kw_only=True):
     """A cell as it is now; `reason` is why it is in its state.
 
     `library_hash` identifies the library that its next operation runs; `library_problem` is why that is not the one on
-    disk. `pace` is None for as fast as it computes.
+    disk. `pace` is None for as fast as it computes. A `resettable` cell can be reset to its scene, saved and restored;
+    `resets` counts how often it was since its process was started: what was seen of it before is past.
     """
 
     name: str
@@ -31,6 +32,36 @@ class CellStatus(msgspec.Struct, frozen=True, kw_only=True):
     state: CellState = "operational"
     reason: str = ""
     pace: float | None = None
+    resettable: bool = False
+    resets: int = 0
+
+
+class ResetReason(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Why a cell is reset or restored, for the history of its world."""
+
+    why: Annotated[str, msgspec.Meta(max_length=500)] = ""
+
+
+class CheckpointName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The name of a new checkpoint: letters, digits, `_`, `-` and `.`."""
+
+    name: Annotated[str, msgspec.Meta(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_.-]*$", max_length=100)]
+
+
+class CellCheckpoint(msgspec.Struct, frozen=True, kw_only=True):
+    """A simulated cell as `who` has saved it under a name, at the wall time `saved_ns` in ns since 1970.
+
+    It can be restored in a cell with the same scene, library, backend and seed. `scene` is the name of its file with a
+    digest of what is in it.
+    """
+
+    name: str
+    who: str
+    saved_ns: int
+    scene: str
+    library_hash: str
+    backend: str
+    seed: int
 
 
 MAX_PACE = 1000.0

@@ -12,7 +12,7 @@ from typing import Any
 
 from skillc.contract.access import LoginCode, MadeToken, NewToken, SessionInfo, TokenInfo
 from skillc.contract.audit import AuditEntry, AuditPage
-from skillc.contract.cell import CellStatus, PaceSetting
+from skillc.contract.cell import CellCheckpoint, CellStatus, CheckpointName, PaceSetting, ResetReason
 from skillc.contract.commands import OperatorCommand
 from skillc.contract.device import DeviceStatus
 from skillc.contract.disturbance import Disturbance
@@ -77,6 +77,30 @@ ACKNOWLEDGE_FAULT = Endpoint(
 STOP_CELL = Endpoint(
     "stop_cell", "POST", "/cells/{cell}/stop", "view", "Stop all operations of a cell", CellStatus, body=StopReason,
     needs_body=False, refusals=(NOT_FOUND,), unlimited=True, call="stop",
+)
+
+RESET_CELL = Endpoint(
+    "reset_cell", "POST", "/cells/{cell}/reset", "operate",
+    "Make a simulated cell again as its scene says: its world and its reality", CellStatus, body=ResetReason,
+    needs_body=False, refusals=OF_CELLS, call="reset",
+)
+LIST_CHECKPOINTS = Endpoint(
+    "list_checkpoints", "GET", "/cells/{cell}/checkpoints", "view", "List how a simulated cell was saved, by name",
+    tuple[CellCheckpoint, ...], refusals=(NOT_FOUND,), call="checkpoints",
+)
+SAVE_CELL = Endpoint(
+    "save_cell", "POST", "/cells/{cell}/checkpoints", "operate",
+    "Save a simulated cell as it is, its world and its reality, under a name", CellCheckpoint, body=CheckpointName,
+    status=HTTPStatus.CREATED, refusals=OF_CELLS, call="save",
+)
+RESTORE_CELL = Endpoint(
+    "restore_cell", "POST", "/cells/{cell}/checkpoints/{checkpoint}/restore", "operate",
+    "Make a simulated cell again as it was saved", CellStatus, body=ResetReason, needs_body=False, refusals=OF_CELLS,
+    call="restore",
+)
+REMOVE_CHECKPOINT = Endpoint(
+    "remove_checkpoint", "DELETE", "/cells/{cell}/checkpoints/{checkpoint}", "operate",
+    "Forget how a simulated cell was saved", NoneType, status=HTTPStatus.NO_CONTENT, refusals=OF_CELLS,
 )
 
 DISTURB_CELL = Endpoint(

@@ -88,6 +88,34 @@ class Disturb(_Message, tag="disturb", frozen=True, kw_only=True):
     who: str
 
 
+class Reset(_Message, tag="reset", frozen=True, kw_only=True):
+    """Make the simulated cell again as its scene says; `who` wants it, and `why`."""
+
+    who: str
+    why: str
+
+
+class Save(_Message, tag="save", frozen=True, kw_only=True):
+    """Save the simulated cell as it is under a name that no other checkpoint has; `who` wants it."""
+
+    name: str
+    who: str
+
+
+class Restore(_Message, tag="restore", frozen=True, kw_only=True):
+    """Make the simulated cell again as it was saved under a name; `who` wants it, and `why`."""
+
+    name: str
+    who: str
+    why: str
+
+
+class Forget(_Message, tag="forget", frozen=True, kw_only=True):
+    """Forget what was saved under a name."""
+
+    name: str
+
+
 class TakeLibrary(_Message, tag="library", frozen=True, kw_only=True):
     """Run another library from the next operation on; it was checked."""
 
@@ -100,7 +128,9 @@ class End(_Message, tag="end", frozen=True, kw_only=True):
     reason: str
 
 
-Change: TypeAlias = Submit | Give | SetPace | Acknowledge | Edit | Place | Disturb | TakeLibrary | End
+Turn: TypeAlias = Reset | Save | Restore | Forget
+"""What concerns the cell as a whole, at rest."""
+Change: TypeAlias = Submit | Give | SetPace | Acknowledge | Edit | Place | Disturb | Turn | TakeLibrary | End
 Look: TypeAlias = TakeSnapshot | TakeSample | TakeGeometry | TakeCoverage
 Message: TypeAlias = Change | Look
 

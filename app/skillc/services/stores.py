@@ -124,7 +124,7 @@ def _world(store: OpenStore, scene: Path | None, vocabulary: Vocabulary, reporte
         if scene is None:
             raise ServiceError(f"{store} is empty; name the scene to fill it with")
         state = load_world(scene, vocabulary, reporter)
-        event = ChangeEvent((), _beginning(scene), WorldState.empty(vocabulary), state)
+        event = ChangeEvent((), identify_scene(scene), WorldState.empty(vocabulary), state)
         if store.append(event, stored.sequence):
             reporter.say(f"{store}: filled with {scene.name}")
             return state, stored.sequence + 1
@@ -138,7 +138,7 @@ def _world(store: OpenStore, scene: Path | None, vocabulary: Vocabulary, reporte
 
 def _compare(stored: StoredWorld, scene: Path | None, store: OpenStore, reporter: Reporter) -> None:
     """ServiceError for a store that was filled with another scene; a warning if that scene has changed since."""
-    if scene is None or stored.beginning == _beginning(scene):
+    if scene is None or stored.beginning == identify_scene(scene):
         return
     if _name(stored) != scene.name:
         raise ServiceError(
@@ -148,8 +148,8 @@ def _compare(stored: StoredWorld, scene: Path | None, store: OpenStore, reporter
     reporter.say(f"warning: {scene} has changed since {store} was filled with it; --reset fills it again")
 
 
-def _beginning(scene: Path) -> str:
-    """Return the identity of the scene that a store is filled with: its name and a digest of its file."""
+def identify_scene(scene: Path) -> str:
+    """Return the identity of a scene: its name and a digest of its file. OSError if it cannot be read."""
     return f"scene {scene.name} {sha256(scene.read_bytes()).hexdigest()[:12]}"
 
 

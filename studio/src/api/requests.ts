@@ -40,6 +40,41 @@ export interface Requests {
     body: Schemas["StopReason"];
     answer: Required<Schemas["CellStatus"]>;
   };
+  /** Make a simulated cell again as its scene says: its world and its reality. */
+  reset_cell: {
+    path: [cell: string];
+    query: Record<string, never>;
+    body: Schemas["ResetReason"];
+    answer: Required<Schemas["CellStatus"]>;
+  };
+  /** List how a simulated cell was saved, by name. */
+  list_checkpoints: {
+    path: [cell: string];
+    query: Record<string, never>;
+    body: undefined;
+    answer: Required<Schemas["CellCheckpoint"]>[];
+  };
+  /** Save a simulated cell as it is, its world and its reality, under a name. */
+  save_cell: {
+    path: [cell: string];
+    query: Record<string, never>;
+    body: Schemas["CheckpointName"];
+    answer: Required<Schemas["CellCheckpoint"]>;
+  };
+  /** Make a simulated cell again as it was saved. */
+  restore_cell: {
+    path: [cell: string, checkpoint: string];
+    query: Record<string, never>;
+    body: Schemas["ResetReason"];
+    answer: Required<Schemas["CellStatus"]>;
+  };
+  /** Forget how a simulated cell was saved. */
+  remove_checkpoint: {
+    path: [cell: string, checkpoint: string];
+    query: Record<string, never>;
+    body: undefined;
+    answer: undefined;
+  };
   /** Let something happen to a simulated cell that no skill does. */
   disturb_cell: {
     path: [cell: string];
@@ -495,6 +530,11 @@ export const REQUESTS: Record<keyof Requests, Place> = {
   set_pace: { method: "PUT", path: "/cells/{cell}/pace" },
   acknowledge_fault: { method: "POST", path: "/cells/{cell}/acknowledge" },
   stop_cell: { method: "POST", path: "/cells/{cell}/stop" },
+  reset_cell: { method: "POST", path: "/cells/{cell}/reset" },
+  list_checkpoints: { method: "GET", path: "/cells/{cell}/checkpoints" },
+  save_cell: { method: "POST", path: "/cells/{cell}/checkpoints" },
+  restore_cell: { method: "POST", path: "/cells/{cell}/checkpoints/{checkpoint}/restore" },
+  remove_checkpoint: { method: "DELETE", path: "/cells/{cell}/checkpoints/{checkpoint}" },
   disturb_cell: { method: "POST", path: "/cells/{cell}/disturbances" },
   show_model: { method: "GET", path: "/cells/{cell}/model" },
   list_poses: { method: "GET", path: "/cells/{cell}/poses" },

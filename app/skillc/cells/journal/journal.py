@@ -14,6 +14,7 @@ import msgspec
 from skillc.cells.database import describe_error, open_for_writing
 from skillc.cells.journal.fingerprint import FINGERPRINT, Fingerprint, encode_fingerprint
 from skillc.cells.journal.schema import SCHEMA
+from skillc.contract.cell import CellCheckpoint
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc_runtime.execution.cell_loop import NotDurable
 from skillc_runtime.recording.envelope import Envelope
@@ -25,6 +26,8 @@ _INSERT_OPERATION = "INSERT INTO operations (id, submitted_ns, request) VALUES (
 _END_OPERATION = "UPDATE operations SET ended = ? WHERE id = ?"
 _INSERT_EVENT = "INSERT INTO events (operation, sequence, envelope) VALUES (?, ?, ?)"
 _SET_STATE = "INSERT OR REPLACE INTO cell_state (name, value) VALUES (?, ?)"
+_ADD_CHECKPOINT = "INSERT INTO checkpoints (name, description, content) VALUES (?, ?, ?)"
+_REMOVE_CHECKPOINT = "DELETE FROM checkpoints WHERE name = ?"
 _INSERT_TRANSACTION = """INSERT INTO transactions (sequence, origin, evidence, changes, undo, written_ns)
 VALUES (?, ?, ?, ?, ?, ?)"""
 
@@ -42,9 +45,11 @@ class _Pending:
     events: list[tuple[str, int, bytes]] = field(default_factory=list)
     writes: list[_Write] = field(default_factory=list)
     states: dict[str, bytes] = field(default_factory=dict)
+    checkpoints: list[tuple[str, bytes, bytes]] = field(default_factory=list)
+    forgotten: list[tuple[str]] = field(default_factory=list)
 
     def __bool__(self) -> bool:
-        return bool(self.operations or self.ended or self.events or self.writes or self.states)
+        return any(getattr(self, each) for each in self.__slots__)
 
 
 class CellJournal:
@@ -101,6 +106,14 @@ class CellJournal:
         """Record what the cell needs when it is started again, in place of what was recorded under this name."""
         self._pending.states[name] = value
 
+    def add_checkpoint(self, checkpoint: CellCheckpoint, content: bytes) -> None:
+        """Record how the cell is, under a name that no other checkpoint has."""
+        self._pending.checkpoints.append((checkpoint.name, self._encoder.encode(checkpoint), content))
+
+    def remove_checkpoint(self, name: str) -> None:
+        """Forget a checkpoint."""
+        self._pending.forgotten.append((name,))
+
     @property
     def has_writes(self) -> bool:
         """Whether the next commit makes writes to the world durable."""
@@ -156,6 +169,8 @@ class CellJournal:
             self._connection.executemany(_INSERT_TRANSACTION, rows)
             self._connection.executemany(_END_OPERATION, pending.ended)
             self._connection.executemany(_SET_STATE, pending.states.items())
+            self._connection.executemany(_ADD_CHECKPOINT, pending.checkpoints)
+            self._connection.executemany(_REMOVE_CHECKPOINT, pending.forgotten)
             self._connection.execute("COMMIT")
         except BaseException:
             if self._connection.in_transaction:

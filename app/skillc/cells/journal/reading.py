@@ -12,6 +12,7 @@ import msgspec
 
 from skillc.cells.database import DatabaseError, describe_error, open_for_reading
 from skillc.cells.journal.schema import SCHEMA
+from skillc.contract.cell import CellCheckpoint
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.store.change_json import decode_changes
@@ -112,6 +113,20 @@ class JournalReader:
         with self._reading() as connection:
             row = connection.execute("SELECT value FROM cell_state WHERE name = ?", (name,)).fetchone()
             return None if row is None else bytes(row[0])
+
+    def checkpoints(self) -> tuple[CellCheckpoint, ...]:
+        """Return how the cell was saved, by name."""
+        with self._reading() as connection:
+            rows = connection.execute("SELECT description FROM checkpoints ORDER BY name").fetchall()
+            return tuple(msgspec.json.decode(each, type=CellCheckpoint) for (each,) in rows)
+
+    def checkpoint_content(self, name: str) -> bytes:
+        """Return what was saved under the name of a checkpoint; LookupError if there is none."""
+        with self._reading() as connection:
+            row = connection.execute("SELECT content FROM checkpoints WHERE name = ?", (name,)).fetchone()
+            if row is None:
+                raise LookupError(name)
+            return bytes(row[0])
 
     def writes(self, after: int = 0) -> tuple[JournalledWrite, ...]:
         """Return the writes to the world after a number, in order."""

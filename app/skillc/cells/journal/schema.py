@@ -11,6 +11,11 @@ _CELL_STATE = """CREATE TABLE cell_state (
     value BLOB NOT NULL
 ) WITHOUT ROWID"""
 _UNFINISHED = "CREATE INDEX unfinished_operations ON operations (submitted_ns) WHERE ended IS NULL"
+_CHECKPOINTS = """CREATE TABLE checkpoints (
+    name        TEXT PRIMARY KEY,
+    description BLOB NOT NULL,                  -- CellCheckpoint as JSON
+    content     BLOB NOT NULL                   -- SavedCell as MessagePack
+) WITHOUT ROWID"""
 
 
 def _add_cell_state(connection: sqlite3.Connection) -> None:
@@ -22,9 +27,14 @@ def _add_index_of_unfinished(connection: sqlite3.Connection) -> None:
     connection.execute(_UNFINISHED)
 
 
+def _add_checkpoints(connection: sqlite3.Connection) -> None:
+    connection.execute(_CHECKPOINTS)
+
+
 SCHEMA = Schema(
-    format=3,
+    format=4,
     tables=f"""{_CELL_STATE};
+{_CHECKPOINTS};
 CREATE TABLE operations (
     id           TEXT PRIMARY KEY,
     submitted_ns INTEGER NOT NULL,              -- wall time, ns since 1970-01-01 UTC
@@ -48,5 +58,5 @@ CREATE TABLE transactions (
     written_ns INTEGER NOT NULL DEFAULT 0       -- wall time, ns since 1970-01-01 UTC; 0 if it is not known
 )
 """,
-    migrations={1: _add_cell_state, 2: _add_index_of_unfinished},
+    migrations={1: _add_cell_state, 2: _add_index_of_unfinished, 3: _add_checkpoints},
 )
