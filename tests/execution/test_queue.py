@@ -48,9 +48,9 @@ def test_runs_get_devices_by_priority_and_then_in_order(seed: int) -> None:
         if len(queue) < 8 and chance.random() < 0.3:
             needs = None if chance.random() < 0.1 else frozenset(chance.sample(sorted(DEVICES), chance.choice((1, 2))))
             entry = Entry(f"run-{number}", chance.choice((-1, 0, 0, 3)), needs)
-            claims.add(entry.name, entry.priority)
             queue.append(entry)
             queue.sort(key=lambda each: -each.priority)
+            claims.order([each.name for each in queue])
         for entry in tuple(queue):
             if chance.random() < (0.2 if entry.runs else 0.01):
                 claims.remove(entry.name)
@@ -66,8 +66,7 @@ def test_runs_get_devices_by_priority_and_then_in_order(seed: int) -> None:
 
 def test_what_a_running_run_holds_it_needs_not_wait_for_again() -> None:
     claims = DeviceClaims()
-    for run, priority in (("runs", 0), ("first", 5)):
-        claims.add(run, priority)
+    claims.order(("first", "runs"))
     assert claims.wait_for("runs", frozenset({"carl"})) is None
     assert claims.wait_for("first", None) is not None
     assert claims.wait_for("runs", frozenset({"carl"})) is None
@@ -86,6 +85,19 @@ def test_a_run_says_whom_it_waits_for_and_a_small_one_does_not_overtake() -> Non
     yard.loop.request(both.run, commands.Stop("enough"))
     yard.tick(2)
     assert small.run.state == "running" and both.run.end == "stopped"
+
+
+def test_who_waits_can_be_put_first_and_the_others_keep_their_order() -> None:
+    yard = Yard(ROBOTS, {})
+    holder = yard.submit("lab:carl at lab:d")
+    waiting = [yard.submit(f"lab:carl at lab:{place}") for place in "bcd"]
+    yard.tick(2)
+    yard.loop.reorder([waiting[2].run])
+    assert [each for each in yard.loop.runs if each.waits] == [waiting[at].run for at in (2, 0, 1)]
+    yard.loop.request(holder.run, commands.Stop("enough"))
+    yard.tick(2)
+    assert [each.run.state for each in waiting] == ["queued", "queued", "running"]
+    assert waiting[1].run.reason.endswith(f"which {waiting[2].run.id} holds")
 
 
 def test_only_so_many_planners_run_at_once() -> None:

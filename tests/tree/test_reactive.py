@@ -136,8 +136,7 @@ def test_a_branch_that_could_start_and_fails_does_not_halt_the_next_one_again() 
 
 def test_a_device_that_another_run_holds_is_neither_taken_nor_claimed_by_a_try() -> None:
     cell, claims = dark(a=LONG, b=LONG), DeviceClaims()
-    for name in ("own", "other"):
-        claims.add(name, 0)
+    claims.order(("own", "other"))
     claims.claim("other", frozenset({DEVICE}))
     body = sel(guarded(call("Use", name="a", device=DEVICE)), act("b"), reactive=True)
     run = TreeRun(body, Library().build(), cell, locks=ClaimedLocks(claims, "own"))

@@ -45,9 +45,7 @@ def find_interrupted(request: OperationRequest, reader: JournalReader) -> Record
     if ended.continued_by:
         raise RequestError(f"{name} was continued by {ended.continued_by}")
     if not ended.decisions:
-        raise RequestError(
-            f"{name} cannot be continued, or the cell was reset since; submit its task again"
-        )
+        raise RequestError(f"{name} cannot be continued, or the cell was reset since; submit its task again")
     return operation
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
@@ -143,6 +143,13 @@ class CellHost:
             command = SetBreakpoints(format_breakpoints(found))
         return self.loop.request(self._operations[operation].run, command)
 
+    def reorder(self, first: Sequence[str]) -> None:
+        """Let operations come before all others that wait, in this order; RequestError if one does not wait."""
+        waiting = {each.id: each for each in self.loop.runs if each.waits}
+        if missing := [each for each in first if each not in waiting]:
+            raise RequestError(f"{missing[0]} does not wait in {self.settings.name}; there wait: {', '.join(waiting)}")
+        self.loop.reorder([waiting[each] for each in dict.fromkeys(first)])
+
     def stop(self, operation: str | None, reason: str) -> None:
         """Stop an operation in the next tick, or all; may be called from other threads. It may have ended before."""
         if operation is None:
@@ -215,9 +222,10 @@ class CellHost:
         Those that have ended are forgotten; how they ended is in the journal.
         """
         changed = []
+        places = {each.id: place for place, each in enumerate((each for each in self.loop.runs if each.waits), 1)}
         for submitted in tuple(self._operations.values()):
             self._recordings.update(submitted)
-            operation = submitted.describe(self.settings.name)
+            operation = submitted.describe(self.settings.name, places.get(submitted.run.id, 0))
             if operation.state == "interrupted":
                 operation = structs.replace(operation, decisions=decisions_about(operation.id, self._reader))
             if operation != submitted.reported:

@@ -28,6 +28,7 @@ from skillc.contract.messages import (
     Look,
     Place,
     Refused,
+    Reorder,
     Reset,
     Restore,
     Save,
@@ -192,6 +193,9 @@ class CellService:
                 self._host.submit(operation, wanted)
             case Give(operation=operation, command=command):
                 return _Pending(number, self._host.request(operation, command))
+            case Reorder(first=first):
+                self._host.reorder(first)
+                return _Pending(number, durable=False)
             case SetPace(factor=factor):
                 self._set_pace(FAST if factor is None else factor)
                 return _Pending(number, durable=False)

@@ -24,8 +24,8 @@ class SubmittedOperation:
         self._submitted_at, self._account = to_instant(submitted_ns), account
         self.reported: OperationStatus | None = None
 
-    def describe(self, cell: str) -> OperationStatus:
-        """Return how it is in the cell of this name."""
+    def describe(self, cell: str, place: int) -> OperationStatus:
+        """Return how it is in the cell of this name; `place` is that among those that wait, 0 for none."""
         run, account = self.run, self._account
         return OperationStatus(
             id=run.id,
@@ -48,4 +48,5 @@ class SubmittedOperation:
             prompts=run.prompts,
             planning=run.planning,
             breakpoints=run.breakpoints,
+            place=place,
         )

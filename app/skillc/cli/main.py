@@ -41,6 +41,7 @@ SECTIONS = {
         "ps",
         "start",
         "orders",
+        "queue",
         "rehearse",
         "attach",
         "logs",

@@ -24,6 +24,11 @@ def print_cells(cells: Sequence[CellStatus], operations: Sequence[OperationStatu
     print_lines(format_cells(cells, operations, page_of(sys.stdout)))
 
 
+def print_operations(operations: Sequence[OperationStatus]) -> None:
+    """Print operations, a line for each."""
+    print_lines(page_of(sys.stdout).columns([_operation_row(each) for each in operations]))
+
+
 def format_cells(cells: Sequence[CellStatus], operations: Sequence[OperationStatus], page: TerminalPage) -> list[str]:
     """Return the lines of cells, and of operations below them."""
     lines = page.columns([_cell_row(each) for each in cells])

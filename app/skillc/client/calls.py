@@ -20,6 +20,7 @@ from skillc.contract.endpoints import (
     LIST_LIBRARY_SOURCES,
     LIST_ORDERS,
     LIST_POSES,
+    LIST_QUEUE,
     LIST_REHEARSALS,
     LIST_ROBOTS,
     LIST_THINGS,
@@ -31,6 +32,7 @@ from skillc.contract.endpoints import (
     RELEASE_LEASE,
     REMOVE_CHECKPOINT,
     REMOVE_TRIALS,
+    REORDER_QUEUE,
     REPLAY_TRIAL,
     RESET_CELL,
     RESTORE_CELL,
@@ -53,7 +55,7 @@ from skillc.contract.geometry import CellModel, SurfaceCoverage
 from skillc.contract.lease import Lease, LeaseRequest
 from skillc.contract.library import LibraryDescription, LibraryStatus
 from skillc.contract.operation import OperationStatus
-from skillc.contract.order import Order
+from skillc.contract.order import Order, QueueOrder
 from skillc.contract.rehearsal import Rehearsal
 from skillc.contract.run_diff import OtherRun, RunDiff
 from skillc.contract.run_tree import OperationTree
@@ -227,6 +229,17 @@ class CellCalls:
     async def orders(self) -> tuple[Order, ...]:
         """List the orders for a cell."""
         return await self._connection.call(LIST_ORDERS, self.name)
+
+    async def queue(self) -> tuple[OperationStatus, ...]:
+        """List the operations that wait in a cell, in the order in which they get planners and devices."""
+        return await self._connection.call(LIST_QUEUE, self.name)
+
+    async def reorder(self, first: tuple[str, ...]) -> tuple[OperationStatus, ...]:
+        """Let operations come before all others that wait in a cell, whatever their priority.
+
+        Which operations come first among those that wait in a cell, by their ids, in this order.
+        """
+        return await self._connection.call(REORDER_QUEUE, self.name, body=QueueOrder(first=first))
 
     async def things(self) -> tuple[PlacedThing, ...]:
         """List what has a place or a size in a cell, as it is believed."""

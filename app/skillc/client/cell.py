@@ -19,6 +19,7 @@ from skillc.contract.disturbance import Disturbance
 from skillc.contract.geometry import CellModel, SurfaceCoverage
 from skillc.contract.lease import Lease
 from skillc.contract.library import LibraryDescription
+from skillc.contract.operation import OperationStatus
 from skillc.contract.order import Order
 from skillc.contract.plan import PlanPreview
 from skillc.contract.rehearsal import Rehearsal
@@ -104,6 +105,17 @@ class ServerCell(WaitingCell):
     def orders(self) -> tuple[Order, ...]:
         """List the orders for a cell."""
         return self._loop.run(self._client.orders())
+
+    def queue(self) -> tuple[OperationStatus, ...]:
+        """List the operations that wait in a cell, in the order in which they get planners and devices."""
+        return self._loop.run(self._client.queue())
+
+    def reorder(self, first: tuple[str, ...]) -> tuple[OperationStatus, ...]:
+        """Let operations come before all others that wait in a cell, whatever their priority.
+
+        Which operations come first among those that wait in a cell, by their ids, in this order.
+        """
+        return self._loop.run(self._client.reorder(first))
 
     def things(self) -> tuple[PlacedThing, ...]:
         """List what has a place or a size in a cell, as it is believed."""

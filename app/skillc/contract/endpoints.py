@@ -24,7 +24,7 @@ from skillc.contract.lease import Lease, LeaseRequest
 from skillc.contract.library import LibraryDescription, LibraryStatus
 from skillc.contract.messages import Happened, StatusChanged
 from skillc.contract.operation import OperationRequest, OperationStatus
-from skillc.contract.order import Order, OrderRequest
+from skillc.contract.order import Order, OrderRequest, QueueOrder
 from skillc.contract.plan import PlanPreview, PlanRequest
 from skillc.contract.rehearsal import Rehearsal, RehearsalRequest
 from skillc.contract.report import REPORT_TYPES, OperationReport, ReportRequest
@@ -172,6 +172,17 @@ LIST_ORDERS = Endpoint(
 REMOVE_ORDER = Endpoint(
     "remove_order", "DELETE", "/orders/{order}", "operate", "Remove an order; what it has submitted goes on", NoneType,
     status=HTTPStatus.NO_CONTENT, refusals=(NOT_FOUND,), call=None,
+)
+
+LIST_QUEUE = Endpoint(
+    "list_queue", "GET", "/cells/{cell}/queue", "view",
+    "List the operations that wait in a cell, in the order in which they get planners and devices",
+    tuple[OperationStatus, ...], refusals=(NOT_FOUND,), call="queue",
+)
+REORDER_QUEUE = Endpoint(
+    "reorder_queue", "PUT", "/cells/{cell}/queue", "operate",
+    "Let operations come before all others that wait in a cell, whatever their priority", tuple[OperationStatus, ...],
+    body=QueueOrder, refusals=OF_CELLS, call="reorder",
 )
 
 READ_RECORDING = Endpoint(

@@ -36,6 +36,12 @@ class Give(_Message, tag="give", frozen=True, kw_only=True):
     command: Command
 
 
+class Reorder(_Message, tag="reorder", frozen=True, kw_only=True):
+    """Let operations come before all others that wait, in this order."""
+
+    first: tuple[str, ...]
+
+
 class SetPace(_Message, tag="set-pace", frozen=True, kw_only=True):
     """Let the cell's time pass at most `factor` times as fast as real time; None for as fast as it computes."""
 
@@ -130,7 +136,7 @@ class End(_Message, tag="end", frozen=True, kw_only=True):
 
 Turn: TypeAlias = Reset | Save | Restore | Forget
 """What concerns the cell as a whole, at rest."""
-Change: TypeAlias = Submit | Give | SetPace | Acknowledge | Edit | Place | Disturb | Turn | TakeLibrary | End
+Change: TypeAlias = Submit | Give | Reorder | SetPace | Acknowledge | Edit | Place | Disturb | Turn | TakeLibrary | End
 Look: TypeAlias = TakeSnapshot | TakeSample | TakeGeometry | TakeCoverage
 Message: TypeAlias = Change | Look
 

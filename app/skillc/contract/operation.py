@@ -43,7 +43,7 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     `library_hash` identifies what it runs. `devices` are the IRIs of those that it holds, null for the whole cell.
     `prompts` are what its skills ask operators. `planning` is how far its planner is; null if none works. `breakpoints`
     are those at which it pauses now. `decisions` are how it can be continued if it was interrupted, `continued_by` is
-    the operation that does.
+    the operation that does. `place` is its place among those of its cell that wait, from 1; 0 if it does not wait.
     """
 
     id: str
@@ -68,6 +68,7 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     breakpoints: tuple[str, ...] = ()
     decisions: tuple[Decision, ...] = ()
     continued_by: str = ""
+    place: int = 0
 
     @property
     def is_sound(self) -> bool:

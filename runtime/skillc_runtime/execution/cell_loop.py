@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import insort
 from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
@@ -55,7 +54,8 @@ class Request:
 class CellLoop:
     """Ticks the task runs of a cell; whoever drives it calls `tick` again and again, at the pace that it wants.
 
-    `runs` are those that have not ended; a higher priority comes first, then who was submitted first. `ticks` counts
+    `runs` are those that have not ended, in the order in which those that wait get planners and devices: a higher
+    priority comes first, then who was submitted first, unless they are `reorder`ed. `ticks` counts
     the ticks in which anything happened: requests and plans are recorded with this number, so that a run can be
     repeated. `after_tick` are called whenever time has passed. `request` and `stop` may be called from other threads
     and from signal handlers.
@@ -107,11 +107,19 @@ class CellLoop:
             self.origin,
             spec,
         )
-        self._claims.add(name, spec.priority)
         start = start_preparation or self.start_preparation
         run = TaskRun(name, assignment, context, self._claims, start)
-        insort(self.runs, run, key=lambda each: -each.spec.priority)
+        before = (place for place, each in enumerate(self.runs) if each.spec.priority >= spec.priority)
+        self.runs.insert(max(before, default=-1) + 1, run)
+        self._claims.order([each.id for each in self.runs])
         return run
+
+    def reorder(self, first: Sequence[TaskRun]) -> None:
+        """Let these runs come before all others that wait, in this order."""
+        others = [each for each in self.runs if each not in first]
+        ahead = next((place for place, each in enumerate(others) if each.waits), len(others))
+        self.runs = [*others[:ahead], *first, *others[ahead:]]
+        self._claims.order([each.id for each in self.runs])
 
     def request(self, run: TaskRun, command: Command) -> Request:
         """Give a command to a run in the next tick. TooManyRequests if as many as possible wait; a stop always goes."""

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import count
 
 from skillc_model import tree
 from skillc_model.conditions import Individual
@@ -34,18 +33,17 @@ class DevicesBusy:
 class DeviceClaims:
     """The devices, by IRI, that each task run holds until its end; None stands for the whole cell.
 
-    Runs that wait for devices form a queue: a higher priority comes first, then who was added first.
+    Runs that wait for devices form a queue, in the order that was given last.
     """
 
     def __init__(self) -> None:
         self._held: dict[str, frozenset[str] | None] = {}
         self._wanted: dict[str, frozenset[str] | None] = {}
-        self._places: dict[str, tuple[int, int]] = {}
-        self._numbers = count()
+        self._places: dict[str, int] = {}
 
-    def add(self, run: str, priority: int) -> None:
-        """Give a run its place in the queue; it waits for nothing yet."""
-        self._places[run] = (-priority, next(self._numbers))
+    def order(self, runs: Sequence[str]) -> None:
+        """Give all runs their places in the queue, the first one first; one that is new waits for nothing yet."""
+        self._places = {run: place for place, run in enumerate(runs)}
 
     def claim(self, run: str, devices: frozenset[str] | None) -> DevicesBusy | None:
         """Give devices to a run that goes on, or none of them, and return why, if another run holds one."""

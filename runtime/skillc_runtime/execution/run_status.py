@@ -65,6 +65,11 @@ class RunStatus:
         return self.state == "paused" and self._attempt is None
 
     @property
+    def waits(self) -> bool:
+        """Whether it has a place in the queue of those that wait for planners, approval or devices."""
+        return self.state in ("queued", "planning", "planned")
+
+    @property
     def waits_for(self) -> str:
         """For what its planning waits before it begins; empty if for nothing. It is no event: it depends on others."""
         return self._next.waits_for

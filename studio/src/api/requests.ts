@@ -187,6 +187,20 @@ export interface Requests {
     body: undefined;
     answer: undefined;
   };
+  /** List the operations that wait in a cell, in the order in which they get planners and devices. */
+  list_queue: {
+    path: [cell: string];
+    query: Record<string, never>;
+    body: undefined;
+    answer: Required<Schemas["OperationStatus"]>[];
+  };
+  /** Let operations come before all others that wait in a cell, whatever their priority. */
+  reorder_queue: {
+    path: [cell: string];
+    query: Record<string, never>;
+    body: Schemas["QueueOrder"];
+    answer: Required<Schemas["OperationStatus"]>[];
+  };
   /** Read the recording of an operation, an MCAP file, as far as it is written. */
   read_recording: {
     path: [operation: string];
@@ -551,6 +565,8 @@ export const REQUESTS: Record<keyof Requests, Place> = {
   add_order: { method: "POST", path: "/cells/{cell}/orders" },
   list_orders: { method: "GET", path: "/cells/{cell}/orders" },
   remove_order: { method: "DELETE", path: "/orders/{order}" },
+  list_queue: { method: "GET", path: "/cells/{cell}/queue" },
+  reorder_queue: { method: "PUT", path: "/cells/{cell}/queue" },
   read_recording: { method: "GET", path: "/operations/{operation}/recording", isFile: true },
   show_tree: { method: "GET", path: "/operations/{operation}/tree" },
   explain_run: { method: "GET", path: "/operations/{operation}/why" },
