@@ -89,6 +89,15 @@ def test_all_edits_are_made_and_the_rest_of_the_file_stays(scene: Path) -> None:
 
 
 @pytest.mark.slow
+def test_facts_are_edited_in_the_syntax_in_which_they_are_shown(scene: Path) -> None:
+    made = ("lab:Eraser-1.Weight == 200 g", "not lab:Cell contain lab:Table-1", "lab:Cell contain lab:Table-1")
+    assert edit(scene, *made, 'lab:Eraser-1.FrameId == "a b == c"', "lab:Rag-1 is Eraser").exit_code == 0
+    text = scene.read_text(encoding="utf-8")
+    assert "skiros:Weight 0.2" in text and '"a b == c"' in text and "lab:Rag-1 a wiping:Eraser" in text
+    shown = [line.strip() for line in world(scene).stdout.splitlines()]
+    assert "lab:Cell skiros:contain lab:Table-1" in shown
+
+
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
@@ -99,7 +108,13 @@ def test_all_edits_are_made_and_the_rest_of_the_file_stays(scene: Path) -> None:
         ("not lab:Eraser-1 skiros:Weight 7", "does not state"),
         ("not lab:Cell skillc:holdsDeep lab:Eraser-1", "follows from other statements"),
         ("not lab:Zebra-1", "does not state"),
-        ("lab:Eraser-1 skiros:Weight 0.2 . lab:Cell a skiros:Scene", "not one statement"),
+        ("lab:Eraser-1 skiros:Weight 0.2 . lab:Cell a skiros:Scene", "not one fact"),
+        ("lab:Eraser-1.Wieght == 0.2 kg", "no property Wieght; did you mean Weight"),
+        ("lab:Eraser-1.Weight == 2 N", "Weight is in kg, g, and this is in N"),
+        ("lab:Eraser-1.Weight == heavy", "Weight is written like `0.1 kg`"),
+        ("lab:Eraser-1.Weight = 2 kg", "has `==`"),
+        ("lab:Cell contains lab:Eraser-1", "no relation contains; did you mean contain"),
+        ("lab:Rag-1 is Cloht", "no class Cloht"),
         ("zoo:Zebra a skiros:Product", "`zoo:` is not declared"),
         ("not lab:Eraser-1", "nothing has this FrameId"),
     ],

@@ -41,6 +41,8 @@ from skillc.contract.world import (
     FactPage,
     PlacedThing,
     QueryRows,
+    StatableFacts,
+    TermPage,
     WorldEdit,
     WorldFacts,
     WorldPlacement,
@@ -218,6 +220,10 @@ LIST_FACTS = Endpoint(
 WRITE_WORLD = Endpoint(
     "write_world", "GET", "/cells/{cell}/world/document", "view", "Write the world of a cell as RDF or as a picture",
     WorldText, query=DocumentForm, refusals=OF_CELLS, call=None,
+)
+LIST_TERMS = Endpoint(
+    "list_terms", "GET", "/cells/{cell}/world/terms", "view", "List what facts about a thing of a cell can say",
+    StatableFacts, query=TermPage, refusals=OF_CELLS, call=None,
 )
 LIST_THINGS = Endpoint(
     "list_things", "GET", "/cells/{cell}/things", "view",

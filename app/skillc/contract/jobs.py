@@ -40,6 +40,12 @@ class WriteWorld(msgspec.Struct, frozen=True, tag="write-world"):
     everything: bool
 
 
+class ListTerms(msgspec.Struct, frozen=True, tag="terms"):
+    """List the relations and properties that facts about an individual may have."""
+
+    subject: str
+
+
 class ListThings(msgspec.Struct, frozen=True, tag="things"):
     """List the things that have a pose of their own or a size."""
 
@@ -119,17 +125,8 @@ class RecordTrial(msgspec.Struct, frozen=True, tag="record trial"):
     folder: str
 
 
-AnsweredJob: TypeAlias = (
-    QueryWorld
-    | ListFacts
-    | WriteWorld
-    | ListThings
-    | ListWrites
-    | ListDevices
-    | ListPoses
-    | CheckOperation
-    | PreviewPlan
-)
+WorldJob: TypeAlias = QueryWorld | ListFacts | WriteWorld | ListTerms | ListThings | ListWrites | ListPoses
+AnsweredJob: TypeAlias = WorldJob | ListDevices | CheckOperation | PreviewPlan
 SimulationJob: TypeAlias = Rehearse | MakeReport | CheckTrials | RunTrial | RecordTrial
 Job: TypeAlias = AnsweredJob | SimulationJob
 

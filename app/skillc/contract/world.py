@@ -78,6 +78,32 @@ class PlacedThing:
     problem: str | None = None
 
 
+class StatableTerm(msgspec.Struct, frozen=True):
+    """A relation or property that facts about a thing may have, and how these are written.
+
+    `type` is that of the value, as in the language: `Force`, `Text`, or for relations the classes of the objects.
+    Numbers are in `unit`; `values` are those of a text that has only these. A fact about a `functional` term replaces
+    the one before.
+    """
+
+    iri: str
+    name: str
+    kind: Literal["relation", "property"]
+    type: str
+    unit: str
+    values: tuple[str, ...]
+    objects: tuple[str, ...]
+    functional: bool
+    doc: str
+
+
+class StatableFacts(msgspec.Struct, frozen=True):
+    """What facts about a thing can say; `things` are the individuals of each class that `objects` of terms name."""
+
+    terms: tuple[StatableTerm, ...]
+    things: dict[str, tuple[str, ...]]
+
+
 EditText: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=2000)]
 
 
@@ -90,7 +116,8 @@ class WorldQuery(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 class WorldEdit(CheckedBody, frozen=True, forbid_unknown_fields=True):
     """Changes that are made together or not at all, and why.
 
-    Each is `SUBJECT PREDICATE VALUE`, `not SUBJECT PREDICATE VALUE` or `not INDIVIDUAL`, as of `skillc scene edit`.
+    Each is a fact as it is shown, such as `lab:Board-1.isClean == true`, with `not` before it if it does not hold, or
+    `not INDIVIDUAL`; statements of Turtle are taken, too.
     """
 
     edits: Annotated[tuple[EditText, ...], msgspec.Meta(min_length=1, max_length=200)]
@@ -131,6 +158,12 @@ class FactPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     search: IriText | None = None
     offset: Annotated[int, msgspec.Meta(ge=0, le=2**31)] = 0
     limit: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 200
+
+
+class TermPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The thing about which facts are stated: an IRI or `prefix:name`."""
+
+    subject: IriText
 
 
 class DocumentForm(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

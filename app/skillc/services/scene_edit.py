@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
-from skillc.errors import ServiceError
+from skillc.errors import RequestError, ServiceError
+from skillc.services.fact_text import FORMS, write_statement
 from skillc.services.scene_file import SceneFile
 from skillc_rdf.turtle.editing import Editor, StatementNotFound
 from skillc_rdf.turtle.parser import parse
@@ -17,8 +18,6 @@ from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import BASE, WELL_KNOWN
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.world.state.world_state import WorldState
-
-FORMS = "`SUBJECT PREDICATE VALUE`, `not SUBJECT PREDICATE VALUE` or `not INDIVIDUAL`"
 
 
 class StatementEdit(NamedTuple):
@@ -71,10 +70,14 @@ def _not_written(text: str, edit: StatementEdit, state: WorldState) -> str:
 
 
 def parse_edit(text: str, prefixes: dict[str, str], vocabulary: Vocabulary) -> StatementEdit:
-    """Parse an edit; ServiceError if it is not a valid one."""
+    """Parse an edit, a fact as it is shown or a statement of Turtle; ServiceError if it is not a valid one."""
     said = text.strip().removesuffix(".").strip()
     wanted = not said.startswith("not ")
     said = said if wanted else said.removeprefix("not ").strip()
+    try:
+        said = write_statement(said, vocabulary)
+    except RequestError as error:
+        raise ServiceError(f"`{text}`: {error}") from error
     alone = not wanted and len(said.split()) == 1
     known = {**dict(WELL_KNOWN), **prefixes}
     head = "".join(f"@prefix {name}: <{iri}> .\n" for name, iri in sorted(known.items()))
@@ -83,7 +86,7 @@ def parse_edit(text: str, prefixes: dict[str, str], vocabulary: Vocabulary) -> S
         problem = parsed.problems[0]
         raise ServiceError(f"`{text}`: {problem.message}" + (f"; {problem.help}" if problem.help else ""))
     if len(parsed.statements) != 1 or not isinstance(parsed.statements[0].subject, ox.NamedNode):
-        raise ServiceError(f"`{text}` is not one statement; write {FORMS}")
+        raise ServiceError(f"`{text}` is not one fact; write {FORMS}")
     (statement,) = parsed.statements
     if alone:
         return StatementEdit(False, iri_of(statement.subject))

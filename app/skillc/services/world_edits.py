@@ -1,4 +1,4 @@
-"""Reads edits of a running world as changes: statements as `skillc scene edit` takes them."""
+"""Reads edits of a running world as changes: facts as `skillc scene edit` takes them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 import pyoxigraph as ox
 
 from skillc.errors import RequestError
-from skillc.services.scene_edit import FORMS, StatementEdit, parse_edit
+from skillc.services.fact_text import FORMS
+from skillc.services.scene_edit import StatementEdit, parse_edit
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.store.literals import LiteralError, read_literal

@@ -23,6 +23,7 @@ from skillc.contract.jobs import (
     ListDevices,
     ListFacts,
     ListPoses,
+    ListTerms,
     ListThings,
     ListWrites,
     MakeReport,
@@ -32,11 +33,12 @@ from skillc.contract.jobs import (
     Rehearse,
     RunTrial,
     SimulationJob,
+    WorldJob,
     WriteWorld,
 )
 from skillc.contract.plan import PlanPreview
 from skillc.contract.sample import PoseNumbers
-from skillc.contract.world import PlacedThing, QueryRows, WorldFact, WorldFacts, WorldText, WorldWrite
+from skillc.contract.world import PlacedThing, QueryRows, StatableFacts, WorldFact, WorldFacts, WorldText, WorldWrite
 from skillc.errors import DiagnosticsError, ServiceError
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.diagnosis import diagnose
@@ -46,6 +48,7 @@ from skillc.workers.devices import list_devices
 from skillc.workers.planning import preview_plan
 from skillc.workers.rehearsing import rehearse
 from skillc.workers.reporting import make_report
+from skillc.workers.terms import list_terms
 from skillc.workers.trying import check_trials, record_trial, run_trial
 from skillc.workers.world_text import write_world
 from skillc_runtime.evaluation.report.result import TaskResult
@@ -68,6 +71,7 @@ MAX_ROWS = 10_000
 JobAnswer: TypeAlias = (
     QueryRows
     | WorldFacts
+    | StatableFacts
     | WorldText
     | tuple[PlacedThing, ...]
     | tuple[WorldWrite, ...]
@@ -99,6 +103,22 @@ def answer_job(request: tuple[Job, bytes] | None) -> bytes | JobRefused:
 def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
     if isinstance(job, SimulationJob):
         return _simulate(job, known)
+    if isinstance(job, WorldJob):
+        return _look(job, known)
+    match job:
+        case PreviewPlan():
+            return preview_plan(job, known)
+        case ListDevices():
+            return list_devices(known.state)
+        case CheckOperation():
+            _check(job, known)
+            return None
+        case _:
+            assert_never(job)
+
+
+def _look(job: WorldJob, known: CellSnapshot) -> JobAnswer:
+    """Return what a job asks about the world."""
     match job:
         case QueryWorld(sparql):
             return _query(sparql, known)
@@ -106,19 +126,14 @@ def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
             return _list_facts(job, known)
         case WriteWorld():
             return write_world(job, known)
+        case ListTerms(subject):
+            return list_terms(subject, known.state, _find_shipped(known))
         case ListThings():
             return list_placed(view_world("world", known.library, known.state))
-        case PreviewPlan():
-            return preview_plan(job, known)
         case ListWrites():
             return _list_writes(job, known)
-        case ListDevices():
-            return list_devices(known.state)
         case ListPoses():
             return _list_poses(known)
-        case CheckOperation():
-            _check(job, known)
-            return None
         case _:
             assert_never(job)
 

@@ -250,6 +250,13 @@ export interface Requests {
     body: undefined;
     answer: Required<Schemas["WorldText"]>;
   };
+  /** List what facts about a thing of a cell can say. */
+  list_terms: {
+    path: [cell: string];
+    query: { subject: string };
+    body: undefined;
+    answer: Required<Schemas["StatableFacts"]>;
+  };
   /** List what has a place or a size in a cell, as it is believed. */
   list_things: {
     path: [cell: string];
@@ -574,6 +581,7 @@ export const REQUESTS: Record<keyof Requests, Place> = {
   compare_runs: { method: "GET", path: "/operations/{operation}/diff" },
   list_facts: { method: "GET", path: "/cells/{cell}/world" },
   write_world: { method: "GET", path: "/cells/{cell}/world/document" },
+  list_terms: { method: "GET", path: "/cells/{cell}/world/terms" },
   list_things: { method: "GET", path: "/cells/{cell}/things" },
   query_world: { method: "POST", path: "/cells/{cell}/world/query" },
   edit_world: { method: "POST", path: "/cells/{cell}/world/edits" },

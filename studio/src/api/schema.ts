@@ -2063,6 +2063,36 @@ export interface components {
             text: string;
         };
         /**
+         * StatableFacts
+         * @description What facts about a thing can say; `things` are the individuals of each class that `objects` of terms name.
+         */
+        StatableFacts: {
+            terms: components["schemas"]["StatableTerm"][];
+            things: {
+                [key: string]: string[];
+            };
+        };
+        /**
+         * StatableTerm
+         * @description A relation or property that facts about a thing may have, and how these are written.
+         *
+         *         `type` is that of the value, as in the language: `Force`, `Text`, or for relations the classes of the objects.
+         *         Numbers are in `unit`; `values` are those of a text that has only these. A fact about a `functional` term replaces
+         *         the one before.
+         */
+        StatableTerm: {
+            iri: string;
+            name: string;
+            /** @enum {unknown} */
+            kind: "property" | "relation";
+            type: string;
+            unit: string;
+            values: string[];
+            objects: string[];
+            functional: boolean;
+            doc: string;
+        };
+        /**
          * PlacedThing
          * @description A thing: name, classes, what its pose is stated relative to, pose in the world in m and degrees, size in m.
          *
@@ -2100,7 +2130,8 @@ export interface components {
          * WorldEdit
          * @description Changes that are made together or not at all, and why.
          *
-         *         Each is `SUBJECT PREDICATE VALUE`, `not SUBJECT PREDICATE VALUE` or `not INDIVIDUAL`, as of `skillc scene edit`.
+         *         Each is a fact as it is shown, such as `lab:Board-1.isClean == true`, with `not` before it if it does not hold, or
+         *         `not INDIVIDUAL`; statements of Turtle are taken, too.
          */
         WorldEdit: {
             edits: string[];

@@ -192,11 +192,11 @@ def remove(scene: Path, names: tuple[str, ...], library: Path | None) -> None:
 @click.option("--why", metavar="TEXT", help="With a cell: why, for its history.")
 @cell_options
 def edit(scene: str | None, edits: tuple[str, ...], library: Path | None, why: str | None) -> None:
-    """Change facts of SCENE: add 'SUBJECT PREDICATE VALUE', or remove 'not ..'.
+    """Change facts of SCENE: 'lab:Cup-1.Weight == 120 g', 'lab:Tray-1 contain lab:Cup-1'.
 
     Either all edits are applied or none, and only if the scene is valid afterwards. The value of a functional relation
-    or property is replaced. 'not SUBJECT PREDICATE VALUE' removes a statement, 'not INDIVIDUAL' all statements about
-    an individual.
+    or property is replaced. 'not' before a fact removes it, 'not INDIVIDUAL' all facts about an individual, and
+    'lab:Cup-2 is Cup' adds one. Statements of Turtle, 'SUBJECT PREDICATE VALUE', are taken, too.
 
     With --cell or --server and without SCENE, the world of a cell that runs is changed in one transaction. --why is
     recorded, and who you are.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc.contract.jobs import ListFacts, ListThings, ListWrites, QueryWorld, WriteWorld
+from skillc.contract.jobs import ListFacts, ListTerms, ListThings, ListWrites, QueryWorld, WriteWorld
 from skillc.contract.messages import Edit, Place
 from skillc.contract.world import (
     MAX_NUMBER,
@@ -10,6 +10,8 @@ from skillc.contract.world import (
     FactPage,
     PlacedThing,
     QueryRows,
+    StatableFacts,
+    TermPage,
     WorldEdit,
     WorldFacts,
     WorldPlacement,
@@ -35,6 +37,11 @@ async def write_world(call: ApiCall) -> WorldText:
     wanted: DocumentForm = call.query
     cell = call.server.find_cell(call.path["cell"]).settings.name
     return await ask_about(call, WriteWorld(cell, wanted.format, wanted.everything), WorldText, QUERY_S)
+
+
+async def list_terms(call: ApiCall) -> StatableFacts:
+    wanted: TermPage = call.query
+    return await ask_about(call, ListTerms(wanted.subject), StatableFacts, QUERY_S)
 
 
 async def list_things(call: ApiCall) -> tuple[PlacedThing, ...]:
