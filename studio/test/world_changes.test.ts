@@ -31,14 +31,14 @@ const write = (sequence: number, changes: LabelledChange[], undo: LabelledChange
 describe("edits that undo a change", () => {
   test("state what was before", () => {
     expect(editsOf([holds("A", "Box"), holds("B", "Box", false), named("old")], [])).toEqual([
-      "lab:A <http://skiros#contain> lab:Box",
-      "not lab:B <http://skiros#contain> lab:Box",
-      'lab:Box <http://skiros#FrameId> "old"',
+      "lab:A contain lab:Box",
+      "not lab:B contain lab:Box",
+      'lab:Box.FrameId == "old"',
     ]);
   });
 
   test("remove a value that was stated first", () => {
-    expect(editsOf([named(null)], [named("new")])).toEqual(['not lab:Box <http://skiros#FrameId> "new"']);
+    expect(editsOf([named(null)], [named("new")])).toEqual(['not lab:Box.FrameId == "new"']);
   });
 
   test("do not exist for what no edit can state", () => {

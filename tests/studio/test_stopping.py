@@ -94,8 +94,9 @@ def write_source(page: Page) -> None:
 
 def write_edit(page: Page) -> None:
     page.keyboard.press("f")
-    page.get_by_role("button", name="Edit").click()
-    page.locator("textarea").fill("lab:crate-1 ")
+    page.get_by_role("button", name="Add", exact=True).click()
+    page.get_by_role("button", name="Several facts").click()
+    page.get_by_label("Fact 1").fill("lab:crate-1 ")
 
 
 def enlarge(page: Page) -> None:

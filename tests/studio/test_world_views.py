@@ -26,9 +26,7 @@ def test_an_edit_is_undone_with_who_and_why(page: Page, server: RunningServer) -
     show(page, "who changed what")
     row = page.locator(".world tbody tr", has_text="it has another name").first
     row.get_by_role("button", name="Undo").click()
-    expect(page.locator(".world textarea")).to_have_value(
-        'lab:crate-2 <http://rvmi.aau.dk/ontologies/skiros.owl#FrameId> "first"'
-    )
+    expect(page.get_by_label("Fact 1")).to_have_value('lab:crate-2.FrameId == "first"')
     expect(page.get_by_label("Why", exact=True)).to_have_value(
         f"undoes write {server.client.get('/cells/yard/world/history').json()[0]['sequence']} "
         "(admin: it has another name)"
@@ -38,6 +36,32 @@ def test_an_edit_is_undone_with_who_and_why(page: Page, server: RunningServer) -
     expect(undone).to_contain_text('lab:crate-2.FrameId == "first"')
     facts = server.client.get("/cells/yard/world", params={"subject": "lab:crate-2"}).json()["facts"]
     assert any(each["fact"].get("value") == "first" for each in facts)
+
+
+def test_a_fact_is_edited_by_a_click_and_the_edit_undone(page: Page, server: RunningServer) -> None:
+    """A place is chosen among those that there are, a quantity has its unit, and nobody writes Turtle."""
+    show(page, "facts")
+    facts = page.locator(".world tbody tr")
+    search, why = page.get_by_label("Search in the facts"), page.get_by_label("Why", exact=True)
+    search.fill("contain lab:crate-4")
+    facts.first.locator(".fact-edit").click()
+    value = page.get_by_label("Value", exact=True)
+    value.fill("")
+    value.press_sequentially("crate-5")
+    value.press("Enter")
+    expect(value).to_have_value("lab:crate-5")
+    expect(page.get_by_role("button", name="Change", exact=True)).to_be_disabled()
+    page.get_by_role("button", name="Cancel").click()
+    page.get_by_role("button", name="Add", exact=True).click()
+    page.get_by_label("Thing", exact=True).fill("lab:crate-4")
+    page.get_by_label("What is stated").select_option(label="Weight: Mass")
+    value.fill("1200 g")
+    why.fill("weighed")
+    page.get_by_role("button", name="Add", exact=True).last.click()
+    search.fill("crate-4.Weight")
+    expect(facts.first).to_contain_text("lab:crate-4.Weight == 1.2 kg")
+    page.get_by_role("button", name="Undo", exact=True).click()
+    expect(page.get_by_text("No fact has")).to_be_visible()
 
 
 def test_what_a_skill_changed_has_no_undo(page: Page, server: RunningServer) -> None:

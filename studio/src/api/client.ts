@@ -170,6 +170,7 @@ export const api = {
   world: (cell: string, query: Requests["list_facts"]["query"] = {}) => call("list_facts", [cell], { query }),
   writes: (cell: string, query: Requests["list_writes"]["query"] = {}) =>
     call("list_writes", [cell], { query }),
+  terms: (cell: string, subject: string) => call("list_terms", [cell], { query: { subject } }),
   edit: (cell: string, edits: string[], why: string) => call("edit_world", [cell], { body: { edits, why } }),
   plan: (cell: string, wish: PlanWish, signal: AbortSignal) =>
     call("preview_plan", [cell], { body: wish, signal }),

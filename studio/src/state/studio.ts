@@ -77,7 +77,13 @@ export const place = computed(() => selectedPlace(selection.value, operation.val
 export const things = computed(() => selectedThings(selection.value, operation.value));
 
 /** What went wrong last with something that a person wanted, until it is dismissed. */
-export const message = signal<{ kind: "error" | "done"; text: string } | null>(null);
+export interface Message {
+  kind: "error" | "done";
+  text: string;
+  /** Takes back what was done. */
+  undo?: () => void;
+}
+export const message = signal<Message | null>(null);
 
 const RANKS = ["view", "operate", "edit", "admin"];
 

@@ -1,13 +1,39 @@
 // Changes of the world as edits that undo them, and what differs between two times; pure functions.
-import type { LabelledChange, LabelledValue, WorldWrite } from "../api/types";
+import type { LabelledChange, LabelledFact, LabelledValue, WorldWrite } from "../api/types";
 import { formatValue, localName } from "./text";
 
-/** Return a value as an edit has it; null if no edit can state it. */
-function editValue(value: LabelledValue): string | null {
+/** Return a value as an edit has it, with all its digits; null if no edit can state it. */
+export function editValue(value: LabelledValue): string | null {
   if (typeof value === "string") return JSON.stringify(value);
   if (typeof value !== "object") return String(value);
-  if (value.type === "iri") return value.label;
-  return value.type === "quantity" ? String(value.value) : null;
+  switch (value.type) {
+    case "iri":
+      return value.label;
+    case "quantity":
+      return `${value.value} ${value.unit ?? ""}`.trim();
+    case "vector":
+      return `(${value.components.join(", ")}) ${value.unit ?? ""}`.trim();
+    default:
+      return null;
+  }
+}
+
+/** Return the edit that states a fact, in the syntax in which it is shown; null if no edit can. */
+export function editOfFact(fact: LabelledFact): string | null {
+  switch (fact.type) {
+    case "relation": {
+      if (fact.subject === null || fact.object === null) return null;
+      return `${fact.subject.label} ${localName(fact.relation.iri)} ${fact.object.label}`;
+    }
+    case "property": {
+      const value = fact.value === null ? null : editValue(fact.value);
+      return value === null ? null : `${fact.individual.label}.${localName(fact.property.iri)} == ${value}`;
+    }
+    case "class":
+      return `${fact.individual.label} is ${fact.cls.label}`;
+    case "same":
+      return null;
+  }
 }
 
 /** Return changes as edits, one a line; null if one of them cannot be written as an edit. */
@@ -22,20 +48,17 @@ export function editsOf(
 function editOf(change: LabelledChange, former: readonly LabelledChange[]): string | null {
   switch (change.type) {
     case "added":
-      return `${change.individual.label} a ${change.classes[0]?.label ?? "owl:Thing"}`;
+      return `${change.individual.label} is ${change.classes[0]?.label ?? "owl:Thing"}`;
     case "removed":
       return `not ${change.individual.label}`;
     case "relation": {
-      if (change.subject === null || change.object === null) return null;
-      const text = `${change.subject.label} <${change.relation.iri}> ${change.object.label}`;
-      return change.holds === false ? `not ${text}` : text;
+      const stated = editOfFact(change);
+      return stated === null || change.holds !== false ? stated : `not ${stated}`;
     }
     default: {
-      const about = `${change.individual.label} <${change.property.iri}>`;
-      const stated = change.value ?? valueIn(former, change.individual.iri, change.property.iri);
-      const value = stated === null ? null : editValue(stated);
-      if (value === null) return null;
-      return change.value === null ? `not ${about} ${value}` : `${about} ${value}`;
+      const value = change.value ?? valueIn(former, change.individual.iri, change.property.iri);
+      const stated = editOfFact({ ...change, value });
+      return stated === null || change.value !== null ? stated : `not ${stated}`;
     }
   }
 }

@@ -8,31 +8,38 @@ interface GoalInputProps {
   onChange: (value: string) => void;
   label?: string;
   placeholder?: string;
+  /** What completes it, instead of the names that the facts have. */
+  words?: readonly string[];
 }
 
-const MOST = 8;
+const [MOST, ALL] = [8, 200];
 
 export function GoalInput({
   value,
   onChange,
   label = "Goal",
   placeholder = "lab:Table-1.isClean == true",
+  words: given,
 }: GoalInputProps) {
   const field = useRef<HTMLInputElement>(null);
   const [at, setAt] = useState(0);
   const [open, setOpen] = useState(false);
-  const words = useWords();
-  const word = /(?<![\w:.-])[\w:.-]*$/.exec(value)?.[0] ?? "";
+  const [isTyped, setTyped] = useState(false);
+  const known = useWords();
+  const words = given ?? known;
+  // All that may stand here is offered until somebody types.
+  const showsAll = given !== undefined && !isTyped;
+  const word = showsAll ? "" : (/(?<![\w:.-])[\w:.-]*$/.exec(value)?.[0] ?? "");
   const offers =
-    word.length === 0
+    word.length === 0 && !showsAll
       ? []
       : words
-          .filter((each) => each.toLowerCase().includes(word.toLowerCase()) && each !== word)
-          .sort((one, other) => rank(one, word) - rank(other, word))
-          .slice(0, MOST);
+          .filter((each) => each.toLowerCase().includes(word.toLowerCase()) && (showsAll || each !== word))
+          .sort((one, other) => (showsAll ? 0 : rank(one, word) - rank(other, word)))
+          .slice(0, showsAll ? ALL : MOST);
   const isOpen = open && offers.length > 0;
   const take = (chosen: string): void => {
-    onChange(value.slice(0, value.length - word.length) + chosen);
+    onChange(given === undefined ? value.slice(0, value.length - word.length) + chosen : chosen);
     setOpen(false);
     field.current?.focus();
   };
@@ -64,7 +71,15 @@ export function GoalInput({
         value={value}
         onInput={(event) => {
           onChange(event.currentTarget.value);
+          setTyped(true);
           setAt(0);
+          setOpen(true);
+        }}
+        onFocus={(event) => {
+          if (given === undefined) return;
+          event.currentTarget.select();
+          setTyped(false);
+          setAt(Math.max(0, given.indexOf(value)));
           setOpen(true);
         }}
         onBlur={() => setOpen(false)}
@@ -78,6 +93,7 @@ export function GoalInput({
             role="option"
             class="mono"
             aria-selected={index === at}
+            ref={index === at && isOpen ? keepInSight : undefined}
             onPointerDown={(event) => {
               event.preventDefault();
               take(each);
@@ -90,6 +106,8 @@ export function GoalInput({
     </div>
   );
 }
+
+const keepInSight = (offer: HTMLElement | null): void => offer?.scrollIntoView({ block: "nearest" });
 
 /** Return how late a completion comes: those that begin with the word first, then the short ones. */
 function rank(offer: string, word: string): number {

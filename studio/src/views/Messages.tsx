@@ -3,13 +3,16 @@ import { useEffect } from "preact/hooks";
 import { message } from "../state/studio";
 import { Icon } from "./icons";
 
-const SHOWN_MS = 5000;
+const [SHOWN_MS, UNDO_MS] = [5000, 20000];
 
 export function Messages() {
   const current = message.value;
   useEffect(() => {
     if (current?.kind !== "done") return;
-    const timer = window.setTimeout(() => (message.value = null), SHOWN_MS);
+    const timer = window.setTimeout(
+      () => (message.value = null),
+      current.undo === undefined ? SHOWN_MS : UNDO_MS,
+    );
     return () => window.clearTimeout(timer);
   }, [current]);
   return (
@@ -18,6 +21,11 @@ export function Messages() {
         <div class={`notice row ${current.kind === "error" ? "bad" : "good"}`}>
           <Icon name={current.kind === "error" ? "cross" : "check"} />
           <span class="grow wrap-anywhere">{current.text}</span>
+          {current.undo !== undefined && (
+            <button class="small" onClick={current.undo}>
+              Undo
+            </button>
+          )}
           <button class="plain icon" aria-label="Dismiss" onClick={() => (message.value = null)}>
             <Icon name="cross" />
           </button>

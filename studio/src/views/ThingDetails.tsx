@@ -1,7 +1,15 @@
 // An individual: what is known about it, and how that is known.
-import { facts, shownSample } from "../state/studio";
+import type { LabelledFact } from "../api/types";
+import { editing } from "../state/editing";
+import { facts, mayCommand, shownSample } from "../state/studio";
 import { formatNumber, individualsOf } from "../state/text";
+import { detailsTab } from "./layout";
 import { Fact } from "./links";
+
+function edit(fact: LabelledFact): void {
+  editing.value = { kind: "fact", fact };
+  detailsTab.value = "world";
+}
 
 export function ThingDetails({ iri }: { iri: string }) {
   const about = facts.value.filter((each) => individualsOf(each.fact).some((one) => one.iri === iri));
@@ -33,7 +41,7 @@ export function ThingDetails({ iri }: { iri: string }) {
         <ul>
           {about.map((each, index) => (
             <li key={index}>
-              <Fact fact={each.fact} />{" "}
+              <Fact fact={each.fact} onEdit={mayCommand("edit") ? () => edit(each.fact) : undefined} />{" "}
               <span class="muted small">
                 {each.evidence ?? "given"}
                 {each.origin ? ` by ${each.origin}` : ""}

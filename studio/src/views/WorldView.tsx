@@ -1,21 +1,10 @@
 // The world model: facts with their evidence, searched; its history; and edits, which say why.
 import { signal } from "@preact/signals";
-import { useState } from "preact/hooks";
-import { api } from "../api/client";
 import type { WorldFact } from "../api/types";
-import { attempt } from "../state/actions";
-import { readWorld } from "../state/live";
-import {
-  areFactsRead,
-  cell,
-  cellName,
-  facts,
-  mayCommand,
-  refusalOf,
-  selection,
-  things,
-} from "../state/studio";
+import { editing } from "../state/editing";
+import { areFactsRead, cell, facts, mayCommand, refusalOf, things } from "../state/studio";
 import { formatFact, individualsOf } from "../state/text";
+import { FactForm, LinesForm, NewFactForm } from "./FactForm";
 import { maximised } from "./layout";
 import { Fact } from "./links";
 import { WorldGraph } from "./WorldGraph";
@@ -23,17 +12,15 @@ import { WorldDifferences, WorldHistory } from "./WorldHistory";
 
 const search = signal("");
 const view = signal<"facts" | "graph" | "history" | "differences">("facts");
-const editing = signal(false);
-/** What the form for edits begins with. */
-const proposed = signal({ edits: "", why: "" });
 
 /** Show the edits that undo a change in the form, to be made with who and why. */
 function proposeUndo(edits: readonly string[], why: string): void {
-  proposed.value = { edits: edits.join("\n"), why };
-  editing.value = true;
+  editing.value = { kind: "lines", edits, why };
 }
 
 export function WorldView() {
+  const current = editing.value;
+  const isAdding = current.kind === "new" || current.kind === "lines";
   return (
     <div class="world">
       <div class="view-tools row">
@@ -58,18 +45,19 @@ export function WorldView() {
         </label>
         <button
           disabled={!mayCommand("edit")}
-          title={refusalOf("edit") || "Change facts, and say why"}
-          aria-expanded={editing.value}
-          onClick={() => {
-            const begun = selection.value.kind === "thing" ? labelOfSelected() : "";
-            proposed.value = { edits: begun, why: "" };
-            editing.value = !editing.value;
-          }}
+          title={refusalOf("edit") || "State a fact, and say why"}
+          aria-expanded={isAdding}
+          onClick={() =>
+            (editing.value = isAdding ? { kind: "nothing" } : { kind: "new", subject: labelOfSelected() })
+          }
         >
-          Edit
+          Add
         </button>
       </div>
-      {editing.value && <EditForm key={proposed.value.edits} />}
+      {current.kind === "new" && <NewFactForm subject={current.subject} />}
+      {current.kind === "lines" && (
+        <LinesForm key={current.edits.join("\n")} edits={current.edits} why={current.why} />
+      )}
       <Shown />
     </div>
   );
@@ -135,76 +123,45 @@ function FactTable() {
       </thead>
       <tbody>
         {shown.map((each) => (
-          <tr key={formatFact(each.fact)} class={isAbout(each) ? "is-selected" : ""}>
-            <td>
-              <Fact fact={each.fact} />
-            </td>
-            <td class="muted">
-              {each.evidence ?? "given"}
-              {each.origin ? ` by ${each.origin}` : ""}
-            </td>
-          </tr>
+          <FactRow key={formatFact(each.fact)} known={each} isSelected={isAbout(each)} />
         ))}
       </tbody>
     </table>
   );
 }
 
-function EditForm() {
-  const [text, setText] = useState(proposed.peek().edits);
-  const [why, setWhy] = useState(proposed.peek().why);
-  const submit = async (event: Event): Promise<void> => {
-    event.preventDefault();
-    const [name, edits] = [cellName.value, lines(text)];
-    if (name === null) return;
-    if (await attempt(() => api.edit(name, edits, why), `${edits.length} changed in the world.`)) {
-      editing.value = false;
-      await readWorld(true);
-    }
+function FactRow({ known, isSelected }: { known: WorldFact; isSelected: boolean }) {
+  const current = editing.value;
+  const isEdited = current.kind === "fact" && formatFact(current.fact) === formatFact(known.fact);
+  const edit = (): void => {
+    editing.value = isEdited ? { kind: "nothing" } : { kind: "fact", fact: known.fact };
   };
   return (
-    <form class="edit-form stack" onSubmit={(event) => void submit(event)}>
-      <label class="stack">
-        <span class="small muted">
-          One change a line: <code>lab:Tray-1 skiros:contain lab:Part-1</code>, the same with <code>not</code>{" "}
-          before it, <code>lab:Board-1 wiping:isClean false</code>, or <code>not lab:Part-1</code> for a thing
-          that is gone. All are made together, or none.
-        </span>
-        <textarea
-          class="mono"
-          rows={3}
-          value={text}
-          onInput={(event) => setText(event.currentTarget.value)}
-        />
-      </label>
-      <div class="row">
-        <input
-          aria-label="Why"
-          placeholder="Why? This is kept in the history."
-          value={why}
-          onInput={(event) => setWhy(event.currentTarget.value)}
-        />
-        <button class="primary" disabled={lines(text).length === 0 || why.trim() === ""}>
-          Change
-        </button>
-        <button type="button" onClick={() => (editing.value = false)}>
-          Cancel
-        </button>
-      </div>
-    </form>
+    <>
+      <tr class={isSelected ? "is-selected" : ""}>
+        <td>
+          <Fact fact={known.fact} onEdit={mayCommand("edit") ? edit : undefined} />
+        </td>
+        <td class="muted">
+          {known.evidence ?? "given"}
+          {known.origin ? ` by ${known.origin}` : ""}
+        </td>
+      </tr>
+      {isEdited && (
+        <tr>
+          <td colSpan={2} class="fact-form">
+            <FactForm fact={known.fact} />
+          </td>
+        </tr>
+      )}
+    </>
   );
 }
-
-const lines = (text: string): string[] =>
-  text
-    .split("\n")
-    .map((each) => each.trim())
-    .filter((each) => each !== "");
 
 function labelOfSelected(): string {
   const iri = things.value[0];
   const label = facts.value
     .flatMap((each) => individualsOf(each.fact))
     .find((each) => each.iri === iri)?.label;
-  return label === undefined ? "" : `${label} `;
+  return label ?? "";
 }

@@ -31,20 +31,34 @@ export function Value({ value }: { value: LabelledValue }) {
   return <span class="mono">{formatValue(value)}</span>;
 }
 
+interface FactProps {
+  fact: LabelledFact;
+  /** What a click on the fact, beside the names in it, does. */
+  onEdit?: () => void;
+}
+
 /** A fact in the syntax of the language; its individuals are links. */
-export function Fact({ fact }: { fact: LabelledFact }) {
+export function Fact({ fact, onEdit }: FactProps) {
   let rest = formatFact(fact);
+  const between = (text: string) =>
+    onEdit === undefined || text.trim() === "" ? (
+      text
+    ) : (
+      <button class="fact-edit mono" title="Edit this fact" onClick={onEdit}>
+        {text}
+      </button>
+    );
   const parts = individualsOf(fact).flatMap((each) => {
     const at = rest.indexOf(each.label);
     if (at < 0) return [];
     const before = rest.slice(0, at);
     rest = rest.slice(at + each.label.length);
-    return [before, <ThingLink key={each.iri} thing={each} />];
+    return [between(before), <ThingLink key={each.iri} thing={each} />];
   });
   return (
     <span class="mono">
       {parts}
-      {rest}
+      {between(rest)}
     </span>
   );
 }
