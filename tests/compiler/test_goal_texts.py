@@ -165,6 +165,7 @@ def test_a_wrong_goal_is_explained(text: str, name: str, column: int, words: str
     assert (problem.name, problem.span.path, problem.span.line) == (name, "goal", 1)
     assert problem.span.column == column
     assert words in f"{problem.message} {problem.help}"
+    assert problem.fix is None or (problem.fix.span.line, problem.fix.span.column) == (1, column)
     assert not any("member of a task" in d.message or "`}`" in d.message for d in outcome.diagnostics)
 
 

@@ -205,8 +205,9 @@ def _in_text(outcome: Outcome[Task | None], text: str, path: str) -> Outcome[Tas
         lines = (min(max(line - LINES_ABOVE, 1), last) for line in (span.line, span.end_line))
         return Span(path, next(lines), span.column, next(lines), span.end_column)
 
-    moved = (
-        replace(d, span=place(d.span), labels=tuple(label._replace(span=place(label.span)) for label in d.labels))
-        for d in outcome.diagnostics
-    )
-    return Outcome(outcome.value, tuple(moved))
+    def move(found: Diagnostic) -> Diagnostic:
+        labels = tuple(label._replace(span=place(label.span)) for label in found.labels)
+        fix = None if found.fix is None else found.fix._replace(span=place(found.fix.span))
+        return replace(found, span=place(found.span), labels=labels, fix=fix)
+
+    return Outcome(outcome.value, tuple(map(move, outcome.diagnostics)))

@@ -16,6 +16,8 @@ export class ApiError extends Error {
   constructor(
     readonly status: number,
     message: string,
+    /** The errors of a goal, a call or an argument. */
+    readonly diagnostics: NonNullable<ProblemDetails["diagnostics"]> = [],
   ) {
     super(message);
   }
@@ -103,7 +105,8 @@ async function request(
 
 function refusal(answer: Answer): ApiError {
   try {
-    return new ApiError(answer.status, (readJson(answer) as ProblemDetails).detail);
+    const { detail, diagnostics } = readJson(answer) as ProblemDetails;
+    return new ApiError(answer.status, detail, diagnostics ?? []);
   } catch {
     return new ApiError(answer.status, `the server answered with status ${answer.status}`);
   }

@@ -130,9 +130,9 @@ function Chosen({ wish, onChange, onDone }: ChosenProps) {
       ? wish.task.parameters.filter((each) => each.direction === "in" || each.direction === "opt")
       : [];
   const values = wish.kind === "task" ? wish.values : {};
-  const isComplete = inputs.every(
-    (each) => each.direction === "opt" || (values[each.name] ?? "").trim() !== "",
-  );
+  const isComplete =
+    (wish.kind === "task" || wish.goal.trim() !== "") &&
+    inputs.every((each) => each.direction === "opt" || (values[each.name] ?? "").trim() !== "");
   const request = toRequest(wish);
   return (
     <>
@@ -140,9 +140,10 @@ function Chosen({ wish, onChange, onDone }: ChosenProps) {
         ‹ all tasks
       </button>
       <h3>{wish.kind === "task" ? wish.task.name : "Goal"}</h3>
-      <p class="muted">
-        {wish.kind === "task" ? wish.task.doc : <code class="wrap-anywhere">{wish.goal}</code>}
-      </p>
+      {wish.kind === "task" && <p class="muted">{wish.task.doc}</p>}
+      {wish.kind === "goal" && (
+        <GoalInput value={wish.goal} onChange={(goal) => onChange({ kind: "goal", goal })} />
+      )}
       {wish.kind === "task" && wish.task.goal !== "" && (
         <p class="small">
           until <code class="wrap-anywhere">{wish.task.goal}</code>
@@ -161,6 +162,7 @@ function Chosen({ wish, onChange, onDone }: ChosenProps) {
         <PlanAndStart
           request={request}
           isPlanned={wish.kind === "goal" || wish.task.goal !== ""}
+          onFix={(goal) => onChange({ kind: "goal", goal })}
           onDone={onDone}
         />
       ) : (
@@ -206,11 +208,13 @@ interface PlanAndStartProps {
   request: PlanWish;
   /** Whether there is a goal to plan for; the steps of other tasks are written down. */
   isPlanned: boolean;
+  /** Takes a goal instead of one that has errors. */
+  onFix: (goal: string) => void;
   onDone: () => void;
 }
 
-function PlanAndStart({ request, isPlanned, onDone }: PlanAndStartProps) {
-  const { preview, problem } = usePreview(request, isPlanned);
+function PlanAndStart({ request, isPlanned, onFix, onDone }: PlanAndStartProps) {
+  const { preview, problem, fixes } = usePreview(request, isPlanned);
   const options = useSignal<RunChoice>({});
   const key = useRef(crypto.randomUUID());
   const [busy, setBusy] = useState(false);
@@ -226,7 +230,18 @@ function PlanAndStart({ request, isPlanned, onDone }: PlanAndStartProps) {
   };
   return (
     <>
-      {problem !== "" && <p class="notice bad">{problem}</p>}
+      {problem !== "" && (
+        <div class="notice bad stack">
+          <p>{problem}</p>
+          {fixes.map((each) => (
+            <div key={each.goal}>
+              <button title={each.goal} onClick={() => onFix(each.goal)}>
+                {each.message.replace(/^write /, "Write ").replaceAll("`", "")}
+              </button>
+            </div>
+          ))}
+        </div>
+      )}
       {!isPlanned && <p class="muted small">Its steps are written down: there is nothing to plan.</p>}
       {isPlanned && preview === null && problem === "" && (
         <p class="row muted" role="status">

@@ -75,14 +75,16 @@ export function GoalInput({
           setAt(0);
           setOpen(true);
         }}
-        onFocus={(event) => {
-          if (given === undefined) return;
+        onClick={(event) => {
+          if (given === undefined || isTyped) return;
           event.currentTarget.select();
-          setTyped(false);
           setAt(Math.max(0, given.indexOf(value)));
           setOpen(true);
         }}
-        onBlur={() => setOpen(false)}
+        onBlur={() => {
+          setOpen(false);
+          setTyped(false);
+        }}
         onKeyDown={press}
       />
       <ul id={list} role="listbox" aria-label="Completions" class="completions" hidden={!isOpen}>

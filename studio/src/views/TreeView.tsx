@@ -173,10 +173,14 @@ function RowContent({ row, isSelected, position, total }: RowProps) {
         {row.expandable && <Icon name={row.open ? "open" : "closed"} />}
       </span>
       <NodeMark status={node.status} />
-      <span class="node-name">{choice?.skill ?? node.name}</span>
+      <span class="node-name" title={choice?.skill ?? node.name}>
+        {choice?.skill ?? node.name}
+      </span>
       {choice !== null && <span class="node-choice">{choice.implementation}</span>}
       {node.runs > 1 && <span class="node-choice">× {node.runs}</span>}
-      <span class="node-values truncate">{describeNode(row)}</span>
+      <span class="node-values truncate" title={describeNode(row)}>
+        {describeNode(row)}
+      </span>
       <span class="node-time mono">
         {node.status === "pending" ? "" : formatSpan(node.startedAt, node.endedAt)}
       </span>

@@ -54,7 +54,7 @@ export function WorldHistory({ onUndo }: { onUndo: (edits: string[], why: string
         <tbody>
           {(writes ?? []).map((each) => (
             <tr key={each.sequence}>
-              <td class="muted">{timeOf(each)}</td>
+              <td class="muted when">{timeOf(each)}</td>
               <td class="wrap-anywhere">
                 {each.origin || "the scene"} <span class="muted">{each.evidence ?? "given"}</span>
               </td>
