@@ -127,8 +127,8 @@ class Scene:
     def query(self, sparql: str) -> QueryResult:
         """Answer a SPARQL query; the prefixes of the vocabulary are declared.
 
-        It sees the statements of the scene, the data sheets and the vocabulary, without inference. SkillcError if it
-        is not valid, or takes too long.
+        It sees the statements of the scene, the data sheets and the vocabulary, and the descriptions of the library's
+        skills, without inference. SkillcError if it is not valid, or takes too long.
         """
         with api_call(self._folders):
             result = scenes.query_scene(self._opened.at_present(), require_text(sparql, "the query"))

@@ -13,7 +13,7 @@ from skillc.contract.world import WorldFormat
 
 
 class QueryWorld(msgspec.Struct, frozen=True, tag="query"):
-    """Answer a SPARQL query over the facts, the data sheets and the vocabulary."""
+    """Answer a SPARQL query over the facts, the data sheets, the vocabulary and the skills of the library."""
 
     sparql: str
 

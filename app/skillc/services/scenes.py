@@ -20,6 +20,7 @@ from skillc.services.library_files import find_library, find_scene
 from skillc.services.project.loading import find_project
 from skillc.services.project.project import find_root
 from skillc.services.reporting import Reporter
+from skillc.services.skill_descriptions import graph_of_skills, with_library_prefix
 from skillc.services.stores import StoreChoice, load_world, open_world
 from skillc.services.task_list import default_library
 from skillc.services.task_scenes import default_scene
@@ -176,7 +177,7 @@ def query_scene(scene: OpenScene, sparql: str) -> QueryAnswer:
 def _run_query(scene: OpenScene, sparql: str) -> QueryAnswer | str:
     """Return the answer to a query, or why there is none."""
     try:
-        return query_document(scene.document, sparql, scene.state.vocabulary)
+        return query_document(scene.document, sparql, scene.library, scene.state)
     except QueryError as error:
         return str(error)
 
@@ -188,9 +189,14 @@ def compare_scenes(scene: OpenScene, other: Path, reporter: Reporter) -> SceneDi
     return SceneDiff(_texts(ours - theirs, scene.state.vocabulary), _texts(theirs - ours, state.vocabulary))
 
 
-def query_document(document: Document, sparql: str, vocabulary: Vocabulary) -> QueryAnswer:
-    """Answer a query over a document and the shipped ontology; QueryError if that is not possible."""
-    return run_query([document, *sheet_documents()], sparql, vocabulary)
+def query_document(document: Document, sparql: str, library: SkillLibrary, state: WorldState) -> QueryAnswer:
+    """Answer a query over the document of a world, the shipped ontology and the skills of a library.
+
+    QueryError if that is not possible.
+    """
+    vocabulary = with_library_prefix(state.vocabulary, library)
+    skills = graph_of_skills(library, state, sparql)
+    return run_query([document, *sheet_documents()], sparql, vocabulary, skills)
 
 
 def list_facts(scene: OpenScene) -> list[FactText]:

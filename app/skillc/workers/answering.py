@@ -162,7 +162,7 @@ def _check(job: CheckOperation, known: CellSnapshot) -> None:
 
 
 def _query(sparql: str, known: CellSnapshot) -> QueryRows:
-    answer = query_document(describe_state("world", known.state), sparql, known.state.vocabulary)
+    answer = query_document(describe_state("world", known.state), sparql, known.library, known.state)
     return QueryRows(known.sequence, answer.columns, answer.rows[:MAX_ROWS], len(answer.rows) > MAX_ROWS)
 
 

@@ -94,9 +94,10 @@ def command(
 
     In a project, SCENE may be left out if the manifest names one, and is also looked up in the project's folder.
 
-    A query sees only the statements of the scene, the data sheets and the vocabulary, without inference. To include
-    subclasses, ask for `?x a/rdfs:subClassOf* skillc:CompliantArm`. (Conditions of the skill language include
-    subclasses and sub-relations.)
+    A query sees only the statements of the scene, the data sheets and the vocabulary, and the descriptions of the
+    library's skills, without inference. To include subclasses, ask for `?x a/rdfs:subClassOf* skillc:CompliantArm`.
+    (Conditions of the skill language include subclasses and sub-relations.) `?robot skiros:hasSkill :Wipe` finds the
+    robots whose hardware can wipe.
 
     With --cell or --server it shows the world of a cell that runs, with how each fact is known. --query, --search,
     --show, --graph and --export are answered there.
