@@ -22,7 +22,7 @@ from skillc_runtime.scene.load import load_scene
 
 CHANGES = "SELECT ?text { :Pick skiros:hasPostCondition/skillc:conditionText ?text } ORDER BY ?text"
 ABLE = 'SELECT ?robot { ?robot skiros:hasSkill ?skill . ?skill rdfs:label "Drive" }'
-SKILLS = "SELECT (COUNT(DISTINCT ?skill) AS ?n) { GRAPH ?library { ?skill a skiros:Skill } }"
+SKILLS = "SELECT ?library ?name { GRAPH ?library { ?it a skiros:Skill ; rdfs:label ?name } } ORDER BY ?name"
 WHY = """SELECT ?why {
     ?it skillc:rejectedFor lab:Robot-1 ; skillc:rejects :Drive.folded ; skillc:reason ?why
 }"""
@@ -51,24 +51,19 @@ def ask(sparql: str, name: str = "wiping") -> list[tuple[object, ...]]:
 def test_queries_find_what_skills_change_and_which_robots_have_them() -> None:
     assert ask(CHANGES) == [("gripper contain object",), ("not from contain object",)]
     assert ask(ABLE) == [("lab:Heron-1",)]
-    assert ask(SKILLS) == [(len(library("wiping").skills),)]
     assert ask(WHY) == [("`robot` needs a skillc:MobileRobot, and lab:Robot-1 neither is nor has one",)]
 
 
 def test_rows_are_not_repeated_for_terms_that_the_vocabulary_states_too() -> None:
-    assert ask("SELECT ?c { skillc:Camera rdfs:comment ?c }") == ask(
-        "SELECT ?c { skillc:Camera rdfs:comment ?c }", "contact"
-    )
     assert len(ask("SELECT ?c { cora:Robot rdfs:comment ?c }")) == 1
 
 
+@pytest.mark.slow
 def test_with_another_library_its_skills_are_there_and_no_others() -> None:
-    graphs = "SELECT DISTINCT ?g { GRAPH ?g { ?s a skiros:Skill } }"
-    assert ask(graphs) == [("https://w3id.org/skillc/library/wiping",)]
-    assert ask(graphs, "contact") == [("https://w3id.org/skillc/library/contact",)]
-    assert ask('ASK { ?skill a skiros:Skill ; rdfs:label "Wipe" }') == [(True,)]
-    assert ask('ASK { ?skill a skiros:Skill ; rdfs:label "Wipe" }', "contact") == [(False,)]
-    assert ask('ASK { ?skill a skiros:Skill ; rdfs:label "Polish" }', "contact") == [(True,)]
+    for name in ("wiping", "contact"):
+        iri = f"https://w3id.org/skillc/library/{name}"
+        assert ask(SKILLS, name) == [(iri, each) for each in sorted(library(name).skills)]
+    assert "Wipe" not in library("contact").skills and "Polish" in library("contact").skills
 
 
 def test_they_are_no_facts_of_the_scene() -> None:

@@ -20,7 +20,7 @@ from skillc.services.library_files import find_library, find_scene
 from skillc.services.project.loading import find_project
 from skillc.services.project.project import find_root
 from skillc.services.reporting import Reporter
-from skillc.services.skill_descriptions import graph_of_skills, with_library_prefix
+from skillc.services.skill_descriptions import describe_skills, with_library_prefix
 from skillc.services.stores import StoreChoice, load_world, open_world
 from skillc.services.task_list import default_library
 from skillc.services.task_scenes import default_scene
@@ -195,7 +195,7 @@ def query_document(document: Document, sparql: str, library: SkillLibrary, state
     QueryError if that is not possible.
     """
     vocabulary = with_library_prefix(state.vocabulary, library)
-    skills = graph_of_skills(library, state, sparql)
+    skills = describe_skills(library, state, sparql)
     return run_query([document, *sheet_documents()], sparql, vocabulary, skills)
 
 

@@ -7,7 +7,7 @@ nothing else that reads or keeps the world has to do with it, and it goes when t
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
 import msgspec
@@ -36,15 +36,15 @@ _ASKS_FOR_ROBOTS = re.compile("|".join((*(rf"\b{local_name(each)}\b" for each in
 _MOST_LIBRARIES = 4
 
 
-def graph_of_skills(library: SkillLibrary, state: WorldState, sparql: str) -> dict[str, list[ox.Triple]]:
-    """Return the graph of a library's skills, by its IRI, for a query.
+def describe_skills(library: SkillLibrary, state: WorldState, sparql: str) -> list[ox.Quad]:
+    """Return what a query is to know of a library's skills: in their named graph, and in the default graph.
 
     What the robots of the world can do is computed only for a query that names a term of `KINDS`, or graphs.
     """
     statements = list(_describe(_Described(library)))
     if _ASKS_FOR_ROBOTS.search(sparql):
-        statements += _describe_robots(library, state)
-    return {library.namespace.removesuffix("#"): statements}
+        statements += _in_both_graphs(_describe_robots(library, state), library)
+    return statements
 
 
 def with_library_prefix(vocabulary: Vocabulary, library: SkillLibrary) -> Vocabulary:
@@ -73,10 +73,19 @@ class _Described:
 
 
 @lru_cache(_MOST_LIBRARIES)
-def _describe(key: _Described) -> tuple[ox.Triple, ...]:
+def _describe(key: _Described) -> tuple[ox.Quad, ...]:
     """Return the statements of skills.ttl."""
     text = owl.emit(key.library)["skills.ttl"]
-    return tuple(each.triple for each in ox.parse(text.encode(), format=ox.RdfFormat.TURTLE))
+    parsed = ox.parse(text.encode(), format=ox.RdfFormat.TURTLE)
+    return tuple(_in_both_graphs((each.triple for each in parsed), key.library))
+
+
+def _in_both_graphs(statements: Iterable[ox.Triple], library: SkillLibrary) -> Iterator[ox.Quad]:
+    """Yield statements in the graph of a library and in the default one: the union of graphs has some of them twice."""
+    graph = ox.NamedNode(library.namespace.removesuffix("#"))
+    for each in statements:
+        yield ox.Quad(each.subject, each.predicate, each.object, graph)
+        yield ox.Quad(each.subject, each.predicate, each.object)
 
 
 def _describe_robots(library: SkillLibrary, state: WorldState) -> Iterator[ox.Triple]:

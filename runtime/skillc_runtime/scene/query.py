@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -19,7 +19,6 @@ from skillc_runtime.store.literals import INTEGERS, NUMBERS
 QueryValue: TypeAlias = bool | int | float | str | None
 """A value in a result; individuals are texts, None is an unbound variable."""
 
-NO_GRAPHS: Mapping[str, Iterable[ox.Triple]] = {}
 WELL_KNOWN = {"rdf": RDF, "rdfs": RDFS, "owl": OWL, "xsd": XSD}
 
 
@@ -39,11 +38,11 @@ def run_query(
     documents: Iterable[Document],
     sparql: str,
     vocabulary: Vocabulary,
-    graphs: Mapping[str, Iterable[ox.Triple]] = NO_GRAPHS,
+    more: Iterable[ox.Quad] = (),
 ) -> QueryAnswer:
     """Return the result of a query over documents; the vocabulary's prefixes need no declaration.
 
-    `graphs` are statements by the IRI of the named graph in which they are; queries without `GRAPH` see them too.
+    `more` are further statements, in the default graph or in named ones.
     QueryError for a syntax error, an update, too many nested brackets, a query to another server or a failed
     evaluation; SceneError for a document that is not Turtle.
     """
@@ -52,8 +51,7 @@ def run_query(
     if refusal is not None:
         raise QueryError(refusal)
     store = _store(documents)
-    for name, statements in graphs.items():
-        _add_graph(store, ox.NamedNode(name), statements)
+    store.extend(more)
     try:
         return _answer(store.query(sparql, prefixes=dict(vocabulary.prefixes)), vocabulary)
     except SyntaxError as error:
@@ -71,13 +69,6 @@ def _store(documents: Iterable[Document]) -> ox.Store:
             if not isinstance(each.subject, ox.Literal)
         )
     return store
-
-
-def _add_graph(store: ox.Store, name: ox.NamedNode, statements: Iterable[ox.Triple]) -> None:
-    """Add a named graph, and its statements to the default graph: a union of graphs would answer some rows twice."""
-    for each in statements:
-        store.add(ox.Quad(*each, name))
-        store.add(ox.Quad(*each))
 
 
 def _answer(result: ox.QuerySolutions | ox.QueryBoolean | ox.QueryTriples, vocabulary: Vocabulary) -> QueryAnswer:

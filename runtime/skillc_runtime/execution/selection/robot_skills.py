@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import chain, islice, product
 
 from skillc_model import tree
-from skillc_model.conditions import Individual, Variable
+from skillc_model.conditions import Expression, Individual, Variable
 from skillc_model.skills import Implementation, Parameter, Skill, SkillLibrary
 from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.execution.selection.preflight import preflight
@@ -109,7 +109,9 @@ def _refuse(
 ) -> str:
     """Return why a call with these devices is refused before anything moves, empty if it is not."""
     passed = (each.name for each in skill.parameters if each.direction in PASSED)
-    arguments = {name: Individual(devices[name]) if name in devices else Variable(name) for name in passed}
+    arguments: dict[str, Expression] = {
+        name: Individual(devices[name]) if name in devices else Variable(name) for name in passed
+    }
     call = tree.Call(skill.name, implementation.name, arguments, None, implementation.source)
     try:
         refusals = preflight(call, library, state)
