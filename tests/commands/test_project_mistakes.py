@@ -12,14 +12,12 @@ from skillc_dsl.source import Span
 from skillc_runtime.scene.suggestions import suggest
 
 MISTAKES = {
-    "a class that is removed": ("cell.skill", "class    Panel < Surface\n", "", "cell.skill", "unknown-class"),
-    "a property that is renamed": (
-        *("cell.skill", "property isPressed", "property pressed", "cell.skill", "unknown-property"),
-    ),
+    "a class that is removed": ("cell.skill", "class Panel < Button\n", "", "cell.skill", "unknown-class"),
+    "a property that is renamed": (*("cell.skill", "panel.isOn", "panel.isPressed", "cell.skill", "unknown-property"),),
     "a class in the scene": ("cell.ttl", "a cell:Panel", "a cell:Pannel", "cell.ttl", "unknown-class"),
-    "a property in the scene": ("cell.ttl", "cell:pressForce", "cell:presForce", "cell.ttl", "unknown-property"),
+    "a property in the scene": ("cell.ttl", "contact:pressForce", "contact:presForce", "cell.ttl", "unknown-property"),
     "a class that nothing declares": ("cell.ttl", "a cell:Panel", "a cell:Plate", "cell.ttl", "unknown-class"),
-    "the name of the project": ("skillc.toml", 'name = "cell"', 'name = "press"', "cell.ttl", "unknown-prefix"),
+    "the name of the project": ("skillc.toml", 'name = "cell"', 'name = "press"', "cell.ttl", "unknown-class"),
     "the scene of a task": ("tasks.skill", '"cell.ttl"', '"cel.ttl"', "tasks.skill", "unknown-scene"),
     "an argument without its name": (
         *("cell.skill", "MoveTo(arm, target: before)", "MoveTo(arm, before)", "cell.skill", "unknown-argument"),
@@ -27,7 +25,7 @@ MISTAKES = {
     "a body without `do`": ("cell.skill", "    do seq {", "    seq {", "cell.skill", "syntax"),
 }
 HELP = {
-    "the name of the project": "did you mean <https://w3id.org/skillc/library/press#>?",
+    "the name of the project": "did you mean `press:Panel`?",
     "a class in the scene": "did you mean `cell:Panel`?",
     "a class that nothing declares": "declare the class in a .skill file or in an ontology",
     "the scene of a task": "did you mean `cell.ttl`?",

@@ -143,4 +143,4 @@ def test_an_added_arm_does_the_task_of_a_template(
         misses = re.findall(r"really (\d+) mm .* (\d+) mm from where it should be", ran.output)
         assert len(misses) == 2 and all(float(mm) <= 5 for pair in misses for mm in pair), ran.output
     else:
-        assert re.search(r"lab:Panel-1.isPressed == true +assumed by", ran.output), ran.output
+        assert re.search(r"lab:Panel-1.isOn == true +reported by", ran.output), ran.output

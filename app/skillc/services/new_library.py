@@ -63,20 +63,21 @@ def _texts(name: str, template: Template) -> dict[str, str]:
         raise RequestError(f"`{name}` is not a valid library name: use a-z, 0-9 and `_`, starting with a letter{hint}")
     environment = open_templates()
     values = {"name": name, **_values(name, template)}
+    files = (*FILES, *((each, f"{{template}}/{each}.j2") for each in template.own_files))
     texts = {
         path.format(name=name): environment.get_template(file.format(template=template.name)).render(values)
-        for path, file in FILES
+        for path, file in files
     }
     _try_out(name, texts)
     return texts
 
 
-def _values(name: str, template: Template) -> dict[str, str]:
+def _values(name: str, template: Template) -> dict[str, str | tuple[str, ...]]:
     """Return what the files of a template say about it."""
     skill = "".join(part.capitalize() for part in name.split("_"))
     texts = {key: getattr(template, key).format(skill=skill) for key in ("summary", "skills", "scene", "change")}
     steps = sorted(step.format(skill=skill) for step in template.steps)
-    return {"skill": skill, "steps": json.dumps(steps), **texts}
+    return {"skill": skill, "steps": json.dumps(steps), "own_files": template.own_files, **texts}
 
 
 def _write(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:
@@ -107,5 +108,6 @@ def _try_out(name: str, texts: Mapping[str, str]) -> None:
         raise RequestError(f"the library cannot be called `{name}`: it is the prefix of a vocabulary")
     sources = [Source(path, text) for path, text in texts.items() if path.endswith(".skill")]
     outcome = pipeline.compile(sources, load_vocabulary(), find_library(Path("std")).importable, name)
-    if outcome.diagnostics:
-        raise RequestError(f"the library cannot be called `{name}`: {outcome.diagnostics[0].message}")
+    errors = [each for each in outcome.diagnostics if each.severity == "error"]
+    if errors:
+        raise RequestError(f"the library cannot be called `{name}`: {errors[0].message}")

@@ -15,7 +15,8 @@ DEFAULT = "press"
 class Template:
     """A template: a summary, what its skills, its scene and a first change are, and the skills of its plan, sorted.
 
-    `{skill}` in a text stands for the name of the project as the name of a skill.
+    `{skill}` in a text stands for the name of the project as the name of a skill. `own_files` are files that no other
+    template has.
     """
 
     name: str
@@ -24,6 +25,7 @@ class Template:
     scene: str
     change: str
     steps: tuple[str, ...]
+    own_files: tuple[str, ...] = ()
 
 
 TEMPLATES = (
@@ -66,6 +68,7 @@ TEMPLATES = (
         "the robot",
         "add things with `skillc scene add cell.ttl`, and say in `{skill}` what to do with them",
         ("{skill}",),
+        ("home.py",),
     ),
 )
 
