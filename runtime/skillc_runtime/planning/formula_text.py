@@ -94,9 +94,9 @@ class FormulaFormatter:
                 assert_never(meaning)
 
     def _format_term(self, term: str, names: Mapping[str, str]) -> str:
-        if term in self._problem.names:
-            return self._short(self._problem.names[term])
-        return names.get(term, term.removeprefix("?"))
+        if term in names or term not in self._problem.names:
+            return names.get(term, term.removeprefix("?"))
+        return self._short(self._problem.names[term])
 
 
 def _labelled_texts(implementation: Implementation) -> Iterator[tuple[str, str]]:

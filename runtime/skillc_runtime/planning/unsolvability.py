@@ -8,13 +8,17 @@ from dataclasses import dataclass
 from skillc_model.conditions import Condition
 from skillc_model.pddl.domain import Action, GuardMeaning, Meaning
 from skillc_model.pddl.formulas import FALSE, Atom, Conjunction, Disjunction, Formula, conjunction, conjuncts
+from skillc_model.read_write import terms_read
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling, limit_current
+from skillc_runtime.planning.change_text import ChangeText, describe_class, describe_unused_skills
 from skillc_runtime.planning.formula_text import FormulaFormatter
+from skillc_runtime.planning.nearest_changes import NearestChanges
+from skillc_runtime.planning.partial_bindings import PartialBindings, unify
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
 from skillc_runtime.planning.search.grounding import Grounding
-from skillc_runtime.world.eval.explain import RelationObstacle, explain, find_obstacle
+from skillc_runtime.world.eval.explain import RelationObstacle, explain
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -29,8 +33,8 @@ EXPLANATION_S = 5.0
 class UnsolvabilityReason:
     """Why there is no plan: how the parts of the goal depend on conditions, and what keeps these from holding.
 
-    `causes` are what reasoners say, else other facts that are wrong or missing; empty if none was found.
-    `obstacles` are all that reasoners say.
+    `causes` are the nearest changes after which the goal may be reached; empty if none was found. `obstacles` are what
+    reasoners say of them.
     """
 
     why: str
@@ -51,6 +55,7 @@ def pose_to_explain(
 
 def explain_unsolvable(posed: PosedProblem, goal: Condition, state: WorldState) -> UnsolvabilityReason:
     """Return why a problem has no plan, as far as reachability without deletions shows."""
+    reasons: tuple[str, ...] = ()
     causes: tuple[str, ...] = ()
     obstacles: tuple[RelationObstacle, ...] = ()
     limit = limit_current(EXPLANATION_S)
@@ -58,35 +63,29 @@ def explain_unsolvable(posed: PosedProblem, goal: Condition, state: WorldState) 
         with cancelling(limit):
             explanation = _Explanation(posed, state, limit)
             reasons = tuple(explanation.explain_goal(goal))
-        obstacles = tuple(dict.fromkeys(explanation.obstacles))
-        found = list(map(str, obstacles)) or explanation.wrong or explanation.missing
-        causes = tuple(dict.fromkeys(found))[:MAX_LISTED]
+            causes, obstacles = explanation.find_causes(goal)
     except Cancelled:
-        reasons = ("no sequence of skills reaches the goal; the scene is too large to say why",)
+        reasons = reasons or ("no sequence of skills reaches the goal; the scene is too large to say why",)
     undecided = (f"not decided: {each}" for each in posed.undecided[:MAX_LISTED])
     notes = (*reasons, *_describe_left_out(posed), *undecided)
     return UnsolvabilityReason("; ".join(dict.fromkeys(notes)), causes, obstacles)
 
 
 class _Explanation:
-    """Fills three lists while it explains a goal.
-
-    `obstacles` is what reasoners say, `wrong` are facts that are not as a skill needs them, `missing` are the relations
-    that no individuals have.
-    """
+    """Explains why a goal is out of reach; what individuals lack to take part in skills is collected while it does."""
 
     def __init__(self, posed: PosedProblem, state: WorldState, limit: CancelToken) -> None:
+        self._posed, self._state, self._limit = posed, state, limit
         self._domain, self._objects = posed.problem.domain, posed.problem.objects
-        self._state, self._iris = state, posed.problem.names
+        self._iris = posed.problem.names
         skipped = any(each.kind == "skills" for each in posed.restricted)
         self._no_skill = "no plannable skill" if skipped else "no skill"
         self._nothing = "no plannable skill" if skipped else "nothing"
         self._formatter = FormulaFormatter(posed.problem, posed.library)
         self._grounding = Grounding(posed.problem, limit)
         self._grounding.explore()
-        self.obstacles: list[RelationObstacle] = []
-        self.wrong: list[str] = []
-        self.missing: list[str] = []
+        self._partial = PartialBindings(posed.problem, self._grounding, limit)
+        self._unfit: list[str] = []
 
     def explain_goal(self, condition: Condition) -> Iterator[str]:
         """Yield an explanation for each part of the goal that cannot be reached."""
@@ -94,10 +93,26 @@ class _Explanation:
         if goal == FALSE:
             yield f"{self._no_skill} can change this: {explain(condition, self._state, {}, self._state.vocabulary)}"
             return
-        lost = [part for part in conjuncts(goal) if not self._grounding.is_possible(part)]
+        parts = conjuncts(goal)
+        lost = [part for part in parts if not self._grounding.is_possible(part)]
         yield from (self._explain_part(part, MAX_DEPTH) for part in lost)
-        if not lost:
+        if not lost and len(parts) > 1:
             yield "each part of the goal can be reached, but not all of them together"
+        elif not lost:
+            shown = self._formatter.format(goal)
+            yield f"`{shown}` cannot be reached: each step towards it can be done, but not without undoing another"
+
+    def find_causes(self, condition: Condition) -> tuple[tuple[str, ...], tuple[RelationObstacle, ...]]:
+        """Return what a person may change, and what reasoners say, after the goal has been explained."""
+        problem, library = self._posed.problem, self._posed.library
+        nearest = NearestChanges(problem, self._state, self._grounding, self._limit)
+        reachable = self._grounding.is_possible(self._grounding.goal())
+        text = ChangeText(problem, library, self._state)
+        found = text.describe(nearest.find_blocking() if reachable else nearest.find())
+        if not found and not reachable:
+            unused = describe_unused_skills(terms_read(condition), problem, library)
+            found = tuple(self._unfit) or tuple(unused)
+        return tuple(dict.fromkeys(found))[:MAX_LISTED], tuple(dict.fromkeys(text.obstacles))
 
     def _explain_part(self, part: Formula, depth: int) -> str:
         if isinstance(part, Disjunction) and len(part.parts) > 1:
@@ -113,50 +128,38 @@ class _Explanation:
         if not reasons:
             mistyped = [each for action in actions for each in self._find_mistyped(action, part)]
             least = min(map(len, mistyped), default=0)
-            self.wrong += [text for each in mistyped if len(each) == least for text in each]
+            self._unfit += [text for each in mistyped if len(each) == least for text in each]
             return f"{self._nothing} makes `{shown}` true"
         return f"`{shown}` cannot be reached: " + "; ".join(dict.fromkeys(reasons))
 
     def _explain_action(self, action: Action, wanted: Formula, depth: int) -> Iterator[str]:
         """Yield why an action cannot make an atom true, for each of its effects on that atom."""
         for change in action.effects:
-            start = _unify(change.atom, wanted, action) if change.positive else None
+            start = unify(change.atom, wanted, action) if change.positive else None
             if start is not None and self._fits_types(action, start):
                 yield f"{action.skill} {self._describe_need(action, start, depth)}"
 
     def _fits_types(self, action: Action, values: dict[str, str]) -> bool:
-        return not any(self._mistyped(action, values))
+        return not any(self._partial.mistyped(action, values))
 
     def _find_mistyped(self, action: Action, wanted: Formula) -> Iterator[tuple[str, ...]]:
         """Yield which individuals of an atom are not of the classes that an action with this effect takes."""
         labels = dict(zip((each.name for each in action.parameters), action.binds, strict=True))
         for change in action.effects:
-            start = _unify(change.atom, wanted, action) if change.positive else None
+            start = unify(change.atom, wanted, action) if change.positive else None
             if start is not None:
                 yield tuple(
-                    f"{self._describe_class(name)}, and {action.skill} needs a {self._formatter.format_type(cls)} as "
-                    f"`{labels[variable]}`"
-                    for variable, name, cls in self._mistyped(action, start)
+                    f"{describe_class(name, self._posed.problem, self._state)}, and {action.skill} needs a "
+                    f"{self._formatter.format_type(cls)} as `{labels[variable]}`"
+                    for variable, name, cls in self._partial.mistyped(action, start)
                 )
-
-    def _describe_class(self, name: str) -> str:
-        types = sorted(map(self._state.vocabulary.short, self._state.types(self._iris.get(name, ""))))
-        return f"{self._formatter.format_object(name)} is a {' and a '.join(types)}"
-
-    def _mistyped(self, action: Action, values: dict[str, str]) -> Iterator[tuple[str, str, str]]:
-        """Yield the variables bound to an object of a class that the action does not take: with it, and the class."""
-        types = {each.name: each.type for each in self._objects}
-        wanted = {each.name: each.type for each in action.parameters}
-        for variable, name in values.items():
-            if not self._domain.is_a(types[name], wanted[variable]):
-                yield variable, name, wanted[variable]
 
     def _describe_need(self, action: Action, start: dict[str, str], depth: int) -> str:
         """Return what an action needs: an object of a class, or the first condition that cannot hold with others."""
         for parameter, label in zip(action.parameters, action.binds, strict=True):
             if not self._domain.of_type(self._objects, parameter.type):
                 wanted = self._formatter.format_type(parameter.type)
-                self.wrong.append(f"there is no {wanted}, which {action.skill} needs as `{label}`")
+                self._unfit.append(f"there is no {wanted}, which {action.skill} needs as `{label}`")
                 return f"needs a {wanted} as `{label}`, and there is none"
         conditions = conjuncts(conjunction((action.precondition, action.hold)))
         names = {each.name: f"`{label}`" for each, label in zip(action.parameters, action.binds, strict=True)}
@@ -164,19 +167,8 @@ class _Explanation:
             if next(self._grounding.find_bindings(action, conditions[: count + 1], start), None) is None:
                 shown = self._formatter.format(condition, {**names, **self._short_names(start)})
                 left = self._grounding.find_bindings(action, conditions[:count], start)
-                why = self._explain_condition(condition, left, depth)
-                if why == NOTHING:
-                    self.missing.append(self._describe_missing(action, condition, start))
-                return f"needs {shown}, {why}"
+                return f"needs {shown}, {self._explain_condition(condition, left, depth)}"
         raise AssertionError(f"{action.name} can make this true")
-
-    def _describe_missing(self, action: Action, condition: Formula, start: dict[str, str]) -> str:
-        """Return that nothing fulfils a condition, with the classes of the parameters that have no value."""
-        classes = {each.name: f"a {self._formatter.format_type(each.type)}" for each in action.parameters}
-        shown = self._formatter.format(condition, {**classes, **self._short_names(start)})
-        alone = next(self._grounding.find_bindings(action, (condition,), start), None) is not None
-        others = " together with its other conditions" if alone else ""
-        return f"{action.skill} needs `{shown}`, and nothing in the scene fulfils that{others}"
 
     def _short_names(self, values: dict[str, str]) -> dict[str, str]:
         return {variable: self._formatter.format_object(name) for variable, name in values.items()}
@@ -203,27 +195,9 @@ class _Explanation:
         individuals = [self._iris.get(term) for term in terms]
         bindings = {name: iri for name, iri in zip(meaning.variables, individuals, strict=True) if iri is not None}
         try:
-            obstacle = find_obstacle(meaning.condition, self._state, bindings)
-            text = explain(meaning.condition, self._state, bindings, self._state.vocabulary)
-            if obstacle is None:
-                self.wrong.append(text)
-            else:
-                self.obstacles.append(obstacle)
-            return text
+            return explain(meaning.condition, self._state, bindings, self._state.vocabulary)
         except EvaluationError as reason:
             return str(reason)
-
-
-def _unify(atom: Atom, wanted: Formula, action: Action) -> dict[str, str] | None:
-    """Return the binding of an action's parameters with which an effect is the wanted atom; None if there is none."""
-    if not isinstance(wanted, Atom) or atom.predicate != wanted.predicate:
-        return None
-    parameters = {each.name for each in action.parameters}
-    values: dict[str, str] = {}
-    for term, name in zip(atom.terms, wanted.terms, strict=True):
-        if values.setdefault(term, name) != name or (term not in parameters and term != name):
-            return None
-    return {term: name for term, name in values.items() if term in parameters}
 
 
 def _describe_left_out(posed: PosedProblem) -> Iterator[str]:

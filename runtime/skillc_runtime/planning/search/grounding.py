@@ -70,6 +70,7 @@ class Grounding:
         self._static = frozenset(each for each in problem.init if each.predicate not in self._changing)
         self.init = frozenset(each for each in problem.init if each.predicate in self._changing)
         self.reachable: set[Atom] = set(self.init)
+        self._deletable: set[Atom] = set()
         self._facts: dict[str, list[tuple[str, ...]]] = defaultdict(list)
         for atom in problem.init:
             self._facts[atom.predicate].append(atom.terms)
@@ -125,6 +126,14 @@ class Grounding:
         whole = conjunction(conditions)
         bindings = self._bindings(action, conjuncts(whole), start)
         yield from (values for values in bindings if self.is_possible(self.reduce(whole, values)))
+
+    def find_partners(self, atom: Atom, variable: str, values: Values) -> Iterator[str]:
+        """Yield the values of a variable with which an atom is reachable, whose other variables have `values`."""
+        for terms in self._facts[atom.predicate]:
+            pairs = [(values.get(term, term), name) for term, name in zip(atom.terms, terms, strict=True)]
+            fitting = {name for term, name in pairs if term == variable}
+            if len(fitting) == 1 and all(term in (name, variable) for term, name in pairs):
+                yield from fitting
 
     def _bindings(self, action: Action, conditions: Iterable[Formula], start: Values) -> Iterator[dict[str, str]]:
         """Yield the bindings of an action's parameters that make the positive atoms among the conditions reachable."""
@@ -191,20 +200,11 @@ class Grounding:
             case Disjunction(parts):
                 return any(self.is_possible(part) for part in parts)
             case Negation(body):
-                return body not in self.init or self._is_deletable(body)
+                return body not in self.init or body in self._deletable
             case Equal() | Existential() | Universal():
                 raise AssertionError(f"{formula} is not reduced")
             case _:
                 assert_never(formula)
-
-    def _is_deletable(self, atom: Atom | Equal) -> bool:
-        """Whether an effect of the domain deletes atoms of this predicate."""
-        return isinstance(atom, Atom) and atom.predicate in self._deleted_predicates
-
-    @cached_property
-    def _deleted_predicates(self) -> frozenset[str]:
-        effects = (each for action in self._problem.domain.actions for each in action.effects)
-        return frozenset(each.atom.predicate for each in effects if not each.positive)
 
     def _ground_effects(self, change: Change, values: Values) -> Iterator[GroundEffect]:
         for names in product(*(self._members[each.type] for each in change.variables)):
@@ -215,16 +215,15 @@ class Grounding:
                 yield GroundEffect(atom, change.positive, condition)
 
     def _add_reachable(self, ground: GroundAction) -> bool:
-        """Add the atoms that an action makes true to `reachable`; return whether one was new."""
-        new = {
-            each.atom
-            for each in ground.effects
-            if each.positive and each.atom not in self.reachable and self.is_possible(each.condition)
-        }
+        """Add the atoms that an action makes true, and those that it makes false; return whether one was new."""
+        possible = [each for each in ground.effects if self.is_possible(each.condition)]
+        new = {each.atom for each in possible if each.positive} - self.reachable
+        gone = {each.atom for each in possible if not each.positive} - self._deletable
         self.reachable |= new
+        self._deletable |= gone
         for atom in sorted(new, key=lambda each: each.terms):
             self._facts[atom.predicate].append(atom.terms)
-        return bool(new)
+        return bool(new or gone)
 
     def _units(self, action: Action, values: Values) -> int:
         match action.cost:

@@ -111,7 +111,8 @@ class _Explainer:
         match condition:
             case Holds(subject, relation, object_):
                 facts = sorted(self._pairs(subject, object_, relation, bindings))
-                return f"{self._facts(facts, relation)}; needed: nothing"
+                wanted = "nothing" if Anything() in (subject, object_) else "that it does not hold"
+                return f"{self._facts(facts, relation)}; needed: {wanted}"
             case Not(body):
                 return self.unmet(body, bindings)
             case And(parts):

@@ -1,0 +1,122 @@
+"""Says what a person may change so that a goal can be reached: the facts that are missing, or that keep skills away."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence, Set
+from typing import assert_never
+
+from skillc_model.pddl.domain import (
+    ClassMeaning,
+    ExclusionMeaning,
+    GoalMeaning,
+    GuardMeaning,
+    PropertyMeaning,
+    RelationMeaning,
+)
+from skillc_model.pddl.problem import Problem
+from skillc_model.read_write import terms_read, terms_written
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.planning.formula_text import FormulaFormatter
+from skillc_runtime.planning.nearest_changes import Lack, NearestChange, Reader, find_stated
+from skillc_runtime.world.eval.explain import RelationObstacle, explain, find_obstacle
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
+
+
+class ChangeText:
+    """Describes what is lacking in a problem; `obstacles` collects what reasoners say about it."""
+
+    def __init__(self, problem: Problem, library: SkillLibrary, state: WorldState) -> None:
+        self._problem, self._library, self._state = problem, library, state
+        self._formatter = FormulaFormatter(problem, library)
+        self._short = state.vocabulary.short
+        self.obstacles: list[RelationObstacle] = []
+
+    def describe(self, found: Sequence[NearestChange]) -> tuple[str, ...]:
+        """Return the first of several changes; where another would do as well, individuals are named by their class."""
+        if not found:
+            return ()
+        alone = [each.lacking[0] for each in found if len(each.lacking) == 1]
+        texts = (text for lack, reader in found[0].lacking for text in self._describe(lack, reader, alone))
+        return tuple(dict.fromkeys(texts))
+
+    def _describe(self, lack: Lack, reader: Reader, choices: Sequence[tuple[Lack, Reader]]) -> Iterator[str]:
+        skill = reader.action.skill
+        meaning = self._problem.domain.predicate[lack.atom.predicate].meaning
+        if not lack.holds:
+            yield f"`{self._formatter.format(lack.atom)}` holds, and {skill} does not start while it does"
+            return
+        match meaning:
+            case GuardMeaning():
+                yield self._describe_guard(meaning, lack)
+                yield from self._describe_unused(terms_read(meaning.condition))
+            case RelationMeaning(relation):
+                yield self._describe_relation(relation, lack, reader, choices)
+                yield from self._describe_unused({relation})
+            case PropertyMeaning(property_):
+                yield f"{skill} needs `{self._formatter.format(lack.atom)}`, which does not hold"
+                yield from self._describe_unused({property_})
+            case ClassMeaning(cls):
+                owner = describe_class(lack.atom.terms[0], self._problem, self._state)
+                yield f"{owner}, and {skill} needs a {self._short(cls)}"
+            case GoalMeaning() | ExclusionMeaning():
+                return
+            case _:
+                assert_never(meaning)
+
+    def _describe_relation(
+        self, relation: str, lack: Lack, reader: Reader, choices: Sequence[tuple[Lack, Reader]]
+    ) -> str:
+        """Return a missing relation; with the classes of its sides if other individuals would do as well."""
+        classes, skill = self._find_classes(lack, reader, choices), reader.action.skill
+        shown = self._formatter.format(lack.atom, classes)
+        if classes:
+            return f"{skill} needs `{shown}`, and nothing in the scene fulfils that"
+        subject, object_ = (self._problem.names[each] for each in lack.atom.terms)
+        stated = find_stated(self._state, relation, subject, object_)
+        fact = f"{self._short(subject)} {self._short(stated)} {self._short(object_)}" if stated else ""
+        return f"{skill} needs `{shown}`, which does not hold" + (f": state `{fact}` if it is so" if fact else "")
+
+    def _find_classes(self, lack: Lack, reader: Reader, choices: Sequence[tuple[Lack, Reader]]) -> dict[str, str]:
+        """Return the class for each term of an atom in place of which other choices have another individual."""
+        alike = [
+            each.atom.terms for each, other in choices if (other.action, other.atom) == (reader.action, reader.atom)
+        ]
+        return {
+            term: f"a {self._formatter.format_type(type_)}"
+            for side, (term, type_) in enumerate(zip(lack.atom.terms, reader.types, strict=True))
+            if type_ is not None and len({each[side] for each in alike}) > 1
+        }
+
+    def _describe_guard(self, meaning: GuardMeaning, lack: Lack) -> str:
+        bindings = {
+            variable: self._problem.names[term]
+            for variable, term in zip(meaning.variables, lack.atom.terms, strict=True)
+        }
+        try:
+            obstacle = find_obstacle(meaning.condition, self._state, bindings)
+            if obstacle is not None:
+                self.obstacles.append(obstacle)
+                return str(obstacle)
+            return explain(meaning.condition, self._state, bindings, self._state.vocabulary)
+        except EvaluationError as reason:
+            return str(reason)
+
+    def _describe_unused(self, terms: Set[str]) -> Iterator[str]:
+        return describe_unused_skills(terms, self._problem, self._library)
+
+
+def describe_class(name: str, problem: Problem, state: WorldState) -> str:
+    """Return the classes of an object as a sentence."""
+    iri, short = problem.names[name], state.vocabulary.short
+    return f"{short(iri)} is a {' and a '.join(sorted(map(short, state.types(iri))))}"
+
+
+def describe_unused_skills(terms: Set[str], problem: Problem, library: SkillLibrary) -> Iterator[str]:
+    """Yield the skills that are left out of planning, with the reasons, if they alone change one of these terms."""
+    written = {name: terms_written(each.post, library.vocabulary) for name, each in library.skills.items()}
+    planned = {each.skill for each in problem.domain.actions if each.skill is not None}
+    wanted = terms - frozenset[str]().union(*(written[each] for each in planned))
+    reasons = {each.skill: each.reason for each in problem.domain.excluded}
+    for name in sorted(each for each in library.skills if not wanted.isdisjoint(written[each])):
+        yield f"{name}, which changes it, is left out of planning: {reasons.get(name, 'it is `noplan`')}"

@@ -1,0 +1,302 @@
+"""Finds the nearest changes of a world after which a goal could be reached: what a person may change.
+
+Backward from the goal, every way to make an atom true lacks something: facts that would have to hold, or to be gone.
+What is lacking is tried: it counts if the goal can be reached, deletions ignored, once the world is changed like that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import TypeAlias, assert_never
+
+from skillc_model.conditions import Condition, Variable
+from skillc_model.pddl.domain import Action, GuardMeaning, Meaning, RelationMeaning
+from skillc_model.pddl.formulas import (
+    Atom,
+    Conjunction,
+    Disjunction,
+    Equal,
+    Existential,
+    Formula,
+    Negation,
+    Typed,
+    Universal,
+    conjuncts,
+)
+from skillc_model.pddl.problem import Problem
+from skillc_model.rewriting import substitute
+from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.planning.partial_bindings import PartialBindings, Values, unify
+from skillc_runtime.planning.plan import Solved
+from skillc_runtime.planning.search.astar import AStar
+from skillc_runtime.planning.search.grounding import Grounding
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.state.changes import AddRelation
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
+
+MAX_DEPTH = 6
+MAX_WAYS = 40
+"""How many ways to make one formula true are considered, those that lack the least first."""
+
+MAX_TRIED = 200
+"""How many changes of the world are tried."""
+
+
+MAX_SEARCHED = 8
+SEARCH_S = 0.5
+"""How many changes are tried by searching for a plan, and the time limit for each search."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lack:
+    """An atom that should be true (`holds`) or false; `cost` is how far that is from what people would state."""
+
+    atom: Atom
+    holds: bool
+    cost: int
+
+
+@dataclass(frozen=True, slots=True)
+class Reader:
+    """The action that needs an atom, as it has it in its conditions, `depth` actions before the goal."""
+
+    depth: int
+    action: Action
+    atom: Atom
+
+    @property
+    def types(self) -> tuple[str | None, ...]:
+        """The type of the parameter at each place of the atom; None if there is no parameter."""
+        types = {each.name: each.type for each in self.action.parameters}
+        return tuple(map(types.get, self.atom.terms))
+
+
+@dataclass(frozen=True, slots=True)
+class NearestChange:
+    """What is lacking together, each with what needs it."""
+
+    lacking: tuple[tuple[Lack, Reader], ...]
+
+
+Way: TypeAlias = frozenset[Lack]
+_Order: TypeAlias = tuple[str, tuple[str, ...], bool]
+NOTHING: tuple[Way, ...] = (frozenset(),)
+
+
+class NearestChanges:
+    """Searches backward in a problem whose goal is out of reach; `grounding` is that of the problem, explored."""
+
+    def __init__(self, problem: Problem, state: WorldState, grounding: Grounding, limit: CancelToken) -> None:
+        self._problem, self._state, self._grounding, self._limit = problem, state, grounding, limit
+        self._partial = PartialBindings(problem, grounding, limit)
+        self._guards = _group_guards(problem)
+        self._readers: dict[Lack, Reader] = {}
+
+    def find(self) -> tuple[NearestChange, ...]:
+        """Return the nearest changes with which the goal can be reached, all equally near; none if none is known."""
+        ways = [each for each in self._ways(self._problem.goal, {}, None, 0, frozenset()) if each]
+        single = {frozenset({lack}) for way in ways for lack in way}
+        found: list[Way] = []
+        for way in sorted({*single, *ways}, key=self._distance)[:MAX_TRIED]:
+            if found and self._distance(way)[:2] != self._distance(found[0])[:2]:
+                break
+            if self._suffices(way):
+                found.append(way)
+        return tuple(map(self._with_readers, found))
+
+    def find_blocking(self) -> tuple[NearestChange, ...]:
+        """Return the facts, one each, that keep skills from starting, and without which the goal has a plan."""
+        found = {
+            self._lack(part.body, {}, False, Reader(0, action, part.body))
+            for each in self._grounding.actions
+            for action in (self._problem.domain.action[each.words[0]],)
+            for part in conjuncts(each.precondition)
+            if isinstance(part, Negation) and isinstance(part.body, Atom) and part.body in self._grounding.init
+        }
+        alone = [frozenset({each}) for each in sorted(found, key=_order)[:MAX_SEARCHED]]
+        return tuple(self._with_readers(way) for way in alone if self._has_plan(way))
+
+    def _has_plan(self, way: Way) -> bool:
+        changed = _apply(self._problem, way, self._guards)
+        return isinstance(AStar().plan(changed, self._limit.limited(SEARCH_S)), Solved)
+
+    def _suffices(self, way: Way) -> bool:
+        """Whether the goal can be reached, deletions ignored, in a world changed in this way."""
+        grounding = Grounding(_apply(self._problem, way, self._guards), self._limit)
+        grounding.explore()
+        return grounding.is_possible(grounding.goal())
+
+    def _distance(self, way: Way) -> tuple[int, int, list[_Order]]:
+        """Return how far a change is: what it costs, then how near to the goal, where only consequences show."""
+        depth = max(self._readers[each].depth for each in way)
+        return _cost(way), -depth, sorted(map(_order, way))
+
+    def _with_readers(self, way: Way) -> NearestChange:
+        """Return a change without conditions that hold once the facts are stated that are needed with them."""
+        plain = [each for each in way if not isinstance(self._meaning(each), GuardMeaning)]
+        guards = sorted(way.difference(plain), key=_order)
+        state = self._state.with_changes([each for lack in plain for each in self._state_fact(lack)])
+        left = [each for each in guards if not (plain and self._holds(each, state))]
+        return NearestChange(tuple((each, self._readers[each]) for each in (*sorted(plain, key=_order), *left)))
+
+    def _state_fact(self, lack: Lack) -> Iterator[AddRelation]:
+        meaning = self._meaning(lack)
+        if lack.holds and isinstance(meaning, RelationMeaning):
+            subject, object_ = (self._problem.names[each] for each in lack.atom.terms)
+            stated = find_stated(self._state, meaning.relation, subject, object_)
+            if stated is not None:
+                yield AddRelation(subject, stated, object_)
+
+    def _holds(self, lack: Lack, state: WorldState) -> bool:
+        meaning = self._meaning(lack)
+        assert isinstance(meaning, GuardMeaning)
+        names = zip(meaning.variables, lack.atom.terms, strict=True)
+        try:
+            holds = evaluate(meaning.condition, state, {each: self._problem.names[name] for each, name in names})
+        except EvaluationError:
+            return False
+        return holds == lack.holds
+
+    def _meaning(self, lack: Lack) -> Meaning:
+        return self._problem.domain.predicate[lack.atom.predicate].meaning
+
+    def _ways(
+        self, formula: Formula, values: Values, by: Action | None, depth: int, visiting: frozenset[Atom]
+    ) -> tuple[Way, ...]:
+        """Return what ways to make a formula true lack, those that lack the least first; none if it has no way."""
+        self._limit.check()
+        if self._grounding.is_possible(self._grounding.reduce(formula, values)):
+            return NOTHING
+        match formula:
+            case Atom():
+                return self._ways_to_atom(formula, values, by, depth, visiting)
+            case Negation(Atom() as atom) if by is not None:
+                return (frozenset({self._lack(atom, values, False, Reader(depth, by, atom))}),)
+            case Negation() | Equal():
+                return ()
+            case Conjunction(parts):
+                return _together([self._ways(part, values, by, depth, visiting) for part in parts])
+            case Disjunction(parts):
+                return _least(way for part in parts for way in self._ways(part, values, by, depth, visiting))
+            case Existential(variable, body):
+                scopes = self._scopes(variable, values)
+                return _least(way for scope in scopes for way in self._ways(body, scope, by, depth, visiting))
+            case Universal(variable, body):
+                scopes = self._scopes(variable, values)
+                return _together([self._ways(body, scope, by, depth, visiting) for scope in scopes])
+            case _:
+                assert_never(formula)
+
+    def _scopes(self, variable: Typed, values: Values) -> list[dict[str, str]]:
+        members = self._problem.domain.of_type(self._problem.objects, variable.type)
+        return [{**values, variable.name: name} for name in members]
+
+    def _ways_to_atom(
+        self, read: Atom, values: Values, by: Action | None, depth: int, visiting: frozenset[Atom]
+    ) -> tuple[Way, ...]:
+        atom = _bind(read, values)
+        stated = () if by is None else (frozenset({self._lack(read, values, True, Reader(depth, by, read))}),)
+        if atom in visiting or depth >= MAX_DEPTH or not self._problem.domain.predicate[atom.predicate].changes:
+            return stated
+        made = (
+            way
+            for action, start in self._makers(atom)
+            for bound, lacking in self._partial.find(action, start)
+            for way in _together([self._ways(each, bound, action, depth + 1, visiting | {atom}) for each in lacking])
+        )
+        return _least((*made, *stated))
+
+    def _makers(self, atom: Atom) -> Iterator[tuple[Action, dict[str, str]]]:
+        """Yield the actions that make an atom true, with the parameters that are bound by it."""
+        for action in self._problem.domain.actions:
+            for change in action.effects:
+                start = unify(change.atom, atom, action) if change.positive else None
+                if start is not None and not any(self._partial.mistyped(action, start)):
+                    yield action, start
+
+    def _lack(self, read: Atom, values: Values, holds: bool, reader: Reader) -> Lack:
+        atom = _bind(read, values)
+        lack = Lack(atom, holds, self._cost_of(atom) if holds else 1)
+        if lack not in self._readers or reader.depth < self._readers[lack].depth:
+            self._readers[lack] = reader
+        return lack
+
+    def _cost_of(self, atom: Atom) -> int:
+        """Return what it costs to state an atom: more if skills can make it true, or if it contradicts another fact."""
+        predicate = self._problem.domain.predicate[atom.predicate]
+        cost = 2 if predicate.changes else 1
+        if isinstance(predicate.meaning, RelationMeaning):
+            relation = self._state.vocabulary.relations[predicate.meaning.relation]
+            subject, object_ = (self._problem.names.get(each, "") for each in atom.terms)
+            cost += 2 * (relation.functional and bool(self._state.objects(subject, relation.iri)))
+            cost += 2 * (relation.inverse_functional and bool(self._state.subjects(relation.iri, object_)))
+        return cost
+
+
+def find_stated(state: WorldState, relation: str, subject: str, object_: str) -> str | None:
+    """Return the relation to state so that this one holds: the narrowest that takes both; None unless there is one."""
+    known = state.vocabulary.relations
+
+    def is_below(iri: str, above: str) -> bool:
+        return iri == above or any(is_below(each, above) for each in known[iri].parents if each in known)
+
+    def takes(iri: str) -> bool:
+        sides = known[iri].signatures
+        return any(state.is_a(subject, each.domain) and state.is_a(object_, each.range) for each in sides)
+
+    fitting = [each for each in known if is_below(each, relation) and not state.vocabulary.is_computed(each)]
+    fitting = [each for each in fitting if takes(each)]
+    lowest = [each for each in fitting if not any(is_below(other, each) for other in fitting if other != each)]
+    return lowest[0] if len(lowest) == 1 else None
+
+
+def _apply(problem: Problem, way: Way, guards: Mapping[str, Sequence[str]]) -> Problem:
+    """Return a problem with an initial state changed in this way; `guards` are predicates of the same meaning."""
+    same = [(each.holds, Atom(name, each.atom.terms)) for each in way for name in guards[each.atom.predicate]]
+    gone = {atom for holds, atom in same if not holds}
+    stated = (atom for holds, atom in same if holds)
+    init = dict.fromkeys((*(each for each in problem.init if each not in gone), *stated))
+    return replace(problem, init=tuple(init))
+
+
+def _group_guards(problem: Problem) -> dict[str, list[str]]:
+    """Return for each predicate those that mean the same: skills have predicates of their own for one condition."""
+    groups: dict[Condition | str, list[str]] = {}
+    for each in problem.domain.predicates:
+        key: Condition | str = each.name
+        if isinstance(each.meaning, GuardMeaning):
+            numbered = {name: Variable(f"?{number}") for number, name in enumerate(each.meaning.variables)}
+            key = substitute(each.meaning.condition, numbered)
+        groups.setdefault(key, []).append(each.name)
+    return {name: names for names in groups.values() for name in names}
+
+
+def _bind(atom: Atom, values: Values) -> Atom:
+    return Atom(atom.predicate, tuple(values.get(term, term) for term in atom.terms))
+
+
+def _together(options: Sequence[tuple[Way, ...]]) -> tuple[Way, ...]:
+    """Return the ways that take one of each of the options."""
+    ways: tuple[Way, ...] = NOTHING
+    for each in options:
+        ways = _least(one | other for one, other in product(ways, each))
+    return ways
+
+
+def _least(ways: Iterable[Way]) -> tuple[Way, ...]:
+    return tuple(sorted(dict.fromkeys(ways), key=_rank)[:MAX_WAYS])
+
+
+def _rank(way: Way) -> tuple[int, list[_Order]]:
+    return _cost(way), sorted(map(_order, way))
+
+
+def _cost(way: Way) -> int:
+    return sum(each.cost for each in way)
+
+
+def _order(lack: Lack) -> _Order:
+    return lack.atom.predicate, lack.atom.terms, lack.holds
