@@ -60,7 +60,7 @@ def analyse(
 ) -> Outcome[Program]:
     """Read, resolve and check a library as `compile` does; `memo` has what the last analysis has found."""
     files = read_sources(sources, importable, name, parsed_by)
-    program = resolve_program(files.value, vocabulary, name, scenes, memo.resolve if memo else None)
+    program = resolve_program(files.value, vocabulary, name, scenes, memo.resolve if memo else None, importable)
     return Outcome(program.value, find_problems(files, program, memo))
 
 

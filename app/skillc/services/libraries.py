@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 from typing import TypeAlias
 
 from skillc.errors import DiagnosticsError, RequestError
@@ -53,16 +53,17 @@ def compile_library(
     with gc_disabled():
         known = load_vocabulary_with(library.vocabularies)
         files = read_sources(library.sources, library.importable, library.name, parsed_by or _parse, library.namespaces)
-        program = resolve_program(files.value, known.value, library.name, pipeline.NO_SCENES, memo.resolve)
+        resolve = partial(resolve_program, base=known.value, name=library.name, importable=library.importable)
+        program = resolve(files.value, scenes=pipeline.NO_SCENES, memo=memo.resolve)
         individuals = find_individuals(program.value) if find_individuals else {}
         if individuals:
-            program = resolve_program(files.value, known.value, library.name, individuals, memo.resolve)
+            program = resolve(files.value, scenes=individuals, memo=memo.resolve)
         checked = Outcome(program.value, find_problems(files, program, memo))
         outcome = pipeline.lower_and_report(checked, library.sources, kept)
 
         def check(texts: Sequence[Source]) -> tuple[Diagnostic, ...]:
             others = read_sources(texts, library.importable, library.name, parsed_by or _parse, library.namespaces)
-            found = resolve_program(others.value, known.value, library.name, individuals, memo.resolve)
+            found = resolve(others.value, scenes=individuals, memo=memo.resolve)
             return find_problems(others, found, memo)
 
         useful = keep_useful_fixes(outcome.diagnostics, library.sources, check)

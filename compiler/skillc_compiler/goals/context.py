@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 from skillc_compiler.program.typed import Parameter, Skill, TypedExpression
 from skillc_compiler.program.types import Type, type_of
 from skillc_compiler.resolve.individuals import Individuals, most_specific_classes
-from skillc_compiler.resolve.names import KINDS, Homes, Kind, Names, bare_terms
+from skillc_compiler.resolve.homes import Homes
+from skillc_compiler.resolve.names import KINDS, Kind, Names, bare_terms
 from skillc_compiler.resolve.scope import FileContext
 from skillc_dsl.source import Span
 from skillc_model import skills as library
@@ -39,7 +40,7 @@ def make_context(
         prefixes={**prefixes, **vocabulary.prefixes},
         functions=vocabulary.functions,
         skills=set(callees),
-        elsewhere=Homes({}, frozenset()),
+        elsewhere=Homes({}, {}, frozenset(), ""),
     )
     return FileContext(
         names=names,

@@ -118,8 +118,8 @@ def analyse(library: AnalysisInput, parsed_by: Parser = parse, memo: AnalysisMem
     """
     with gc_disabled():
         files = read_sources(_ordered(library), library.importable, library.name, parsed_by, library.namespaces)
-        known = memo.resolve if memo else None
-        program = resolve_program(files.value, library.vocabulary, library.name, library.scenes, known)
+        known, others = memo.resolve if memo else None, library.importable
+        program = resolve_program(files.value, library.vocabulary, library.name, library.scenes, known, others)
     return Analysis(library, files, program, parsed_by, memo)
 
 

@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
-import msgspec
-
 from skillc_compiler.program.labels import label_declaration
 from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownKind, UnknownName
+from skillc_compiler.resolve.homes import Homes
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.spelling import alike_names
 from skillc_rdf.vocabulary.types import (
     THING,
     ClassTerm,
@@ -26,23 +26,12 @@ Kind: TypeAlias = Literal["class", "relation", "property"]
 KINDS: tuple[Kind, ...] = ("class", "relation", "property")
 
 
-class Homes(msgspec.Struct, frozen=True):
-    """The file that declares a name, for each name of the library that is not `visible` in a file."""
-
-    of: Mapping[str, str]
-    visible: Set[str]
-
-    def get(self, name: str) -> str | None:
-        """Return the file; None if the name is visible, or nothing declares it."""
-        return None if name in self.visible else self.of.get(name)
-
-
 @dataclass
 class Names:
     """The names visible in one file, and the problems found when looking names up.
 
-    `bare` gives the IRIs that a bare name may denote, `known` all IRIs that exist; `elsewhere` gives the file of the
-    library that declares a name which this file does not import.
+    `bare` gives the IRIs that a bare name may denote, `known` all IRIs that exist; `elsewhere` gives the file
+    that declares a name which this file does not import.
     """
 
     bare: Mapping[Kind, Mapping[str, tuple[str, ...]]]
@@ -182,7 +171,7 @@ class Names:
         """Return the line at the top of the file that would make a name visible, None if there is no such line."""
         declaring = self.elsewhere.get(text)
         if declaring is not None:
-            return HeaderLine("import", declaring.rpartition("/")[2])
+            return HeaderLine("import", declaring)
         homes = (prefix for prefix, base in self.prefixes.items() if self._has(kind, base + text))
         home = min(homes, default=None)
         return HeaderLine("use", home) if home else None
@@ -201,13 +190,13 @@ class Names:
         self._report_unknown(kind, name, candidates)
 
     def _report_unknown(self, what: UnknownKind, name: s.Name, candidates: Iterable[str]) -> None:
-        home = self.elsewhere.get(name.text)
+        near, home = tuple(candidates), self.elsewhere.get(name.text)
         help_, line = f"declare the {what}, or import the file that does", None
-        if home:
-            line = HeaderLine("import", home.rpartition("/")[2])
-            help_ = f'it is declared in {home}: write `import "{line.name}"` at the top'
+        if home and not alike_names(name.text, near):
+            line = HeaderLine("import", home)
+            help_ = f'it is declared in {home}: write `import "{home}"` at the top'
         message = f"there is no {what} `{name.text}`"
-        self.unknown.append(UnknownName(what, name, message, tuple(candidates), help_, owner=LIBRARY, line=line))
+        self.unknown.append(UnknownName(what, name, message, near, help_, owner=LIBRARY, line=line))
 
 
 def bare_terms(vocabulary: Vocabulary, used: Iterable[str]) -> dict[Kind, dict[str, tuple[str, ...]]]:

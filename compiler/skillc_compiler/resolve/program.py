@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import posixpath
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from types import MappingProxyType
 
 from msgspec import structs
 
@@ -19,10 +21,11 @@ from skillc_compiler.resolve.declarations import (
     prefixes_in,
 )
 from skillc_compiler.resolve.duplicates import remove_duplicates
+from skillc_compiler.resolve.homes import Homes, names_by_import
 from skillc_compiler.resolve.implementations import resolve_implementation
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.memo import NOTHING, Findings, ResolveMemo, Resolver
-from skillc_compiler.resolve.names import KINDS, Homes, Kind, Names
+from skillc_compiler.resolve.names import KINDS, Kind, Names
 from skillc_compiler.resolve.scope import FileContext
 from skillc_compiler.resolve.skills import resolve_skill
 from skillc_compiler.resolve.spelling import suggest_fix
@@ -30,8 +33,11 @@ from skillc_compiler.resolve.tasks import resolve_task
 from skillc_compiler.resolve.terms import extend_vocabulary
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.source import Source
 from skillc_dsl.spelling import did_you_mean
 from skillc_rdf.vocabulary.types import Vocabulary
+
+NO_FILES: Mapping[str, Source] = MappingProxyType({})
 
 
 def resolve_program(
@@ -40,10 +46,12 @@ def resolve_program(
     name: str,
     scenes: Mapping[str, Individuals],
     memo: ResolveMemo | None = None,
+    importable: Mapping[str, Source] = NO_FILES,
 ) -> Outcome[Program]:
     """Return the program of the files; unresolved names are reported and left unknown.
 
-    `scenes` holds the individuals that tasks may name, by task. `memo` has the declarations of the analysis before,
+    `scenes` holds the individuals that tasks may name, by task. `importable` are the files that could be imported, by
+    the text that does it. `memo` has the declarations of the analysis before,
     whose meanings are reused if nothing has changed that was read for them.
     """
     memo = memo or ResolveMemo()
@@ -54,7 +62,7 @@ def resolve_program(
     unique = remove_duplicates(read, declared)
     files = unique.files
     lost = replace(_find_lost(read, base), twice=unique.twice)
-    names = _names(files, declared, bare, base, memo)
+    names = _names(files, declared, bare, base, memo, importable)
     vocabulary, of_terms = _terms(files, declared, names, base, memo)
     resolver = Resolver(memo, {path: [found] for path, found in of_terms.items()})
     contexts = _contexts(files, declared, names, vocabulary, memo)
@@ -148,10 +156,13 @@ def _names(
     bare: Mapping[str, Bare],
     base: Vocabulary,
     memo: ResolveMemo,
+    importable: Mapping[str, Source],
 ) -> dict[str, Names]:
     known = memo.known.same("", _known(declared, base))
-    declaring = {name: path for path, there in sorted(declared.items(), reverse=True) for name in there.names()}
-    homes = memo.homes.same("", declaring)
+    elsewhere = {source.path for source in importable.values()}
+    own = {path: there for path, there in sorted(declared.items(), reverse=True) if path not in elsewhere}
+    declaring = memo.homes.same("", {name: path for path, there in own.items() for name in there.names()})
+    others = names_by_import(tuple(importable.items()))
     found = {}
     for unit in files:
         here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports)]
@@ -163,7 +174,7 @@ def _names(
             prefixes=prefixes_in(unit.file, base),
             functions={},
             skills={name for there in here for name in there.skills},
-            elsewhere=Homes(homes, visible_here),
+            elsewhere=Homes(declaring, others, visible_here, posixpath.dirname(unit.file.path)),
         )
     return found
 

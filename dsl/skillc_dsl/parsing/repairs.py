@@ -10,6 +10,7 @@ import msgspec
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line, can_continue, fixed_texts, list_fitting_terminals
 from skillc_dsl.parsing.lexer import token_span
+from skillc_dsl.parsing.prefix_repairs import name_prefix
 from skillc_dsl.parsing.token_repairs import join_tokens, report_missing_space
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
@@ -73,7 +74,7 @@ class Fault(msgspec.Struct, frozen=True):
 def repair(fault: Fault) -> Repair | None:
     """Return the first change of one token that lets the parser continue, or None."""
     attempts: tuple[Callable[[Fault], Iterator[Repair]], ...]
-    attempts = (_repeated, _label, _swapped, _keyword, _body, _missing, _superfluous)
+    attempts = (_repeated, _nameless_prefix, _label, _swapped, _keyword, _body, _missing, _superfluous)
     return next((found for attempt in attempts for found in attempt(fault)), None)
 
 
@@ -81,6 +82,14 @@ def _repeated(fault: Fault) -> Iterator[Repair]:
     """A duplicated word or mark."""
     if fault.index and fault.token == fault.tokens[fault.index - 1] and fault.token.type not in ("LBRACE", "RBRACE"):
         yield from _superfluous(fault)
+
+
+def _nameless_prefix(fault: Fault) -> Iterator[Repair]:
+    """An address right after `prefix`."""
+    if fault.token.type == "IRI" and fault.mended_by("LABEL", "IRI"):
+        name, problem = name_prefix(fault.tokens, fault.index, fault.path)
+        before = fault.tokens[fault.index - 1]
+        yield Repair(problem, (join_tokens("LABEL", before, before, f"{name}:"), fault.token))
 
 
 def _label(fault: Fault) -> Iterator[Repair]:

@@ -7,6 +7,7 @@ from types import MappingProxyType
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.parsing.lexer import token_span
+from skillc_dsl.parsing.prefix_repairs import count_prefix_mistake, repair_prefix
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
 from skillc_dsl.units import UNITS, suggest_units
@@ -56,6 +57,8 @@ def _repaired(tokens: tuple[Token, ...], index: int, path: str) -> tuple[int, To
         return 1, *_implementation(tokens[index], path)
     if _is_assigned_argument(tokens, index):
         return 2, *_assigned_argument(tokens[index], tokens[index + 1], tokens[index + 2], path)
+    if count := count_prefix_mistake(tokens, index):
+        return count, *repair_prefix(tokens, index, count, path)
     if _is_split_label(tokens, index):
         return 2, *_label(tokens[index], tokens[index + 1], tokens[index + 2], path)
     return 1, tokens[index], None
@@ -168,7 +171,8 @@ def _is_split_label(tokens: tuple[Token, ...], index: int) -> bool:
     """Whether a word and a `:` at `index` do not form a label, as in `speed:0.5 m/s` or `arm : ArmDevice`."""
     if index + 2 >= len(tokens) or tokens[index + 1].type != "COLON":
         return False
-    return tokens[index].isidentifier() and tokens[index].line == tokens[index + 1].line
+    is_nameless_prefix = tokens[index].type == "PREFIX" and tokens[index + 2].type == "IRI"
+    return tokens[index].isidentifier() and tokens[index].line == tokens[index + 1].line and not is_nameless_prefix
 
 
 def _label(word: Token, colon: Token, value: Token, path: str) -> tuple[Token, Diagnostic | None]:
