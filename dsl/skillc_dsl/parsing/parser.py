@@ -15,6 +15,7 @@ from skillc_dsl.parsing.direct import build_directly
 from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.parsing.nesting import drop_too_deep
 from skillc_dsl.parsing.recovery import Recovery
+from skillc_dsl.parsing.reserved_names import rename_reserved
 from skillc_dsl.parsing.token_repairs import repair_tokens
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source
@@ -40,8 +41,9 @@ def parse(source: Source) -> Outcome[s.File]:
 def parse_with_problems(source: Source, lexed: Outcome[tuple[Token, ...]], wrong: Diagnostic | None) -> Outcome[s.File]:
     """Return the syntax tree of all parts that can be parsed; `wrong` is the problem with bytes that are no text."""
     repaired = repair_tokens(lexed.value, source.path)
-    closed = close_braces(repaired.value, source.path)
-    reported = {problem.span.line for problem in repaired.diagnostics}
+    named = rename_reserved(repaired.value, source.path)
+    closed = close_braces(named.value, source.path)
+    reported = {problem.span.line for problem in (*repaired.diagnostics, *named.diagnostics)}
     recovery = Recovery(closed.value, source.path, reported)
     builder = FileBuilder(source)
     tree, too_deep = drop_too_deep(recovery.run(), source.path)
@@ -51,7 +53,7 @@ def parse_with_problems(source: Source, lexed: Outcome[tuple[Token, ...]], wrong
     unread = {problem.span.line for problem in lexed.diagnostics}
     misfits = [problem for problem in recovery.problems if problem.span.line not in unread]
     parsing = _one_kind_each(closed.diagnostics, misfits, region_lines(lexed.value))
-    before = (*lexed.diagnostics, *repaired.diagnostics, *parsing, *too_deep)
+    before = (*lexed.diagnostics, *repaired.diagnostics, *named.diagnostics, *parsing, *too_deep)
     wrong_lines = {problem.span.line for problem in before}
     found = (*before, *(problem for problem in builder.problems if problem.span.line not in wrong_lines))
     problems = sorted(found, key=lambda problem: problem.span)

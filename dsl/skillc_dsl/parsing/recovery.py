@@ -18,6 +18,7 @@ from skillc_dsl.parsing.lexer import empty_token_after, token_span
 from skillc_dsl.parsing.nesting import DEEPEST, report_too_deep
 from skillc_dsl.parsing.repairs import Fault, repair
 from skillc_dsl.parsing.reserved import report_reserved
+from skillc_dsl.parsing.reserved_names import declared_words
 from skillc_dsl.parsing.second_step import report_second_step
 from skillc_dsl.parsing.token_repairs import join_tokens
 from skillc_dsl.parsing.tokens import Branch, Token, Tree, tokens_in
@@ -47,6 +48,7 @@ class Recovery:
         self._parser: Parser[Tree] = Parser(Tree)
         self._since = _CALM
         self._faults = 0
+        self._words = declared_words(tokens)
 
     def run(self) -> Tree:
         """Return the parse tree of everything that was parsed."""
@@ -69,6 +71,8 @@ class Recovery:
 
     def _recover(self, before: list[int], index: int) -> int:
         """Report the fault at `index` and return the index to continue at."""
+        if self._reads_declared_word(index):
+            return index
         self._faults += 1
         if self._faults > MOST_FAULTS:
             return self._give_up(index)
@@ -89,6 +93,14 @@ class Recovery:
         self._since = _CALM if begins_line(self.tokens, position) else 0
         return position
 
+    def _reads_declared_word(self, index: int) -> bool:
+        """Whether a word of the language is the name of something, which was reported; it is read as that name."""
+        token = self.tokens[index]
+        if token.type == "NAME" or token.value not in self._words or not can_continue(self._parser.states, "NAME"):
+            return False
+        self.tokens[index] = join_tokens("NAME", token, token, token.value)
+        return True
+
     def _leave_unclosed_call(self, index: int) -> bool:
         """Report a call whose `)` is missing if the next one begins on a line of its own; whether it is so."""
         values = self._parser.values
@@ -108,10 +120,11 @@ class Recovery:
 
     def _read_reserved_as_relation(self, index: int) -> None:
         """Report a relation that is called like a word of the language, and let it be parsed as a relation."""
+        token = self.tokens[index]
         problem = report_reserved(self._parser.states, self.tokens, index, self.path)
         if problem is not None:
-            token = self.tokens[index]
             self._report(problem)
+        if problem is not None or (token.type in ("HAS", "IS") and self._words.get(token.value) == "relation"):
             self.tokens[index] = join_tokens("NAME", token, token, token.value)
 
     def _leave_too_deep(self, index: int) -> int:

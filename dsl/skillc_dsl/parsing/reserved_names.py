@@ -1,0 +1,94 @@
+"""Reports declarations whose name is a word of the language where it is read, so that it could never be used."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator, Mapping, Sequence
+from types import MappingProxyType
+
+from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.parsing.expectations import name_terminals
+from skillc_dsl.parsing.grammar import can_continue, list_following_terminals
+from skillc_dsl.parsing.lexer import token_span
+from skillc_dsl.parsing.reserved import NAME
+from skillc_dsl.parsing.tables import load_tables
+from skillc_dsl.parsing.token_repairs import join_tokens
+from skillc_dsl.parsing.tokens import Token
+
+_NAMED = MappingProxyType(
+    {
+        "CLASS": "class",
+        "RELATION": "relation",
+        "PROPERTY": "property",
+        "FUNCTION": "function",
+        "SKILL": "skill",
+        "IMPL": "implementation",
+        "TASK": "task",
+        "LET": "value",
+        "FOR": "variable",
+    }
+)
+_LABELLED = MappingProxyType(
+    {
+        **dict.fromkeys(("IN", "OPT", "INFER", "ANY", "OUT"), "parameter"),
+        **dict.fromkeys(("EXISTS", "FORALL"), "variable"),
+        **dict.fromkeys(("PRE", "HOLD", "POST", "SENSED"), "label"),
+    }
+)
+"""What is named after a token, and what a name with its `:` is the name of."""
+_VALUES = frozenset(("parameter", "variable", "value", "function"))
+
+
+def has_reserved_name(tokens: Sequence[Token]) -> bool:
+    """Whether anything is declared whose name is a word of the language."""
+    return any(True for _ in _find(tokens))
+
+
+def rename_reserved(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
+    """Return the tokens, with names in place of the words of the language that are declared as names."""
+    problems: list[Diagnostic] = []
+    renamed = list(tokens)
+    for index, kind, word in _find(tokens):
+        token = tokens[index]
+        message = f"`{word}` is a word of the language, so no {kind} can be called `{word}`"
+        problems.append(Diagnostic(NAME, token_span(token, path), message, f"choose another name, such as `own_{word}`"))
+        if token.type != "LABEL":
+            renamed[index] = join_tokens("NAME", token, token, token.value)
+    return Outcome(tuple(renamed), tuple(problems))
+
+
+def declared_words(tokens: Sequence[Token]) -> Mapping[str, str]:
+    """Return the words of the language that are declared as names, and what they are the names of."""
+    return {word: kind for _, kind, word in _find(tokens)}
+
+
+def _find(tokens: Sequence[Token]) -> Iterator[tuple[int, str, str]]:
+    """Yield the index of each such name, what it is the name of, and the word."""
+    reserved, terminals = _reserved(), load_tables().words
+    in_head, before = False, ""
+    for index, token in enumerate(tokens):
+        if token.type == "LABEL":
+            kind = "parameter" if in_head else _LABELLED.get(before)
+            word = token[:-1]
+        else:
+            kind, word = _NAMED.get(before), token.value
+        if kind is not None and terminals.get(word) in reserved[kind]:
+            yield index, kind, word
+        before = token.type
+        in_head = before in ("FUNCTION", "TASK") or (in_head and before not in ("RPAR", "LBRACE", "LET"))
+
+
+@functools.cache
+def _reserved() -> MappingProxyType[str, frozenset[str]]:
+    """Return the terminals of the words that cannot be a name, by what it is the name of."""
+    words = frozenset(load_tables().words.values())
+    values = list_following_terminals("IMPL NAME OF NAME LBRACE LET NAME EQUAL") & name_terminals()
+    names = dict.fromkeys((*_NAMED.values(), *_LABELLED.values()), words - name_terminals())
+    skills = frozenset(each for each in words if not _is_callee(each))
+    return MappingProxyType({**names, **dict.fromkeys(_VALUES, words - values), "skill": skills})
+
+
+def _is_callee(terminal: str) -> bool:
+    """Whether a skill can be called by a word."""
+    start = [load_tables().start]
+    return can_continue(start, *"IMPL NAME OF NAME LBRACE DO".split(), terminal, *"LSQB NAME RSQB LPAR".split())
