@@ -9,7 +9,7 @@ from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Requirement, Skill, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.spelling import did_you_mean
 
 NAMES = ("unknown-label", "sensed-post-applied")
@@ -35,12 +35,37 @@ def _check_labels(
     for node in nodes_in(body):
         if isinstance(node.written, s.ApplyPosts):
             for name in node.written.labels:
-                yield from _check_label(name, labelled, skill)
+                yield from _check_label(name, labelled, requirements, skill)
 
 
-def _check_label(name: s.Name, labelled: Mapping[str, Requirement], skill: Skill | None) -> Iterator[Diagnostic]:
+def _by_position(name: str, requirements: Sequence[Requirement]) -> Requirement | None:
+    """Return the post without a label that messages call by its number, as in `post2`."""
+    posts = [each for each in requirements if each.kind == "post"]
+    return next((each for n, each in enumerate(posts, 1) if name == f"post{n}" and each.label is None), None)
+
+
+def _report_unlabelled(name: s.Name, post: Requirement) -> Diagnostic:
+    start = post.condition.span._replace(end_line=post.condition.span.line, end_column=post.condition.span.column)
+    label = f"{name.text}: "
+    return Diagnostic(
+        "unknown-label",
+        name.span,
+        f"the post that `{name.text}` means has no label, and `apply` needs one",
+        help=f"write `post {label}{post.text}`",
+        labels=(Label(post.span, "this post"),),
+        fix=Fix(start, label, f"label the post `{name.text}`"),
+    )
+
+
+def _check_label(
+    name: s.Name, labelled: Mapping[str, Requirement], requirements: Sequence[Requirement], skill: Skill | None
+) -> Iterator[Diagnostic]:
     found = labelled.get(name.text)
     if found is None or found.kind != "post":
+        unlabelled = _by_position(name.text, requirements)
+        if unlabelled is not None:
+            yield _report_unlabelled(name, unlabelled)
+            return
         posts = [label for label, each in labelled.items() if each.kind == "post"]
         meant = did_you_mean(name.text, posts)
         labels: tuple[Label, ...] = ()

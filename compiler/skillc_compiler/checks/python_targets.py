@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import keyword
 from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias
 
@@ -31,6 +32,11 @@ READS = Reads.PYTHON
 PRIMITIVE = "skillc_runtime.primitives.primitive:Primitive"
 CALLED_WITH = {"start": 0, "tick": 0, "halt": 1, "pause": 0, "withdraw": 0, "approach": 0, "resume": 0, "release": 0}
 """The methods of a primitive that are called, with the number of arguments."""
+_FORBIDDEN = {
+    "self": "a constructor has the object itself as `self`",
+    "cell": "a constructor has the devices and the world as `cell`",
+}
+_WORD = "it is a word of Python, which no constructor can take by name"
 _Reader: TypeAlias = Callable[[str, str], TargetInfo]
 
 
@@ -73,8 +79,22 @@ def _class(implementation: Implementation, written: s.Text, found: ClassInfo) ->
     given = [p.name for p in implementation.parameters if p.direction != "out"]
     wrong = _by_name(found.constructor, given) if found.constructor is not None else None
     if wrong:
-        label = Label(implementation.skill.name_span, f"the skill has {_format_names(given)}")
-        yield _wrong_parameters(written, wrong, f"let its constructor take the cell and {_format_names(given)}", label)
+        yield _misfit(implementation, written, wrong, given)
+
+
+def _misfit(implementation: Implementation, written: s.Text, wrong: str, given: Sequence[str]) -> Diagnostic:
+    """Report that a constructor takes other parameters, or that Python allows none of such a name."""
+    forbidden = [each for each in implementation.parameters if each.name in given and _is_forbidden(each.name)]
+    if forbidden:
+        name = forbidden[0].name
+        label = Label(forbidden[0].span, f"call it `own_{name}`, for example", is_cause=True)
+        return _wrong_parameters(written, wrong, f"{_FORBIDDEN.get(name, _WORD)}: give the parameter another name", label)
+    label = Label(implementation.skill.name_span, f"the skill has {_format_names(given)}")
+    return _wrong_parameters(written, wrong, f"let its constructor take the cell and {_format_names(given)}", label)
+
+
+def _is_forbidden(name: str) -> bool:
+    return keyword.iskeyword(name) or name in _FORBIDDEN
 
 
 def _by_name(taken: PythonSignature, given: Sequence[str]) -> str | None:

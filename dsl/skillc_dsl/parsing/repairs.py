@@ -21,6 +21,7 @@ _INSERTED = (
 )
 _SPACED = ("EQUAL", "DOTS", "LBRACE", "ARROW")
 _WORDS = ("OF", "PYTHON", "STEPS", "KEEP")
+_NAMELESS = ("the implementation has no name", "write `impl NAME of SKILL`")
 _SWAPPED = {"EQUAL": "EQUALS", "EQUALS": "EQUAL"}
 _BLOCKS = ("SEQ", "SEL", "PAR", "REACTIVE")
 _KEPT = DECLARATIONS | {"NAME", "QNAME", "LABEL", "LBRACE", "RBRACE", "LESS", END}
@@ -158,10 +159,13 @@ def _missing(fault: Fault) -> Iterator[Repair]:
             continue
         if fault.mended_by(terminal, skip=0) and (terminal != "LBRACE" or _has_unopened(fault)):
             text, gap = fixed_texts()[terminal], fault.gap
-            before = fault.tokens[fault.index - 1] if fault.index else ""
+            before = fault.tokens[fault.index - 1]
             padded = f" {text}" if text.isalpha() or terminal in _SPACED else text
             fix = Fix(gap, padded, f"insert `{text}`")
-            problem = Diagnostic("syntax", span, f"`{text}` is missing after `{before}`", fix=fix)
+            if terminal == "OF" and before == "of":
+                problem = Diagnostic("syntax", token_span(before, fault.path), *_NAMELESS)
+            else:
+                problem = Diagnostic("syntax", span, f"`{text}` is missing after `{before}`", fix=fix)
             place = (None, gap.line, gap.column, gap.line, gap.column, None)
             yield Repair(problem, (Token(terminal, text, *place), fault.token))
 
