@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from skillc.errors import DiagnosticsError, RequestError
 from skillc.services.check_cache import CheckCacheEntry
-from skillc.services.library_files import LibraryFiles, find_library, read_single_file, source_texts
+from skillc.services.libraries_below import find_libraries
+from skillc.services.library_files import LibraryFiles, read_single_file, source_texts
 from skillc.services.reporting import find_texts, sort_diagnostics
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.garbage import gc_disabled
@@ -52,8 +53,11 @@ class CheckResult(NamedTuple):
 
 
 def read_libraries(request: CheckRequest) -> list[LibraryFiles]:
-    """Read the libraries at the paths. RequestError for a path without a library."""
-    return [_from_stdin(request.stdin) if path == STDIN else find_library(path) for path in request.paths]
+    """Read the libraries at the paths and below them. RequestError for a path without a library."""
+    found: list[LibraryFiles] = []
+    for path in request.paths:
+        found += [_from_stdin(request.stdin)] if path == STDIN else find_libraries(path)
+    return found
 
 
 def check_sources(request: CheckRequest, libraries: Iterable[LibraryFiles], memos: Memos | None = None) -> CheckResult:

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 from skillc.errors import RequestError
 from skillc.services.files import inspect_path
@@ -102,7 +102,7 @@ def _find_by_name(name: Path) -> Path:
 def _read_folder(folder: Path) -> LibraryFiles:
     project = find_project(folder)
     root = project.root if project else folder
-    files = _files_below(root, whole=project is None)
+    files = _files_below(root)
     sources = {shown: file for shown, file in files.items() if shown.endswith(".skill")}
     if not sources:
         raise RequestError(f"there is no .skill file in {root}")
@@ -119,7 +119,7 @@ def read_single_file(path: Path | None, content: bytes) -> LibraryFiles:
     neighbours = {file.name: (file.name, file) for file in others}
     source = decode(path.name, content)
     project = find_project(path.parent)
-    files = _files_below(project.root, whole=False) if project else _files_in(path.parent)
+    files = _files_below(project.root) if project else _files_in(path.parent)
     beside = {shown: file for shown, file in files.items() if is_vocabulary_beside(file, project)}
     home = Home(project.name if project else path.resolve().parent.name, path.parent, project)
     return _library(home, (source,), {path.name: path}, neighbours, beside)
@@ -208,7 +208,8 @@ def _library(
 ) -> LibraryFiles:
     if home.project:
         use_ontologies(home.project)
-        use_modules(home.project)
+    if not home.root.is_relative_to(SHIPPED):
+        use_modules((home.root, *(each.root for each in home.others())))
     importable = {**_shipped(), **_of_dependencies(home.others()), **neighbours}
     texts = {wanted: _read(file, shown) for wanted, (shown, file) in sorted(importable.items())}
     vocabularies = {**user_vocabularies(), **_vocabularies_of(home.others()), **beside}
@@ -225,22 +226,18 @@ def use_ontologies(project: Project) -> None:
     catalogue.add_folders(each for each in dict.fromkeys(map(Path.resolve, folders)) if each not in known)
 
 
-def use_modules(project: Project) -> None:
-    """Let Python import what stands in the folders of a project and of what it depends on, after all that is installed.
+def use_modules(folders: Iterable[Path]) -> None:
+    """Let Python import what stands in the folders of a library and of what it depends on, after all that is installed.
 
     Processes that it starts inherit that. A command restores the path of Python when it ends.
     """
-    roots = [str(each.root.resolve()) for each in (project, *project.others())]
+    roots = [str(each.resolve()) for each in folders]
     sys.path.extend(root for root in dict.fromkeys(roots) if root not in sys.path)
 
 
 def _of_dependencies(others: Iterable[Project]) -> dict[str, tuple[str, Path]]:
     """Return the skill files of other libraries by the name that imports them, with their displayed paths."""
-    every = (
-        (f"{each.name}/{shown}", file)
-        for each in others
-        for shown, file in _files_below(each.root, whole=False).items()
-    )
+    every = ((f"{each.name}/{shown}", file) for each in others for shown, file in _files_below(each.root).items())
     return {shown: (shown, file) for shown, file in every if shown.endswith(".skill")}
 
 
@@ -249,7 +246,7 @@ def _vocabularies_of(others: Iterable[Project]) -> dict[str, Path]:
     return {
         f"{each.name}/{shown}": file
         for each in others
-        for shown, file in _files_below(each.root, whole=False).items()
+        for shown, file in _files_below(each.root).items()
         if is_vocabulary_beside(file, each)
     }
 
@@ -267,16 +264,16 @@ def _shipped() -> dict[str, tuple[str, Path]]:
     return {file.name if file.parent.name == "std" else shown: (shown, file) for file, shown in named}
 
 
-def _files_below(folder: Path, whole: bool) -> dict[str, Path]:
-    """Return the files below a folder, in order, by their paths from there; hidden folders and links are not entered.
+def _files_below(folder: Path) -> dict[str, Path]:
+    """Return the files below a folder, in order, by their paths from there.
 
-    Unless `whole`, other projects and virtual environments below it are not entered either.
+    Hidden folders, links, other projects and virtual environments below it are not entered.
     """
     found: dict[str, Path] = {}
-    for name, folders, names in os.walk(folder, onerror=_unreadable):
+    for name, folders, names in os.walk(folder, onerror=refuse_unreadable):
         place = Path(name)
         visible = (each for each in folders if not each.startswith("."))
-        folders[:] = [each for each in visible if whole or not projects.is_nested_project(place / each)]
+        folders[:] = [each for each in visible if not projects.is_nested_project(place / each)]
         above = "" if place == folder else f"{place.relative_to(folder).as_posix()}/"
         found |= {f"{above}{each}": place / each for each in names}
     return dict(sorted(found.items(), key=lambda item: item[0].split("/")))
@@ -287,7 +284,8 @@ def _files_in(folder: Path) -> dict[str, Path]:
     return {file.name: file for file in sorted(folder.glob("*"))}
 
 
-def _unreadable(error: OSError) -> None:
+def refuse_unreadable(error: OSError) -> NoReturn:
+    """Raise RequestError for a folder that cannot be read."""
     raise RequestError(f"{error.filename} cannot be read: {error.strerror}") from error
 
 

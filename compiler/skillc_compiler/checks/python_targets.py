@@ -88,7 +88,9 @@ def _misfit(implementation: Implementation, written: s.Text, wrong: str, given: 
     if forbidden:
         name = forbidden[0].name
         label = Label(forbidden[0].span, f"call it `own_{name}`, for example", is_cause=True)
-        return _wrong_parameters(written, wrong, f"{_FORBIDDEN.get(name, _WORD)}: give the parameter another name", label)
+        return _wrong_parameters(
+            written, wrong, f"{_FORBIDDEN.get(name, _WORD)}: give the parameter another name", label
+        )
     label = Label(implementation.skill.name_span, f"the skill has {_format_names(given)}")
     return _wrong_parameters(written, wrong, f"let its constructor take the cell and {_format_names(given)}", label)
 

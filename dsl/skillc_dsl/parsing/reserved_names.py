@@ -51,7 +51,9 @@ def rename_reserved(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token
     for index, kind, word in _find(tokens):
         token = tokens[index]
         message = f"`{word}` is a word of the language, so no {kind} can be called `{word}`"
-        problems.append(Diagnostic(NAME, token_span(token, path), message, f"choose another name, such as `own_{word}`"))
+        problems.append(
+            Diagnostic(NAME, token_span(token, path), message, f"choose another name, such as `own_{word}`")
+        )
         if token.type != "LABEL":
             renamed[index] = join_tokens("NAME", token, token, token.value)
     return Outcome(tuple(renamed), tuple(problems))

@@ -63,7 +63,9 @@ class CheckOptions(msgspec.Struct, frozen=True, kw_only=True):
 
 @click.command(cls=Command, examples=EXAMPLES)
 @click.argument("paths", nargs=-1, type=PATH)
-@click.option("--scene", type=PATH, shell_complete=complete_scene, help="Also check this scene against the libraries.")
+@click.option(
+    "--scene", type=PATH, shell_complete=complete_scene, help="Check in this scene alone, not in those of tasks."
+)
 @click.option(
     "--format", "form", type=FormChoice(FORMS), default="full", show_default=True, help="The format of diagnostics."
 )
@@ -80,7 +82,8 @@ class CheckOptions(msgspec.Struct, frozen=True, kw_only=True):
 def command(asked: CheckOptions) -> int:
     """Check the libraries or files at PATHS, by default the project or folder here; `-` reads a file from stdin.
 
-    Prints each problem with its place and, where there is one, a fix. Tasks are also checked in their scenes.
+    Prints each problem with its place and, where there is one, a fix. Tasks are also checked in their scenes, or in
+    the one of --scene.
     """
     _refuse_contradictions(asked)
     request, form = _make_request(asked), JSON if asked.as_json else asked.form
