@@ -70,36 +70,23 @@ def read_scene(path: Path, vocabulary: Vocabulary, text: str | None = None) -> O
 def read_task_scenes(
     program: Program, texts: SceneTexts, others: Collection[Path] = (), read: ReadScene = read_scene
 ) -> TaskScenes:
-    """Read the scenes of a program's own tasks, or the `others` alone; `read` may be a cached `read_scene`.
-
-    A task that names no scene is in the default one, or in the first of the others.
-    """
-    written = [] if others else list(_written(program))
+    """Read the scenes of a program's own tasks, or the `others` alone; `read` may be a cached `read_scene`."""
+    written = list(_written(program))
     found = {task: resolve_scene(text.value, texts.place(text.span.path).parent) for task, text in written}
     files = {task: path for task, path in found.items() if path is not None}
-    if others:
-        files = _tasks_in(others, program, texts)
-    elif texts.default is not None:
+    if texts.default is not None:
         files |= dict.fromkeys(_without_scene(program), texts.default)
+    if others:
+        chosen = {scene.resolve() for scene in others}
+        files = {task: path for task, path in files.items() if path.resolve() in chosen}
     scenes = {path: read(path, program.vocabulary) for path in sorted({*files.values(), *others})}
     valid = {path: scene.value for path, scene in scenes.items() if scene.ok and scene.value}
     known = {path: classes_by_individual(scene.state, program.vocabulary) for path, scene in valid.items()}
-    missing = (_missing(text, texts) for task, text in written if found[task] is None)
+    missing = (_missing(text, texts) for task, text in written if found[task] is None and not others)
     lacking = find_missing_terms(program)
     wrong = (problem for scene in scenes.values() for problem in select_problems(scene, lacking))
     individuals = {task: known[path] for task, path in files.items() if path in known}
     return TaskScenes(files, valid, individuals, tuple(dict.fromkeys((*missing, *wrong))))
-
-
-def _tasks_in(scenes: Collection[Path], program: Program, texts: SceneTexts) -> dict[str, Path]:
-    """Return the scene of each task that names one of these scenes, or none: such a task is in the first of them."""
-    there = {scene.resolve(): scene for scene in scenes}
-    files = dict.fromkeys(_without_scene(program), next(iter(scenes)))
-    for task, text in _written(program):
-        named = resolve_scene(text.value, texts.place(text.span.path).parent)
-        if named is not None and named.resolve() in there:
-            files[task] = there[named.resolve()]
-    return files
 
 
 def default_scene(project: Project) -> Path | None:

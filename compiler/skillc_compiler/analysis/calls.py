@@ -84,7 +84,8 @@ def _check_conditions(
         condition = binding.at_start(requirement.condition.meaning)
         known = evaluate(run.types, state, condition)
         at_run_time = requirement.kind == "hold" or not free_variables(condition).isdisjoint(binding.open_)
-        run.count_precondition(call, requirement, known, context.caught or (at_run_time and known is None), path)
+        excused = context.caught or (at_run_time and known is None)
+        run.count_precondition(call, requirement, condition, known, excused, path)
 
 
 def _end_call(

@@ -187,7 +187,7 @@ def _check_declared(
     ]
     if found:
         missing = _write_post(run, implementation, condition)
-        yield UndeclaredEffect(implementation, one.call, one.post, missing, min(found, key=path_length))
+        yield UndeclaredEffect(implementation, one.call, one.post, missing, min(found, key=path_length), condition)
 
 
 def _write_post(run: Exploration, implementation: Implementation, condition: Condition) -> str:

@@ -29,7 +29,7 @@ from skillc_compiler.program.typed import (
 )
 from skillc_compiler.program.walk import conditions_in, values_in
 from skillc_dsl.source import Span
-from skillc_model.conditions import Effect
+from skillc_model.conditions import Condition, Effect
 from skillc_model.traversal import free_variables
 
 Explore: TypeAlias = Callable[["Exploration", TypedNode, StatePaths, "EvalContext"], EndStates]
@@ -94,6 +94,7 @@ class PreconditionStats:
     caught: bool = False
     false_way: Path = None
     open_way: Path = None
+    open_condition: Condition | None = None
 
 
 class CallEffect(msgspec.Struct, frozen=True):
@@ -175,7 +176,13 @@ class Exploration:
                 self.add_finding((id(hold), path.span, known), finding, path)
 
     def count_precondition(
-        self, call: Call, requirement: Requirement, known: bool | None, excused: bool, path: Path
+        self,
+        call: Call,
+        requirement: Requirement,
+        condition: Condition,
+        known: bool | None,
+        excused: bool,
+        path: Path,
     ) -> None:
         """Count what is known of a precondition at the start of its skill."""
         if self.quiet:
@@ -192,9 +199,8 @@ class Exploration:
         elif known is None and excused:
             count.excused += 1
         elif known is None:
-            count.open_way = (
-                path if not count.open_ or path_length(path) < path_length(count.open_way) else count.open_way
-            )
+            if not count.open_ or path_length(path) < path_length(count.open_way):
+                count.open_way, count.open_condition = path, condition
             count.open_ += 1
 
     def unproved_preconditions(self) -> Iterable[Finding]:
@@ -204,7 +210,9 @@ class Exploration:
                 always = count.false == count.seen and not count.caught
                 yield UnprovedPrecondition(count.call, count.requirement, True, count.false_way, always)
             elif count.open_ and self.implementation is not None:
-                yield UnprovedPrecondition(count.call, count.requirement, False, count.open_way)
+                yield UnprovedPrecondition(
+                    count.call, count.requirement, False, count.open_way, condition=count.open_condition
+                )
 
 
 def havoc_concurrent(run: Exploration, state: State, context: EvalContext) -> State:

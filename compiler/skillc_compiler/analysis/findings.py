@@ -9,6 +9,22 @@ import msgspec
 from skillc_compiler.analysis.paths import Path
 from skillc_compiler.program.typed import Call, Implementation, Parameter, Property, Requirement, TypedNode
 from skillc_dsl.source import Span
+from skillc_model.conditions import Condition
+
+
+class Remedy(msgspec.Struct, frozen=True):
+    """What a skill would have to say so that a finding goes away.
+
+    `parameters` are to be inferred, each with the IRI of its class, through the preconditions `before`; `apart` are
+    preconditions that parameters differ; `after` are postconditions. `passed` are parameters that the call has to be
+    given, as it may find something else by itself.
+    """
+
+    parameters: tuple[tuple[str, str], ...] = ()
+    before: tuple[Condition, ...] = ()
+    apart: tuple[Condition, ...] = ()
+    after: tuple[Condition, ...] = ()
+    passed: tuple[str, ...] = ()
 
 
 class UnprovedPost(msgspec.Struct, frozen=True):
@@ -22,12 +38,14 @@ class UnprovedPost(msgspec.Struct, frozen=True):
     false: bool
     beyond: bool
     path: Path
+    remedy: Remedy | None = None
 
 
 class UnprovedPrecondition(msgspec.Struct, frozen=True):
     """A precondition or hold of a called skill that is not known to hold at its start; `false` if known not to hold.
 
     `always` if it is false whenever the call begins and nothing catches that, so that what comes after it never runs.
+    `condition` is what is needed in the terms of the caller.
     """
 
     call: Call
@@ -35,6 +53,8 @@ class UnprovedPrecondition(msgspec.Struct, frozen=True):
     false: bool
     path: Path
     always: bool = False
+    condition: Condition | None = None
+    remedy: Remedy | None = None
 
 
 class BrokenHold(msgspec.Struct, frozen=True):
@@ -50,6 +70,7 @@ class UndeclaredEffect(msgspec.Struct, frozen=True):
     """An effect of a called skill that lasts to the end and that the calling skill does not declare.
 
     `missing` is the postcondition that would declare it; empty if the parameters of the calling skill cannot say it.
+    `condition` is the effect in the terms of the caller.
     """
 
     implementation: Implementation
@@ -57,6 +78,8 @@ class UndeclaredEffect(msgspec.Struct, frozen=True):
     post: Requirement
     missing: str
     path: Path
+    condition: Condition | None = None
+    remedy: Remedy | None = None
 
 
 class UnreachableNode(msgspec.Struct, frozen=True):

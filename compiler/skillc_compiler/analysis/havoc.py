@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from functools import lru_cache
 from typing import TypeAlias, assert_never
 
-from skillc_compiler.analysis.alias_types import AliasTypes
+from skillc_compiler.analysis.alias_types import AliasTypes, any_individual
 from skillc_compiler.analysis.evaluate import evaluate
 from skillc_compiler.analysis.state import IndividualTerm, Side, State
 from skillc_compiler.analysis.writes import (
@@ -18,6 +18,7 @@ from skillc_compiler.analysis.writes import (
     canonical_relation,
 )
 from skillc_model.conditions import (
+    And,
     Anything,
     Compare,
     Condition,
@@ -28,6 +29,8 @@ from skillc_model.conditions import (
     Individual,
     Invoke,
     IsA,
+    Not,
+    Or,
     PropertyOf,
     Same,
     Term,
@@ -65,7 +68,9 @@ def _havoc_relation(types: AliasTypes, state: State, write: RelationWrite) -> St
         fact: true
         for fact, true in state.facts.items()
         if not (
-            _is_affected(types, state, fact, true, adds, takes) if isinstance(fact, Holds) else _reads(types, fact, kin)
+            _is_affected(types, state, fact, true, adds, takes)
+            if isinstance(fact, Holds)
+            else _reads(types, fact, kin) and _is_whole_affected(types, state, fact, (*adds, *takes))
         )
     }
     alone = {side: _add_possible(types, state, side, others, adds) for side, others in state.possible.items()}
@@ -112,6 +117,13 @@ def _is_affected(
     types: AliasTypes, state: State, fact: Holds, true: bool, adds: tuple[Pattern, ...], takes: tuple[Pattern, ...]
 ) -> bool:
     return any(_matches(types, state, fact, pattern) for pattern in (takes if true else adds))
+
+
+def _is_whole_affected(types: AliasTypes, state: State, fact: Condition, changed: tuple[Pattern, ...]) -> bool:
+    """Whether a condition that is more than one relation depends on what changes."""
+    if _reads(types, fact, frozenset()):
+        return True
+    return any(_matches(types, state, part, pattern) for part in _relations_in(fact) for pattern in changed)
 
 
 def _matches(types: AliasTypes, state: State, fact: Holds, pattern: Pattern) -> bool:
@@ -213,6 +225,23 @@ def _values_read(fact: Condition) -> tuple[tuple[IndividualTerm | None, str], ..
 @lru_cache(maxsize=4096)
 def _relations_read(fact: Condition) -> frozenset[str]:
     return frozenset(each.relation for each in walk(fact) if isinstance(each, Holds))
+
+
+@lru_cache(maxsize=4096)
+def _relations_in(fact: Condition) -> tuple[Holds, ...]:
+    """Return the relations that a condition reads; its own variables are any individuals of their classes."""
+    if isinstance(fact, Holds):
+        return (fact,)
+    match fact:
+        case Exists(variable=name, cls=cls, body=body) | Forall(variable=name, cls=cls, body=body):
+            parts: tuple[Condition, ...] = (substitute(body, {name: any_individual(cls)}),)
+        case Not(body=body):
+            parts = (body,)
+        case And(parts=parts) | Or(parts=parts):
+            pass
+        case _:
+            parts = ()
+    return tuple(found for part in parts for found in _relations_in(part))
 
 
 @lru_cache(maxsize=4096)

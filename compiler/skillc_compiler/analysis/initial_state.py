@@ -10,8 +10,9 @@ from skillc_compiler.analysis.binding import class_of
 from skillc_compiler.analysis.state import IndividualTerm, State
 from skillc_compiler.program.typed import Implementation, Parameter, Requirement, Task
 from skillc_compiler.program.types import Thing as ThingType
-from skillc_model.conditions import Compare, Condition, Given, Individual, Literal, Variable
+from skillc_model.conditions import Compare, Condition, Given, Holds, Individual, Literal, Not, Same, Variable
 from skillc_model.rewriting import constant_number
+from skillc_model.traversal import conjuncts
 from skillc_rdf.vocabulary.types import THING
 
 
@@ -35,7 +36,22 @@ def initial_state(types: AliasTypes, implementation: Implementation) -> State:
     state = parameter_state(implementation)
     for requirement in _assumed_requirements(implementation):
         state = assume(types, state, requirement.condition.meaning) or state
+    for differing in _kept_apart(types, implementation):
+        state = assume(types, state, differing) or state
     return state
+
+
+def _kept_apart(types: AliasTypes, implementation: Implementation) -> Iterable[Condition]:
+    """Yield that names differ which a post relates by what nothing can have to itself: else it asks the impossible."""
+    for post in requirements_of(implementation, "post"):
+        for fact in conjuncts(post.condition.meaning):
+            match fact:
+                case Holds(Variable() as left, relation, Variable() as right) if _is_irreflexive(types, relation):
+                    yield Not(Same(left, right))
+
+
+def _is_irreflexive(types: AliasTypes, relation: str) -> bool:
+    return types.axioms.canonical.get(relation, (relation, False))[0] in types.axioms.irreflexive
 
 
 def can_start(types: AliasTypes, implementation: Implementation) -> bool:

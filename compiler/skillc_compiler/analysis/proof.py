@@ -13,11 +13,13 @@ from msgspec import structs
 
 from skillc_compiler.analysis import end_states
 from skillc_compiler.analysis.alias_types import AliasTypes
+from skillc_compiler.analysis.assume import assume
 from skillc_compiler.analysis.axioms import CanonicalAxioms, build_axioms
 from skillc_compiler.analysis.evaluate import evaluate
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
     Finding,
+    Remedy,
     TooManyStates,
     UnassignedOutput,
     UnassignedRead,
@@ -31,6 +33,7 @@ from skillc_compiler.analysis.interfaces import Interface, summarise
 from skillc_compiler.analysis.nodes import explore
 from skillc_compiler.analysis.parallel_conflicts import find_parallel_conflicts
 from skillc_compiler.analysis.paths import Path
+from skillc_compiler.analysis.remedies import Explored, add_remedies
 from skillc_compiler.analysis.sameness import CalledPrimitive, Proved
 from skillc_compiler.analysis.scopes import leaked_scopes
 from skillc_compiler.analysis.state import State
@@ -42,6 +45,7 @@ from skillc_compiler.program.memo import Latest, Memo, Memos
 from skillc_compiler.program.typed import Implementation, Let, Program, Task, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
+from skillc_rdf.vocabulary.types import Vocabulary
 
 F = TypeVar("F", bound=Finding)
 
@@ -51,6 +55,7 @@ class Proof(msgspec.Struct, frozen=True):
 
     of: Implementation | Task
     findings: tuple[Finding, ...]
+    vocabulary: Vocabulary
     interface: Interface | None = None
 
 
@@ -144,7 +149,7 @@ class Prover:
     def _prove_task(self, task: Task, body: TypedNode) -> Proof:
         run = self.new_exploration(task, body)
         run.explore(run, body, {State(): None}, EvalContext())
-        return Proof(task, self._all_findings(task, body, run, ()))
+        return Proof(task, self._all_findings(task, body, run, ()), self.program.vocabulary)
 
     def _recall(self, of: Implementation | Task, compute: Callable[[], Proof]) -> Proof:
         """Return the known proof of a body.
@@ -190,7 +195,19 @@ class Prover:
         )
         leaks = end_states.undeclared_writes(run, implementation, before, ends)
         interface = summarise(self.program, self.summaries, implementation, leaks)
-        return Proof(implementation, self._all_findings(implementation, body, run, end_findings), interface)
+        found = self._all_findings(implementation, body, run, end_findings)
+        assuming = partial(self._explore_assuming, implementation, body)
+        remedied = tuple(add_remedies(run, implementation, found, assuming))
+        return Proof(implementation, remedied, self.program.vocabulary, interface)
+
+    def _explore_assuming(self, implementation: Implementation, body: TypedNode, remedy: Remedy) -> Explored:
+        """Explore a body again as if its skill had the parameters and preconditions of a remedy."""
+        run = self.new_exploration(implementation, body)
+        run.types.classes.update(remedy.parameters)
+        start = initial_state(run.types, implementation)
+        for condition in (*remedy.before, *remedy.apart):
+            start = assume(run.types, start, condition) or start
+        return run, explore(run, body, {start: None}, EvalContext())
 
     def _verify_findings(self, implementation: Implementation, body: TypedNode, start: State) -> Iterator[Finding]:
         for line in implementation.verify:

@@ -6,10 +6,12 @@ from collections.abc import Iterator
 
 from skillc_compiler.analysis.findings import UnprovedPrecondition
 from skillc_compiler.analysis.paths import path_labels
-from skillc_compiler.analysis.proof import Proofs, findings_of
+from skillc_compiler.analysis.proof import Proof, Proofs
+from skillc_compiler.analysis.remedy_lines import add_lines, remedy_lines
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_compiler.program.typed import Implementation
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 
 NAMES = ("child-precondition",)
 NEEDS = Need.BODY
@@ -18,20 +20,37 @@ READS = Reads.PROOFS
 
 def check(proofs: Proofs) -> Iterator[Diagnostic]:
     """Yield a problem for each such precondition of each call."""
-    for one in findings_of(proofs, UnprovedPrecondition):
-        name, text = one.call.written.skill.text, one.requirement.text
-        what = "does not hold" if one.false else "is not guaranteed"
-        yield Diagnostic(
-            "child-precondition",
-            one.call.written.skill.span,
-            f"`{name}` needs `{text}`, which {what} here",
-            help=_help(one),
-            severity="error" if one.false else "warning",
-            labels=(Label(one.requirement.span, "needed here"), *path_labels(one.path)),
-        )
+    for proof in proofs.values():
+        for one in (each for each in proof.findings if isinstance(each, UnprovedPrecondition)):
+            yield _report(one, proof)
 
 
-def _help(one: UnprovedPrecondition) -> str:
+def _report(one: UnprovedPrecondition, proof: Proof) -> Diagnostic:
+    name, text = one.call.written.skill.text, one.requirement.text
+    what = "does not hold" if one.false else "is not guaranteed"
+    help_, fix = _help(one, proof)
+    return Diagnostic(
+        "child-precondition",
+        one.call.written.skill.span,
+        f"`{name}` needs `{text}`, which {what} here",
+        help=help_,
+        severity="error" if one.false else "warning",
+        labels=(Label(one.requirement.span, "needed here"), *path_labels(one.path)),
+        fix=fix,
+    )
+
+
+def _help(one: UnprovedPrecondition, proof: Proof) -> tuple[str, Fix | None]:
+    """Return what to do, and the edit that does it; a precondition is recommended only if it is enough."""
     if one.false:
-        return "call it where its precondition holds, or establish it before"
-    return "add it as a `pre` of the calling skill, establish it before, or test it: `check(..)`"
+        return "call it where its precondition holds, or establish it before", None
+    if isinstance(proof.of, Implementation) and one.remedy is not None:
+        lines = remedy_lines(one.remedy, proof.vocabulary)
+        added = " and ".join(f"`{line}`" for line in lines)
+        return f"add {added} to `{proof.of.skill.name}`, or establish it before", add_lines(lines, proof.of.skill)
+    if one.path is None:
+        return "establish it before, or test it: `check(..)`", None
+    return (
+        "a `pre` would not be enough, as steps before may change it: establish it here, or test it: `check(..)`",
+        None,
+    )

@@ -7,8 +7,12 @@ from collections.abc import Iterator
 from skillc_compiler.analysis.findings import Finding, UnprovedPost, UnprovedPrecondition
 from skillc_compiler.analysis.paths import path_labels
 from skillc_compiler.analysis.proof import Proofs, findings_of
+from skillc_compiler.analysis.remedy_lines import add_lines, describe_same, remedy_lines
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
+from skillc_compiler.program.typed import TypedNode
+from skillc_compiler.program.walk import nodes_in
+from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("post-not-established",)
@@ -20,15 +24,20 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
     """Yield a problem for each postcondition that some successful end does not establish."""
     for several in _group_by_path(proofs):
         one = several[0]
+        vocabulary = proofs[one.implementation.key].vocabulary
         verb = "makes it false" if one.false else "does not establish it"
         texts = " and ".join(f"`{each.post.text}`" for each in several)
+        apart = one.remedy.apart if one.remedy is not None else ()
+        same = f" if {describe_same(apart, vocabulary)}" if apart else ""
+        lines = remedy_lines(one.remedy, vocabulary) if one.remedy is not None else ()
         yield Diagnostic(
             "post-not-established",
             one.implementation.name_span,
-            f"`{one.implementation.name}` can succeed in a way that {verb}: {texts}",
-            help=_help(one),
+            f"`{one.implementation.name}` can succeed in a way that {verb}{same}: {texts}",
+            help=f"say that they differ: {' and '.join(f'`{line}`' for line in lines)}" if lines else _help(one),
             severity="warning" if one.beyond else "error",
             labels=(*(Label(each.post.span, "promised here") for each in several), *path_labels(one.path)),
+            fix=add_lines(lines, one.implementation.skill) if lines else None,
         )
 
 
@@ -40,7 +49,7 @@ def _group_by_path(proofs: Proofs) -> Iterator[tuple[UnprovedPost, ...]]:
     groups: dict[object, tuple[UnprovedPost, ...]] = {}
     sound = {key: proof for key, proof in proofs.items() if not any(map(_cannot_start, proof.findings))}
     for one in findings_of(sound, UnprovedPost):
-        key = (id(one.implementation), id(one.path), one.false, one.beyond)
+        key = (id(one.implementation), id(one.path), one.false, one.beyond, one.remedy)
         groups[key] = (*groups.get(key, ()), one)
     return iter(groups.values())
 
@@ -54,4 +63,8 @@ def _help(one: UnprovedPost) -> str:
         return "undo what makes it false, or remove the postcondition"
     if one.post.sensed or one.post.label is None:
         return "call a skill that establishes it, or test it: `check(..)`"
-    return f"call a skill that establishes it, or write it yourself: `apply {one.post.label.text}`"
+    body, label = one.implementation.body, one.post.label.text
+    applied = (n.written for n in nodes_in(body)) if isinstance(body, TypedNode) else ()
+    if any(isinstance(each, s.ApplyPosts) and label in {name.text for name in each.labels} for each in applied):
+        return f"`apply {label}` is undone later, or is not reached: apply it last, on every path"
+    return f"call a skill that establishes it, or write it yourself: `apply {label}`"

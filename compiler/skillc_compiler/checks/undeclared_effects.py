@@ -8,10 +8,11 @@ from collections.abc import Iterator, Sequence
 from skillc_compiler.analysis.findings import UndeclaredEffect
 from skillc_compiler.analysis.paths import path_labels
 from skillc_compiler.analysis.proof import Proofs, findings_of
+from skillc_compiler.analysis.remedy_lines import add_lines, remedy_lines
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Skill
-from skillc_dsl.diagnostics import Diagnostic, Fix, Label
+from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_rdf.vocabulary.types import Vocabulary
 
 NAMES = ("undeclared-effect",)
 NEEDS = Need.BODY
@@ -23,31 +24,36 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
     groups: dict[str, list[UndeclaredEffect]] = defaultdict(list)
     for one in findings_of(proofs, UndeclaredEffect):
         groups[one.implementation.key].append(one)
-    for one, *others in groups.values():
+    for key, (one, *others) in groups.items():
         skill = one.implementation.skill
-        fix = _declare([one, *others], skill)
+        lines = _lines([one, *others], proofs[key].vocabulary)
+        added = " and ".join(f"`{line}`" for line in lines)
+        calls = " and ".join(dict.fromkeys(f"`{each.call.written.skill.text}`" for each in (one, *others)))
+        effects = " and ".join(dict.fromkeys(f"`{each.post.text}`" for each in (one, *others)))
+        passed = dict.fromkeys(name for each in (one, *others) if each.remedy for name in each.remedy.passed)
+        then = f", and pass {' and '.join(f'`{name}`' for name in passed)} to {calls}" if passed else ""
+        verb = "cause" if " and " in calls else "causes"
         yield Diagnostic(
             "undeclared-effect",
             one.call.written.skill.span,
-            f"`{one.call.written.skill.text}` causes `{one.post.text}`, which `{skill.name}` does not declare",
-            help=f"add a `post` that declares it to `{skill.name}` or to this implementation, or undo it",
+            f"{calls} {verb} {effects}, which `{skill.name}` does not declare",
+            help=f"add {added or 'a `post` that declares it'} to `{skill.name}` or to this implementation{then}, or undo it",
             labels=(
                 Label(one.post.span, "the effect"),
-                Label(fix.span if fix else skill.name_span, "whose posts do not declare it"),
+                Label(skill.name_span, "whose posts do not declare it"),
                 *(Label(other.call.written.skill.span, f"causes `{other.post.text}`") for other in others),
                 *path_labels(one.path),
             ),
-            fix=fix,
+            fix=add_lines(lines, skill) if lines and not passed else None,
         )
 
 
-def _declare(effects: Sequence[UndeclaredEffect], skill: Skill) -> Fix | None:
-    """Return the edit that adds the missing postconditions at the end of a skill; None if they cannot be written."""
-    posts = [each for each in skill.requirements if each.kind == "post"]
-    lines = posts or skill.requirements or skill.parameters
-    if not lines or not all(each.missing for each in effects):
-        return None
-    last = lines[-1].span
-    added = [f"post {each}" for each in dict.fromkeys(each.missing for each in effects)]
-    text = "".join(f"\n{' ' * (last.column - 1)}{line}" for line in added)
-    return Fix(last.after, text, f"add {' and '.join(f'`{line}`' for line in added)}", safe=False)
+def _lines(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> tuple[str, ...]:
+    """Return the lines that declare all effects, parameters first; none if one of them cannot be declared."""
+    remedies = [each.remedy for each in effects if not each.missing]
+    if None in remedies:
+        return ()
+    said = [line for each in remedies if each is not None for line in remedy_lines(each, vocabulary)]
+    said += [f"post {each.missing}" for each in effects if each.missing]
+    order = ("infer", "pre", "post")
+    return tuple(sorted(dict.fromkeys(said), key=lambda line: order.index(line.partition(" ")[0])))

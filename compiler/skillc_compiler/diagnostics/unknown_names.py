@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
+from skillc_compiler.diagnostics.former_names import NONE, find_former_names, with_advice
 from skillc_compiler.diagnostics.orphans import Orphans
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownKind, UnknownName
@@ -48,10 +49,14 @@ def report_unknown_names(program: Program) -> Iterator[Diagnostic]:
     times = _count_words(program.files) if any(len(group) > 1 for group in groups.values()) else {}
     calls: set[Key] = set()
     orphans = Orphans(program)
+    former = find_former_names(program.files) if groups else NONE
     for group in sorted((sorted(each, key=lambda one: one.written.span) for each in groups.values()), key=_first_place):
         first = group[0]
         call = (first.owner, first.written.span.path, first.written.span.line)
-        if not first.passed or call not in calls:
+        advice = former.get((first.owner or LIBRARY, first.written.text))
+        if advice is not None:
+            yield from (with_advice(render_unknown_name(each), advice) for each in group)
+        elif not first.passed or call not in calls:
             yield _report(group, orphans, times)
         calls |= {call} if first.passed else set()
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 from skillc_compiler.program.typed import Parameter, Skill, TypedExpression
 from skillc_compiler.program.types import Type, type_of
-from skillc_compiler.resolve.individuals import Individuals, most_specific_classes
 from skillc_compiler.resolve.homes import Homes
+from skillc_compiler.resolve.individuals import Individuals, most_specific_classes
 from skillc_compiler.resolve.names import KINDS, Kind, Names, bare_terms
 from skillc_compiler.resolve.scope import FileContext
 from skillc_dsl.source import Span

@@ -92,5 +92,5 @@ def _reserved() -> MappingProxyType[str, frozenset[str]]:
 
 def _is_callee(terminal: str) -> bool:
     """Whether a skill can be called by a word."""
-    start = [load_tables().start]
-    return can_continue(start, *"IMPL NAME OF NAME LBRACE DO".split(), terminal, *"LSQB NAME RSQB LPAR".split())
+    body, call = "IMPL NAME OF NAME LBRACE DO", "LSQB NAME RSQB LPAR"
+    return can_continue([load_tables().start], *body.split(), terminal, *call.split())
