@@ -11,6 +11,7 @@ import pytest
 from robot_import.arms import GEN3, railed, six
 from skillc.errors import RequestError
 from skillc.services.robot_import.comparison import POSTURES
+from skillc.services.robot_import.home_posture import HomeSearch
 from skillc.services.robot_import.mjcf_writer import write_mjcf
 from skillc.services.robot_import.proof import prove_same
 from skillc.services.robot_import.reader import read_robot
@@ -98,7 +99,9 @@ def test_a_model_that_differs_is_refused(old: str, new: str, tmp_path: Path) -> 
         ("<axis", '<mimic joint="joint_2"/> <axis', "follows another one (`<mimic>`)"),
         ('name="joint_1" type="revolute"', 'name="joint_1" type="floating"', "is floating: no motor moves it"),
         ('<mass value="4.0"/>', '<mass value="0"/>', "link `link_1` and what is fixed to it have no mass"),
-        (LAST, FINGERS + LAST, "goes on in 2 ways, with joints `left`, `right`; name the link on which"),
+        ('link name="tool0"', 'link name="tool0"/> <link name="end"', "2 links have no parent"),
+        ('lower="-2.8" upper="2.8"', 'lower="-355" upper="355"', "57 turns: ranges are in rad. Write 6.196 if"),
+        ('velocity="2"/>', 'velocity="2"/> <safety_controller soft_lower_limit="3"/>', "its soft limits, 3 and 2.8,"),
         ("revolute", "fixed", "no joint moves between"),
     ],
 )
@@ -109,6 +112,60 @@ def test_what_is_no_arm_is_refused_in_words(old: str, new: str, says: str, tmp_p
     with pytest.raises(RequestError) as refused:
         read(tmp_path, text.replace(old, new, count))
     assert says in str(refused.value) and str(tmp_path) in str(refused.value)
+
+
+def six_with(child: str, joint: str, kind: str) -> str:
+    """Return the arm with a last link without the name of a flange, and one more joint on it."""
+    more = (
+        f'<link name="{child}"> <inertial> <mass value="0.1"/> <inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" '
+        f'ixz="0" iyz="0"/> </inertial> </link> <joint name="{joint}" type="{kind}"> <parent link="end"/> '
+        f'<child link="{child}"/> <axis xyz="0 0 1"/> <limit lower="0" upper="0.04" effort="10" velocity="1"/> </joint>'
+    )
+    return six().replace("tool0", "end").replace("</robot>", f"{more}</robot>")
+
+
+@pytest.mark.parametrize(
+    ("child", "joint", "kind"),
+    [("pad", "pinch", "prismatic"), ("pad", "gripper_joint", "revolute"), ("moving_jaw", "j7", "revolute")],
+)
+def test_a_gripper_with_one_joint_is_no_joint_of_the_arm(child: str, joint: str, kind: str, tmp_path: Path) -> None:
+    text = six_with(child, joint, kind)
+    with pytest.raises(RequestError, match=rf"the last joint, `{joint}`.* such as `end`, or --tip {child} if"):
+        read(tmp_path, text)
+    assert len(read(tmp_path, text, tip="end").model.links) == 6
+    assert len(read(tmp_path, text, tip=child).model.links) == 7
+    named = read(tmp_path, text.replace('"end"', '"tool0"'))
+    assert named.model.tip == "tool0" and any("beyond `tool0` is left out" in note for note in named.notes)
+    mjcf = written(tmp_path, read(tmp_path, text, tip=child))
+    mjcf.write_text(mjcf.read_text("utf-8").replace('site name="flange"', 'site name="pads"'), "utf-8")
+    with pytest.raises(RequestError, match=rf"the last joint, `{joint}`"):
+        read_robot(mjcf)
+
+
+def test_a_hand_with_two_fingers_is_left_out_at_a_flange_and_asked_for_elsewhere(tmp_path: Path) -> None:
+    assert read(tmp_path, six().replace(LAST, FINGERS + LAST)).model.tip == "tool0"
+    with pytest.raises(RequestError, match="goes on in 2 ways, with joints `left`, `right`; name the link on which"):
+        read(tmp_path, six().replace(LAST, FINGERS + LAST).replace("tool0", "palm"))
+
+
+def test_soft_limits_are_the_range_and_said(tmp_path: Path) -> None:
+    soft = 'velocity="2"/> <safety_controller soft_lower_limit="-2" soft_upper_limit="3" k_velocity="1"/>'
+    reading = read(tmp_path, six().replace('velocity="2"/>', soft, 1))
+    assert [(link.joint.low, link.joint.high) for link in reading.model.links[:2]] == [(-2, 2.8), (-2.8, 2.8)]
+    assert any("soft limits" in note and "joint_1;" in note for note in reading.notes)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("axis", "low", "high"), [("1 0 0", 0, 5), ("0 1 0", 0, 3), ("1 0 0", -9, -4), ("0 0 1", 0, 1)]
+)
+def test_an_arm_on_a_long_rail_has_a_home_in_the_middle_of_it(axis: str, low: int, high: int, tmp_path: Path) -> None:
+    text = railed().replace('<axis xyz="0 1 0"/> <limit lower="-0.35" upper="0.35"', f'<axis xyz="{axis}"/> <limit '
+        f'lower="{low}" upper="{high}"')  # fmt: skip
+    assert text != railed()
+    home = HomeSearch(written(tmp_path, read(tmp_path, text, tip="tool0"))).find()
+    assert home is not None
+    assert abs(home[0] - (low + high) / 2) < (high - low) / 3
 
 
 def test_inertia_of_no_real_body_is_refused_with_its_link(tmp_path: Path) -> None:
@@ -128,6 +185,7 @@ def test_inertia_of_no_real_body_is_refused_with_its_link(tmp_path: Path) -> Non
         (LAST, FINGERS + LAST, {"tip": "tool0"}, "what is beyond `tool0` is left out"),
         (LAST, FINGERS.replace('link="tool0"', 'link="link_6"') + LAST, {"tip": "tool0"}, "left, right do not belong"),
         ('joint_4" type="revolute"', 'joint_4" type="continuous"', {}, "without end: joint_4;"),
+        ('velocity="2"', 'velocity="120"', {}, "speeds of more than 20 rad/s, 1146 deg/s: joint_1"),
         ("<axis", '<dynamics damping="0.1"/><axis', {}, "damping and friction of joints"),
         ("<cylinder", '<mesh filename="package://none/a.stl"/><cylinder', {}, "a.stl"),
         ('<child link="tool0"/> <origin', '<child link="tool0"/> <origin rpy="0 1.57 0"', {}, "the z axis of `tool0`"),

@@ -162,6 +162,7 @@ def _report(
     model = reading.model
     mass = sum(link.inertia.mass_kg for link in model.links)
     names = ", ".join(link.joint.name for link in model.links)
+    unit = "rad, or m for what slides" if any(link.joint.slides for link in model.links) else "rad"
     where = "stated" if request.home else "proposed: the flange points down in front of the base"
     return AddedRobot(
         name=facts.name,
@@ -178,7 +179,7 @@ def _report(
             f"all links, Jacobians, mass matrices and weights; the largest difference is {differences.largest:.1e} "
             f"({differences.worst})"
         ),
-        home=f"{facts.home} rad, {where}" if facts.home else "no posture with the flange pointing down was found",
+        home=f"{facts.home} {unit}, {where}" if facts.home else "no posture with the flange pointing down was found",
         notes=reading.notes,
         unstated=tuple(facts.unstated),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from skillc.errors import RequestError
@@ -13,6 +14,7 @@ FLANGES = ("tool0", "flange")
 """Names of the link on which tools are mounted, the best first; x of ROS's `flange` points out, z of `tool0`."""
 WORLDS = ("world", "map")
 """Names of roots that are no part of an arm."""
+_GRIPPER = re.compile("gripper|finger|knuckle|jaw|claw", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +44,9 @@ def choose_chain(tree: UrdfTree, base: str | None, tip: str | None) -> Chain:
         way = way[above[0] + 1 :]
     chain = Chain(start, end, tuple(joint for joint in way if joint.moves))
     _check_joints(tree, chain)
+    if tip is None:
+        last = chain.joints[-1]
+        check_last_joint(str(tree.path), last.name, last.child, last.kind == "prismatic", last.parent)
     return chain
 
 
@@ -52,11 +57,16 @@ def _default_base(tree: UrdfTree) -> str:
 
 
 def _default_tip(tree: UrdfTree, start: str) -> str:
-    """Follow what moves from the base on, then the frames that are fixed to the last link."""
+    """Follow what moves from the base on, to a frame that is called as a flange, or those fixed to the last link."""
     moving = {joint.parent for joint in tree.above.values() if joint.moves}
     leads = {link for last in moving for link in (last, *(joint.parent for joint in tree.path_to(last)))}
     link = start
     while True:
+        if (
+            sum(joint.moves for joint in tree.path_to(link)) >= FEWEST_JOINTS
+            and (flange := _flange_on([link, *tree.fixed_to(link)])) is not None
+        ):
+            return flange
         onward = [joint for joint in tree.children(link) if joint.moves or joint.child in leads]
         if len(onward) > 1:
             raise _several(tree, link, onward)
@@ -65,12 +75,19 @@ def _default_tip(tree: UrdfTree, start: str) -> str:
         link = onward[0].child
 
 
-def _frame_on(tree: UrdfTree, last: str) -> str:
-    fixed = [last, *tree.below(last)]
+def _flange_on(links: list[str]) -> str | None:
+    """Return the one of some links that is called as a flange is; None if none or several are."""
     for name in FLANGES:
-        found = [each for each in fixed if each == name or each.endswith(name)]
+        found = [each for each in links if each.endswith(name)]
         if len(found) == 1:
             return found[0]
+    return None
+
+
+def _frame_on(tree: UrdfTree, last: str) -> str:
+    fixed = [last, *tree.below(last)]
+    if (flange := _flange_on(fixed)) is not None:
+        return flange
     leaves = [each for each in fixed if not tree.children(each)]
     if len(leaves) == 1:
         return leaves[0]
@@ -109,6 +126,17 @@ def _check_joints(tree: UrdfTree, chain: Chain) -> None:
                 "of an arm needs its own motor"
             )
     check_count(str(tree.path), [joint.name for joint in chain.joints], between)
+
+
+def check_last_joint(file: str, joint: str, link: str, slides: bool, above: str) -> None:
+    """Refuse a chain whose last joint, which moves `link` on `above`, seems to be a gripper. RequestError."""
+    if not (slides or _GRIPPER.search(joint) or _GRIPPER.search(link)):
+        return
+    raise RequestError(
+        f"{file}: the last joint, `{joint}`, {'slides' if slides else f'moves `{link}`'}, as a gripper does and no "
+        f"wrist: name the link on which a gripper is mounted with --tip LINK, such as `{above}`, or --tip {link} if "
+        "this joint is a part of the arm"
+    )
 
 
 def check_count(file: str, joints: list[str], between: str) -> None:

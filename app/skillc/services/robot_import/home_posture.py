@@ -31,11 +31,15 @@ SAMPLES = 100
 class ArmShape:
     """What an arm is like in its postures.
 
-    reach_m: 85 % of the largest distance of flange and shoulder; shoulder_m: height of the second joint above the base.
+    reach_m: 85 % of the largest distance of flange and shoulder; shoulder_m: height of the second joint that turns
+    above the base, both with joints that slide anywhere in their ranges, or at 0. For a home, these are in the middle:
+    `carried` (3,) m is how far that carries the shoulder, `turned_m` is the reach of the other joints from there.
     """
 
     reach_m: float
     shoulder_m: float
+    carried: Array
+    turned_m: float
 
 
 class HomeSearch:
@@ -49,7 +53,8 @@ class HomeSearch:
         self._data = mujoco.MjData(self._model)
         self._arm = VirtualArm(load_virtual_model(mjcf))
         self._limits: Array = self._model.jnt_range.copy()
-        self._second = int(self._model.jnt_bodyid[1])
+        self._slides = self._model.jnt_type == mujoco.mjtJoint.mjJNT_SLIDE
+        self._second = int(self._model.jnt_bodyid[np.flatnonzero(~self._slides)[1]])
         drawn = np.random.default_rng(2).uniform(self._limits[:, 0], self._limits[:, 1], (20 * SAMPLES, self._model.nv))
         self._usual = self._usual_overlaps(drawn[:SAMPLES])
         self.shape = self._measure(drawn)
@@ -60,12 +65,13 @@ class HomeSearch:
         return max(found, key=self._score, default=None)
 
     def _candidates(self) -> Iterator[Array]:
-        low, high = np.maximum(self._limits[:, 0], -np.pi), np.minimum(self._limits[:, 1], np.pi)
+        most = np.where(self._slides, np.inf, np.pi)
+        low, high = np.maximum(self._limits[:, 0], -most), np.minimum(self._limits[:, 1], most)
         draw = np.random.default_rng(3)
-        starts = [(low + high) / 2, *(draw.uniform(low, high) for _ in range(SEEDS - 1))]
+        starts = [(low + high) / 2, *(self._centred(draw.uniform(low, high)) for _ in range(SEEDS - 1))]
         for ahead, above, turn, start in product(AHEAD, ABOVE, range(TURNS), starts):
             down = exp(np.array([0.0, 0.0, 2 * np.pi * turn / TURNS])) @ np.diag([1.0, -1.0, -1.0])
-            place = np.array([ahead * self.shape.reach_m, 0.0, above * self.shape.reach_m])
+            place = self.shape.carried + self.shape.turned_m * np.array([ahead, 0.0, above])
             q = descend(self._arm, Pose(place, down), start, start, self._limits)
             if q is not None:
                 yield q
@@ -79,7 +85,7 @@ class HomeSearch:
         self._move(q)
         links = self._data.xpos[self._second :]
         grounded = float(links[:, 2].min() < 0.02)
-        ease = room + dexterity / self.shape.reach_m**3 + self._elbow_height(links)
+        ease = room + dexterity / self.shape.turned_m**3 + self._elbow_height(links)
         return float(ease - 2 * grounded - 0.05 * np.abs(q).sum())
 
     def _elbow_height(self, links: Array) -> float:
@@ -92,13 +98,30 @@ class HomeSearch:
         return float(farthest[2] / max(np.linalg.norm(farthest), 1e-9))
 
     def _measure(self, postures: Array) -> ArmShape:
-        self._move(np.clip(np.zeros(self._model.nv), *self._limits.T))
-        height = float(self._data.xpos[self._second, 2])
-        shoulder, far = np.array([0.0, 0.0, height]), 0.0
+        zero = np.zeros(self._model.nv)
+        shoulder = self._shoulder(np.clip(zero, *self._limits.T))
+        above = np.array([0.0, 0.0, shoulder[2]])
+        carried = self._shoulder(self._centred(zero)) - self._shoulder(zero)
+        reach_m = self._reach(postures, above)
+        turned_m = self._reach(self._centred(postures), carried + above) if self._slides.any() else reach_m
+        return ArmShape(round(reach_m, 2), round(float(shoulder[2]), 4), carried, round(turned_m, 2))
+
+    def _centred(self, postures: Array) -> Array:
+        """Return postures (.., n) with joints that slide in the middle of their ranges."""
+        return np.where(self._slides, self._limits.mean(axis=1), postures)
+
+    def _shoulder(self, q: Array) -> Array:
+        self._move(q)
+        place: Array = self._data.xpos[self._second].copy()
+        return place
+
+    def _reach(self, postures: Array, shoulder: Array) -> float:
+        """Return 85 % of the largest distance of the flange from a point (3,) m in some postures."""
+        far = 0.0
         for q in postures:
             self._move(q)
             far = max(far, float(np.linalg.norm(self._data.site("flange").xpos - shoulder)))
-        return ArmShape(round(0.85 * far, 2), round(height, 4))
+        return 0.85 * far
 
     def _usual_overlaps(self, postures: Array) -> set[tuple[int, int]]:
         """Return the pairs of bodies that overlap in most postures."""

@@ -9,6 +9,7 @@ from typing import Any
 import mujoco
 
 from skillc.errors import RequestError
+from skillc.services.robot_import.chain import check_last_joint
 from skillc_dsl.spelling import did_you_mean
 
 FLANGES = ("flange", "attachment_site", "ee_site", "tool0", "attachment")
@@ -39,7 +40,8 @@ def choose_chain(path: Path, model: Any, base: str | None, tip: str | None) -> M
         raise RequestError(f"{path} has no body `{base}` (--base); {did_you_mean(base, bodies)}")
     if tip is not None and tip not in (*sites, *bodies):
         raise RequestError(f"{path} has no site or body `{tip}` (--tip); {did_you_mean(tip, [*sites, *bodies])}")
-    end = tip or next((name for name in FLANGES if name in sites), None) or _last_body(path, model)
+    named = tip or next((name for name in FLANGES if name in sites), None)
+    end = named or _last_body(path, model)
     at = int(model.site(end).bodyid[0]) if end in sites else int(model.body(end).id)
     way = _way(model, at)
     if base is not None:
@@ -53,6 +55,10 @@ def choose_chain(path: Path, model: Any, base: str | None, tip: str | None) -> M
     names = tuple(model.body(body).name for body in way)
     if not all(names) or not all(joints):
         raise RequestError(f"{path}: the bodies and joints from the base to `{end}` must have names")
+    if named is None:
+        kind = int(model.jnt_type[model.body_jntadr[moved[-1]]])
+        above = model.body(model.body_parentid[moved[-1]]).name
+        check_last_joint(str(path), joints[-1], end, kind == int(mujoco.mjtJoint.mjJNT_SLIDE), above)
     return MjcfChain(start, end, end in sites, names[-1], joints, names)
 
 

@@ -152,7 +152,24 @@ def _joint(tree: UrdfTree, joint: UrdfJoint) -> Joint:
             f"{path}: joint `{joint.name}` cannot move: its limits are {low:g} and {high:g}; write "
             '`<limit lower=".." upper=".." ..>`, or the type `continuous` for a joint without end'
         )
+    low, high = _within_soft_limits(tree, joint, low, high)
     return Joint(joint.name, joint.kind == "prismatic", axis / length, low, high, effort or None, speed or None)
+
+
+def _within_soft_limits(tree: UrdfTree, joint: UrdfJoint, low: float, high: float) -> tuple[float, float]:
+    """Return the part of a range to which the maker's controller keeps the joint. RequestError if there is none."""
+    controller = joint.element.find("safety_controller")
+    soft = [
+        float(numbers(tree.path, controller, f"soft_{name}_limit", (end,))[0])
+        for name, end in (("lower", low), ("upper", high))
+    ]
+    least, most = max(low, soft[0]), min(high, soft[1])
+    if least >= most:
+        raise RequestError(
+            f"{tree.path}: joint `{joint.name}` cannot move: its soft limits, {soft[0]:g} and {soft[1]:g}, leave "
+            f"nothing of its range, {low:g} to {high:g}"
+        )
+    return least, most
 
 
 def _with_stand_ins(links: tuple[RobotLink, ...], notes: list[str]) -> Iterator[RobotLink]:
@@ -182,6 +199,9 @@ def _notes(tree: UrdfTree, chain: Chain) -> Iterator[str]:
     endless = [joint.name for joint in chain.joints if joint.kind == "continuous"]
     if endless:
         yield f"without end: {_some(endless)}; the range is set to one turn to either side"
+    soft = [each.name for each in chain.joints if each.element.find("safety_controller") is not None]
+    if soft:
+        yield f"soft limits (`<safety_controller>`): {_some(soft)}; the range is what is within both limits"
     sliding = [joint.name for joint in chain.joints if joint.kind == "prismatic"]
     if sliding:
         yield f"sliding: {_some(sliding)}; the numbers are in m, m/s and N"

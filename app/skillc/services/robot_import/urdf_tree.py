@@ -60,6 +60,13 @@ class UrdfTree:
             link = self.above[link].parent
         return tuple(reversed(found))
 
+    def fixed_to(self, link: str) -> Iterator[str]:
+        """Yield the links that are fixed to a link, also by others."""
+        for joint in self.children(link):
+            if not joint.moves:
+                yield joint.child
+                yield from self.fixed_to(joint.child)
+
     def below(self, link: str) -> Iterator[str]:
         """Yield the links below a link, without it."""
         open_ = [link]
