@@ -76,6 +76,17 @@ def test_a_recording_executes_no_code_that_it_brings_along(run: Path) -> None:
     assert "a recording executes no code: give the library with --library" in " ".join(result.stderr.split())
 
 
+def test_in_its_project_the_library_need_not_be_given(run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    project, start = run.parent, (run / "events.jsonl").read_text(encoding="utf-8").splitlines()[0]
+    name = json.loads(start)["event"]["library"]
+    (project / "skillc.toml").write_text(f'name = "{name}"\nversion = "0.1.0"\n', encoding="utf-8")
+    monkeypatch.chdir(project)
+    result = check("out")
+    assert result.exit_code == 0 and "the same but for wall times" in result.stdout, result.output
+    (project / "skillc.toml").write_text('name = "other"\nversion = "0.1.0"\n', encoding="utf-8")
+    assert "or go to the folder of its project" in " ".join(check("out").stderr.split())
+
+
 def test_a_changed_library_is_found(run: Path) -> None:
     library = run.parent / "depot.skill"
     library.write_text(library.read_text(encoding="utf-8").replace("wait 1 s", "wait 2 s", 1), encoding="utf-8")

@@ -13,6 +13,7 @@ from skillc.errors import RequestError, ServiceError
 from skillc.services.files import inspect_path
 from skillc.services.libraries import compile_valid
 from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.project.loading import find_project
 from skillc.services.recordings import find_mcap, find_recording, is_mcap, read_envelopes
 from skillc.services.reporting import Reporter
 from skillc_model.codec import LibraryError, loads
@@ -118,10 +119,19 @@ def _find_library(
         found = loads(attachments[LIBRARY], f"the library in {path}")
     except LibraryError as error:
         raise ServiceError(str(error)) from error
-    if foreign := next((each for each in _list_python(found) if each.partition(".")[0] not in SHIPPED_CODE), None):
-        why = f"the library `{start.library}` uses the Python module {foreign}, and a recording executes no code"
-        raise RequestError(f"{why}: give the library with --library")
-    return found
+    foreign = next((each for each in _list_python(found) if each.partition(".")[0] not in SHIPPED_CODE), None)
+    if foreign is None:
+        return found
+    if (own := _find_here(start.library)) is not None:
+        return compile_valid(find_library(own))
+    why = f"the library `{start.library}` uses the Python module {foreign}, and a recording executes no code"
+    raise RequestError(f"{why}: give the library with --library, or go to the folder of its project")
+
+
+def _find_here(library: str) -> Path | None:
+    """Return the folder of a library that is the project here, or one that it depends on; None if it is neither."""
+    here = find_project(Path())
+    return {each.name: each.root for each in (here, *here.others())}.get(library) if here is not None else None
 
 
 def _list_python(library: SkillLibrary) -> Iterator[str]:
