@@ -41,7 +41,13 @@ class Terminal:
         from skillc_dsl.rendering.full import render
 
         text = render(diagnostics, texts, colour=has_colours(sys.stderr), width=page_width(sys.stderr))
-        click.echo(text, err=True, nl=False, color=True)
+        print_talk(text.removesuffix("\n"))
+
+
+def print_talk(*lines: str) -> None:
+    """Print lines that were laid out for the page of stderr, above a display that changes."""
+    for line in lines:
+        print(line, file=sys.stderr, flush=True)  # click would write to the stream below a live display
 
 
 def print_result(text: str) -> None:
@@ -68,8 +74,7 @@ def print_text(text: str) -> None:
 def print_remark(text: str) -> None:
     """Print what is not a result, such as a count or the next steps, to stderr, unless the command is quiet."""
     if not output_settings().quiet:
-        for line in page_of(sys.stderr).wrap(text, hanging="  "):
-            click.echo(line, err=True)
+        print_talk(*page_of(sys.stderr).wrap(text, hanging="  "))
 
 
 def remark_default(named: str | None, chosen: str | None) -> None:
@@ -88,9 +93,7 @@ def print_labelled(severity: str, message: str) -> None:
     page = page_of(sys.stderr)
     label = page.paint(f"{severity}:", "bad" if severity == "error" else "warning")
     first, *rest = page.wrap(f"{severity}: {message}", hanging="  ")
-    click.echo(f"{label}{first.removeprefix(f'{severity}:')}", err=True, color=True)
-    for line in rest:
-        click.echo(line, err=True)
+    print_talk(f"{label}{first.removeprefix(f'{severity}:')}", *rest)
 
 
 def print_json(value: Any) -> None:

@@ -153,7 +153,7 @@ class RunProgress:
         if self._live is not None:
             pace = self.pace if self._keyboard is not None else None
             first, *more = compose_display(self._title, run, now, self._since, pace, self._remark, self._detachable)
-            self._show(first, *more, estimate=self._plan.estimate(now, wall))
+            self._show(first, *self._wrapped(more), estimate=self._plan.estimate(now, wall))
         if self._keyboard is None:
             time.sleep(seconds)
             return ()
@@ -178,6 +178,12 @@ class RunProgress:
         self._spinner.update(text=_one_line(first))
         bar = [] if estimate is None else [_draw_bar(estimate, self._console.width)]
         self._live.update(Group(self._spinner, *bar, *map(_one_line, more)))
+
+    def _wrapped(self, lines: Sequence[str]) -> Iterator[str]:
+        """Yield the lines below the first one of the display, with a hanging indent where they are too wide."""
+        for line in lines:
+            margin = " " * (len(line) - len(line.lstrip()))
+            yield from self._page.wrap(line.lstrip(), indent=margin, hanging=f"{margin}  ")
 
     def _print(self, text: str, style: Style = "") -> None:
         """Print a line that remains, above the display if there is one."""

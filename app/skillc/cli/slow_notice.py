@@ -6,8 +6,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-import click
-
+from skillc.cli.console import print_talk
 from skillc.cli.settings import output_settings
 
 FIRST_AFTER_S, AGAIN_AFTER_S = 2.0, 10.0
@@ -20,9 +19,9 @@ def notice_if_slow(text: str, describe: Callable[[], str] = lambda: "") -> Itera
 
     def notice() -> None:
         if not ended.wait(FIRST_AFTER_S):
-            click.echo(text, err=True)
+            print_talk(text)
         while not ended.wait(AGAIN_AFTER_S):
-            click.echo(describe() or text, err=True)
+            print_talk(describe() or text)
 
     if output_settings().quiet:
         yield

@@ -30,7 +30,11 @@ skillc replay recording.mcap --check --library ./skills
 @click.argument("run", metavar="RUN_DIR", type=PATH)
 @pace_option
 @click.option("--check", is_flag=True, help="Check the events, and run again from the recorded inputs.")
-@click.option("--library", type=PATH, help="The library of the run for --check; by default the recorded one, or with Python of its own the project here.")
+@click.option(
+    "--library",
+    type=PATH,
+    help="The library of the run for --check; by default the recorded one, or with Python of its own the project here.",
+)
 @json_option
 def command(run: Path, pace: Pace, check: bool, library: Path | None, as_json: bool) -> int:
     """Show the run that `skillc run --out RUN_DIR` recorded, or one in an MCAP file, as it was; nothing is computed.

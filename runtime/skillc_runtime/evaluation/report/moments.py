@@ -25,9 +25,10 @@ GRASPED_S = 0.3
 def find_moments(
     wipings: Sequence[Wiping], history: RunHistory, state: WorldState, truth: GroundTruth
 ) -> tuple[Moment, ...]:
-    """Return the moments of all wipings whose arm is known, and the highlights of all calls."""
+    """Return the moments of all wipings whose arm is known, and the highlights of all calls, in the order of time."""
     wiped = (each for wiping in wipings if wiping.arm for each in _find_wiping_moments(wiping, truth))
-    return (*wiped, *(each for call in history.calls for each in _find_highlights(call, state)))
+    highlights = (each for call in history.calls for each in _find_highlights(call, state))
+    return tuple(sorted((*wiped, *highlights), key=lambda each: each.time))
 
 
 def _find_highlights(call: RecordedCall, state: WorldState) -> Iterator[Moment]:
