@@ -46,8 +46,8 @@ def test_what_was_waited_for_is_seen_when_it_came() -> None:
 
 
 def test_stills_are_in_the_order_of_time_also_of_calls_in_parallel() -> None:
-    tree = call(1, "success", 0.0, 9.0, call(2, "success", 3.0, 8.0), call(3, "success", 5.0, 6.0))
-    found = find_moments((), [tree], CHOICES, STATE, TRUTH)
+    told = history("success", call("success", 3.0, 8.0, *PRESSED), call("success", 5.0, 6.0, *FILLED))
+    found = find_moments((), told, STATE, TRUTH)
     assert [each.title for each in found] == ["Hole found", "Hole filled", "Button pressed"]
 
 

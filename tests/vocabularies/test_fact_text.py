@@ -39,8 +39,13 @@ def test_each_fact_is_read_as_it_is_shown(state: WorldState) -> None:
         for stated in each.properties:
             shown = format_fact(label_fact(PropertyFact(each.iri, stated.property), state))
             (change,) = read_edits([shown], state)
-            assert isinstance(change, SetProperty) and (change.individual, change.property) == (each.iri, stated.property)
-            assert shown == format_fact(label_fact(PropertyFact(each.iri, stated.property), state.with_changes([change])))
+            assert isinstance(change, SetProperty) and (change.individual, change.property) == (
+                each.iri,
+                stated.property,
+            )
+            assert shown == format_fact(
+                label_fact(PropertyFact(each.iri, stated.property), state.with_changes([change]))
+            )
             values += 1
     assert relations > 10 and values > 100
 
