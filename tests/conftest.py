@@ -13,7 +13,7 @@ from skillc_dsl.garbage import exempt_from_gc
 # No test depends on how fast the machine is.
 settings.register_profile("skillc", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("fixed", settings.get_profile("skillc"), derandomize=True)
-settings.load_profile(os.environ.get("SKILLC_EXAMPLES", "skillc"))
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "skillc"))
 
 # Folders whose tests run whole cells and servers in processes of their own.
 SLOW_FOLDERS = ("operating", "running_cells", "server")
