@@ -41,7 +41,7 @@ class Terminal:
         from skillc_dsl.rendering.full import render
 
         text = render(diagnostics, texts, colour=has_colours(sys.stderr), width=page_width(sys.stderr))
-        print_talk(text.removesuffix("\n"))
+        print_talk(*text.splitlines())
 
 
 def print_talk(*lines: str) -> None:
