@@ -14,7 +14,7 @@ from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.platforms.file_locks import try_lock
 
 FILE = "trials.jsonl"
-FORMAT = 6
+FORMAT = 7
 
 
 class Heading(msgspec.Struct, frozen=True, kw_only=True):
