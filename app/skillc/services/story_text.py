@@ -170,7 +170,8 @@ def _refusal(rejected: Rejection) -> Iterator[str]:
 
 def _bound(call: RecordedCall, name: str) -> Iterator[str]:
     reason = next((each for each in call.determined if each.parameter == name), None)
-    how = reason.how if reason is not None else "planned" if call.planned else "passed"
+    how = reason.how if reason is not None else "passed"
+    how = "planned" if call.planned and how == "passed" else how
     written = call.expressions.get(name) if how != "planned" else None
     where = f": `{written.text}`, {written.source}" if written is not None else ""
     yield f"{name} = {format_value(call.bindings[name])}  ({HOW[how]}{where})"
