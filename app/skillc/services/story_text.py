@@ -170,8 +170,8 @@ def _refusal(rejected: Rejection) -> Iterator[str]:
 
 def _bound(call: RecordedCall, name: str) -> Iterator[str]:
     reason = next((each for each in call.determined if each.parameter == name), None)
-    how = reason.how if reason is not None else "passed"
-    how = "planned" if call.planned and how == "passed" else how
+    given = reason.how if reason is not None else "passed"
+    how = "planned" if call.planned and given == "passed" else given
     written = call.expressions.get(name) if how != "planned" else None
     where = f": `{written.text}`, {written.source}" if written is not None else ""
     yield f"{name} = {format_value(call.bindings[name])}  ({HOW[how]}{where})"
@@ -246,7 +246,8 @@ def _chain(links: Sequence[FailedNode], known: str = "") -> Iterator[str]:
     """Yield the failed nodes down to the innermost, whose message is omitted if `known` contains it."""
     for depth, link in enumerate(links):
         innermost = f": {link.message}" if link is links[-1] and link.message not in known else ""
-        yield f"{'  ' * depth}in {link.kind} {link.name} ({link.source}){innermost}"
+        name = link.name if link.name.startswith(f"{link.kind} ") else f"{link.kind} {link.name}"
+        yield f"{'  ' * depth}in {name} ({link.source}){innermost}"
 
 
 def _fact(fact: RecordedFact) -> str:
