@@ -22,8 +22,8 @@ def collect_steps(body: AttemptRecord, before: int, wanted: Iterable[Call] = ())
     """
     calls = [call for root in body.roots for call in ((root,) if root.is_call else root.calls)]
     places = {call.start.source for call in calls}
-    unstarted = [_unstarted_call(PlanStep(skill=each.skill, arguments={}, source=each.source), "not started")
-                 for each in wanted if each.source not in places]  # fmt: skip
+    missing = [PlanStep(skill=each.skill, arguments={}, source=each.source) for each in wanted]
+    unstarted = [_unstarted_call(each, "not started") for each in missing if each.source not in places]
     found = [
         *_match_plan(body, calls),
         *((call.start.time, call) for call in calls),
@@ -44,10 +44,11 @@ def _match_plan(body: AttemptRecord, calls: list[NodeRecord]) -> list[tuple[floa
             found.append((call.start.time, call))
             continue
         skip = next((each for each in skipped if step.source is not None and each.source == step.source), None)
-        if skip is not None:
+        if skip is None:
+            found.append((inf, _unstarted_call(step, "not started")))
+        else:
             skipped.remove(skip)
-        found.append((inf, _unstarted_call(step, "not started")) if skip is None
-                     else (skip.time, _unstarted_call(step, "skipped")))  # fmt: skip
+            found.append((skip.time, _unstarted_call(step, "skipped")))
     return found
 
 
@@ -133,17 +134,16 @@ def _make_call(call: NodeRecord, number: str) -> RecordedCall:
 
 
 def _add_parallel_steps(found: tuple[RecordedCall, ...]) -> tuple[RecordedCall, ...]:
-    return tuple(
-        structs.replace(
-            call, beside=tuple(other.number for other in found if other is not call and _overlap(call, other))
-        )
-        for call in found
-    )
-
-
-def _overlap(one: RecordedCall, other: RecordedCall) -> bool:
-    """Whether two steps ran at the same time for a while."""
-    if one.started is None or other.started is None:
-        return False
-    begin = max(one.started, other.started)
-    return begin < min(inf if each.ended is None else each.ended for each in (one, other))
+    """Return steps, which are in order of time, with the numbers of those that ran at the same time for a while."""
+    beside: dict[str, list[str]] = {each.number: [] for each in found}
+    going: list[tuple[float, RecordedCall]] = []
+    for call in found:
+        if call.started is None:
+            continue
+        begin, end = call.started, inf if call.ended is None else call.ended
+        going = [(until, other) for until, other in going if until > begin]
+        for _, other in going if end > begin else ():
+            beside[call.number].append(other.number)
+            beside[other.number].append(call.number)
+        going.append((end, call))
+    return tuple(structs.replace(call, beside=tuple(beside[call.number])) for call in found)
