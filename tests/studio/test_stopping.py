@@ -186,7 +186,7 @@ def test_all_that_goes_on_is_stopped_whatever_its_state(
         server.wait_for(started[-1], *wanted)
     unseen = f"{first['task']} goes on and is not shown"
     pause = watching.get_by_role("button", name="Pause", exact=True)
-    expect(pause).to_have_attribute("title", f"{unseen}; the panel Runs has it.")
+    expect(pause).to_have_attribute("title", f"{unseen}; the strip on top leads to it.")
     watching.keyboard.press("p")
     expect(watching.get_by_role("alert").filter(has_text=unseen)).to_be_visible()
     watching.keyboard.press(KEY)

@@ -202,6 +202,14 @@ export const api = {
   operation: (id: string) => call("show_operation", [id]),
   events: (id: string, after: number) => call("list_events", [id], { query: { after, limit: 1000 } }),
   command: (id: string, body: CommandBody) => call("give_command", [id], { body }),
+  /** Let operations come before all others that wait in a cell. */
+  reorder: (cell: string, first: string[]) => call("reorder_queue", [cell], { body: { first } }),
+  /** Make a simulated cell again as its scene says, or as it was saved. */
+  reset: (cell: string, why: string) => call("reset_cell", [cell], { body: { why } }),
+  checkpoints: (cell: string) => call("list_checkpoints", [cell]),
+  save: (cell: string, name: string) => call("save_cell", [cell], { body: { name } }),
+  restore: (cell: string, name: string) => call("restore_cell", [cell, name], { body: { why: "" } }),
+  removeCheckpoint: (cell: string, name: string) => call("remove_checkpoint", [cell, name]),
   /** Stop all that goes on in a cell. */
   stop: (cell: string, reason: string) => call("stop_cell", [cell], { body: { reason }, isUrgent: true }),
   setPace: (cell: string, factor: number | null) => call("set_pace", [cell], { body: { factor } }),

@@ -9,7 +9,8 @@ export interface components {
          * @description A cell as it is now; `reason` is why it is in its state.
          *
          *         `library_hash` identifies the library that its next operation runs; `library_problem` is why that is not the one on
-         *         disk. `pace` is None for as fast as it computes.
+         *         disk. `pace` is None for as fast as it computes. A `resettable` cell can be reset to its scene, saved and restored;
+         *         `resets` counts how often it was since its process was started: what was seen of it before is past.
          */
         CellStatus: {
             name: string;
@@ -28,6 +29,10 @@ export interface components {
             reason?: string;
             /** @default null */
             pace?: number | null;
+            /** @default false */
+            resettable?: boolean;
+            /** @default 0 */
+            resets?: number;
         };
         /**
          * PaceSetting
@@ -43,6 +48,37 @@ export interface components {
         StopReason: {
             /** @default stopped */
             reason?: string;
+        };
+        /**
+         * ResetReason
+         * @description Why a cell is reset or restored, for the history of its world.
+         */
+        ResetReason: {
+            /** @default  */
+            why?: string;
+        };
+        /**
+         * CellCheckpoint
+         * @description A simulated cell as `who` has saved it under a name, at the wall time `saved_ns` in ns since 1970.
+         *
+         *         It can be restored in a cell with the same scene, library, backend and seed. `scene` is the name of its file with a
+         *         digest of what is in it.
+         */
+        CellCheckpoint: {
+            name: string;
+            who: string;
+            saved_ns: number;
+            scene: string;
+            library_hash: string;
+            backend: string;
+            seed: number;
+        };
+        /**
+         * CheckpointName
+         * @description The name of a new checkpoint: letters, digits, `_`, `-` and `.`.
+         */
+        CheckpointName: {
+            name: string;
         };
         /**
          * Push
@@ -296,7 +332,7 @@ export interface components {
          *         `library_hash` identifies what it runs. `devices` are the IRIs of those that it holds, null for the whole cell.
          *         `prompts` are what its skills ask operators. `planning` is how far its planner is; null if none works. `breakpoints`
          *         are those at which it pauses now. `decisions` are how it can be continued if it was interrupted, `continued_by` is
-         *         the operation that does.
+         *         the operation that does. `place` is its place among those of its cell that wait, from 1; 0 if it does not wait.
          */
         OperationStatus: {
             id: string;
@@ -339,6 +375,8 @@ export interface components {
             decisions?: ("replan" | "retry" | "skip")[];
             /** @default  */
             continued_by?: string;
+            /** @default 0 */
+            place?: number;
         };
         /**
          * OperationRequest
@@ -1837,6 +1875,13 @@ export interface components {
              * @enum {unknown}
              */
             missed?: "run-once" | "skip";
+        };
+        /**
+         * QueueOrder
+         * @description Which operations come first among those that wait in a cell, by their ids, in this order.
+         */
+        QueueOrder: {
+            first: string[];
         };
         /**
          * OperationTree

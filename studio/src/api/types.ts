@@ -7,6 +7,7 @@ type Schemas = components["schemas"];
 
 export type CellStatus = Required<Schemas["CellStatus"]>;
 export type CellState = CellStatus["state"];
+export type Checkpoint = Schemas["CellCheckpoint"];
 export type OperationStatus = Required<Schemas["OperationStatus"]>;
 export type OperationRequest = Partial<Schemas["OperationRequest"]>;
 export type RunState = OperationStatus["state"];

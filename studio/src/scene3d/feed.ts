@@ -68,11 +68,14 @@ export const sceneSources: SceneSources = {
 /** Follow a cell until the function that is returned is called. */
 export function followScene(cell: string): () => void {
   const isOn = computed(() => !["off", undefined].includes(cells.value.get(cell)?.state));
+  const resets = computed(() => cells.value.get(cell)?.resets ?? 0);
   model.value = null;
   believed.value = coverage.value = {};
   const ends = [
     effect(() =>
-      isOn.value ? keepReading(() => call("show_model", [cell]) as Promise<CellModel>, model) : undefined,
+      resets.value >= 0 && isOn.value
+        ? keepReading(() => call("show_model", [cell]) as Promise<CellModel>, model)
+        : undefined,
     ),
     effect(() => {
       return isOn.value && worldSequence.value >= 0

@@ -52,10 +52,12 @@ function followCell(): (() => void) | undefined {
   if (name === null) return undefined;
   studio.sample.value = null;
   // A server or a cell that has come back knows more about what was interrupted.
+  const resets = computed(() => studio.cells.value.get(name)?.resets ?? 0);
   const isThere = computed(() => studio.connection.value.state === "open" && isOn(name));
   const ends = [
     effect(() => {
-      if (isThere.value) void loadHistory(name);
+      // What was interrupted before a reset can be continued no more.
+      if (resets.value >= 0 && isThere.value) void loadHistory(name);
     }),
     openStream({
       path: "/samples",
@@ -111,7 +113,7 @@ function followLibrary(name: string): void {
   });
 }
 
-/** Read the world again when the operation that is shown has changed it, or another one has ended. */
+/** Read the world again when the operation that is shown has changed it, another one has ended, or it was reset. */
 function followWorld(name: string): void {
   const cell = studio.cells.value.get(name);
   const changes = studio.live.value.log.filter((each) => each.severity === "world").length;
@@ -119,7 +121,7 @@ function followWorld(name: string): void {
     studio.ENDS.includes(each.state),
   ).length;
   if (cell === undefined || cell.state === "off") return;
-  const version = `${changes} ${ends}`;
+  const version = `${changes} ${ends} ${cell.resets}`;
   if (worldWanted.cell === name && worldWanted.version === version) return;
   worldWanted = { cell: name, version };
   void readWorld();

@@ -21,6 +21,7 @@ interface Measuring {
 }
 
 let measuring: Measuring | null = null;
+let lastTimeS = -Infinity;
 const revision = signal(0);
 const liveLines = signal<readonly Line[]>([]);
 /** The operations whose first samples have come while the page was open. */
@@ -68,6 +69,8 @@ function takeSample(): void {
     seen.clear();
     return;
   }
+  if (now.time_s < lastTimeS) measuring = null; // The cell was reset, and its clock with it.
+  lastTimeS = now.time_s;
   const arms = Object.keys(now.arms).sort();
   if (measuring?.arms.join() !== arms.join()) begin(arms);
   const current = measuring;

@@ -127,7 +127,7 @@ export function describeUnseen(): string {
   const other = isOngoing.value && replay.value === null ? undefined : ongoing.value[0];
   return other === undefined
     ? ""
-    : `${describeRequest(other.request)} goes on and is not shown; the panel Runs has it.`;
+    : `${describeRequest(other.request)} goes on and is not shown; the strip on top leads to it.`;
 }
 
 /** The run that is shown, and how it is: as the server says, or as a recording tells at its time. */

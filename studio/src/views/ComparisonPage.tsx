@@ -10,7 +10,7 @@ import { ComparedSignals } from "./ComparedSignals";
 import { Differences } from "./Differences";
 import { FullPage } from "./FullPage";
 import { NodeMark, RunBadge } from "./status";
-import { formatStart } from "./run_times";
+import { formatStart } from "../state/run_times";
 
 const onlyDifferent = signal(false);
 

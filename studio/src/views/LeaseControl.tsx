@@ -1,25 +1,10 @@
 // The lease of the cell: who has it, in the bar on top; what that means and what can be done about it, one click away.
-import { useEffect, useRef, useState } from "preact/hooks";
 import { releaseLease, takeLease } from "../state/lease";
 import { lease, may, session } from "../state/studio";
 import { Icon } from "./icons";
+import { Popover } from "./Popover";
 
 export function LeaseControl() {
-  const [isOpen, setIsOpen] = useState(false);
-  const box = useRef<HTMLDivElement>(null);
-  useEffect(() => {
-    if (!isOpen) return;
-    const close = (event: Event): void => {
-      const isInside = event.target instanceof Node && (box.current?.contains(event.target) ?? false);
-      if (event instanceof KeyboardEvent ? event.key === "Escape" : !isInside) setIsOpen(false);
-    };
-    document.addEventListener("pointerdown", close);
-    document.addEventListener("keydown", close);
-    return () => {
-      document.removeEventListener("pointerdown", close);
-      document.removeEventListener("keydown", close);
-    };
-  }, [isOpen]);
   const current = lease.value;
   if (current === null) return null;
   const owner = current.owner;
@@ -27,25 +12,26 @@ export function LeaseControl() {
   const [tone, word] =
     owner === null ? ["", "free"] : isOwn ? ["is-running", "yours"] : ["is-waiting", owner];
   return (
-    <div class="lease" ref={box}>
-      <button
-        class={`plain lease-button ${tone}`}
-        aria-expanded={isOpen}
-        aria-label={`Lease: ${word}`}
-        title="Who alone may command this cell"
-        onClick={() => setIsOpen(!isOpen)}
-      >
-        <Icon name={owner === null ? "unlocked" : "locked"} />
-        <span class="truncate">{word}</span>
-      </button>
-      {isOpen && (
-        <section class="popover stack" aria-label="Lease of the cell">
+    <Popover
+      label={`Lease: ${word}`}
+      name="Lease of the cell"
+      title="Who alone may command this cell"
+      tone={tone}
+      face={
+        <>
+          <Icon name={owner === null ? "unlocked" : "locked"} />
+          <span class="truncate">{word}</span>
+        </>
+      }
+    >
+      {() => (
+        <>
           {owner === null && <Free />}
           {isOwn && <Own />}
           {owner !== null && !isOwn && <Others owner={owner} remainingS={current.remaining_s} />}
-        </section>
+        </>
       )}
-    </div>
+    </Popover>
   );
 }
 

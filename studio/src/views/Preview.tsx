@@ -2,6 +2,7 @@
 import type { PlanPreview } from "../api/types";
 import { formatTime } from "../state/text";
 import { PlaceLink } from "./links";
+import { NothingToDo } from "./NothingToDo";
 
 export function Preview({ preview }: { preview: PlanPreview }) {
   if (preview.status !== "solved") return <NoPlan preview={preview} />;
@@ -11,7 +12,7 @@ export function Preview({ preview }: { preview: PlanPreview }) {
         <span>Plan</span>
         <span class="muted small">{summary(preview)}</span>
       </h3>
-      {preview.plan.length === 0 && <p class="muted">Nothing to do: the goal holds already.</p>}
+      {preview.plan.length === 0 && <NothingToDo />}
       <ol class="preview">
         {preview.plan.map((each, index) => (
           <li key={index} class="preview-step">

@@ -11,12 +11,14 @@ import {
   shownRun,
   status,
 } from "../state/studio";
+import { describeRemaining } from "../state/activity";
 import { bounds } from "../state/bounds";
 import { describeFailure, formatTime, formatValue } from "../state/text";
 import { BoundsChart } from "./BoundsChart";
 import { Choose } from "./Choose";
 import { Icon } from "./icons";
 import { choosing } from "./layout";
+import { NothingToDo } from "./NothingToDo";
 import { Planning } from "./Planning";
 import { FalseClaims, NodeMark, RunBadge } from "./status";
 
@@ -70,6 +72,7 @@ function Prompts() {
       {open.map((each) => (
         <div key={each.id} class="notice waiting stack" role="alert">
           <p>{each.text}</p>
+          <p class="small muted">{describeRemaining(each)}</p>
           <div class="row choices">
             {each.choices.map((choice) => (
               <button
@@ -198,7 +201,7 @@ function Plan() {
           {index === attempts.length - 1 && replay.value === null && !isOngoing.value && (
             <BoundsChart points={bounds.value.points} />
           )}
-          {attempt.plan?.steps.length === 0 && <p class="muted">Nothing to do: the goal holds already.</p>}
+          {attempt.plan?.steps.length === 0 && <NothingToDo />}
           {attempt.reason !== "" && (
             <p class="notice waiting small">
               <Icon name="warning" /> Planned again: {attempt.reason}

@@ -12,7 +12,7 @@ import { cellName, ENDS, operationId, operations, replay, status } from "../stat
 import { describeFailure, describeRequest } from "../state/text";
 import { openFile } from "./Dropping";
 import { choosing } from "./layout";
-import { formatStart, newestFirst } from "./run_times";
+import { formatStart, newestFirst } from "../state/run_times";
 import { RunBadge } from "./status";
 
 const search = signal("");

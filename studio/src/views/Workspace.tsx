@@ -4,6 +4,7 @@ import { comparison } from "../state/comparison";
 import { conflict } from "../state/source";
 import { operation } from "../state/studio";
 import { shownSeries } from "../state/trials";
+import { CellStrip } from "./CellStrip";
 import { ConflictPage } from "./ConflictPage";
 import { ComparisonPage } from "./ComparisonPage";
 import { Details } from "./Details";
@@ -52,6 +53,7 @@ export function Workspace() {
     <Dropping>
       <div>
         <TopBar />
+        <CellStrip />
         <ReplayBar />
       </div>
       <CoveringPage />

@@ -58,6 +58,11 @@ export function RunBadge({ state, verified, claims = [] }: RunBadgeProps) {
   return <Badge look={RUN[state]} />;
 }
 
+/** An operation whose skills ask a person. */
+export function AskBadge() {
+  return <Badge look={["is-waiting", "help", "asks"]} />;
+}
+
 /** What the world model claims that is not so in the simulator. */
 export function FalseClaims({ claims }: { claims: readonly string[] | undefined }) {
   return (

@@ -1,0 +1,24 @@
+// A plan without steps: why, and what can be done about it in a simulation.
+import { describeObstacle, reset } from "../state/resetting";
+import { cell, replay } from "../state/studio";
+
+export function NothingToDo() {
+  const obstacle = describeObstacle();
+  const isOffered = cell.value?.resettable === true && replay.value === null;
+  return (
+    <>
+      <p class="muted">Nothing to do: the goal holds already.</p>
+      {isOffered && (
+        <p>
+          <button
+            disabled={obstacle !== ""}
+            title={obstacle || "The world and what is really so are again as the scene says"}
+            onClick={() => void reset()}
+          >
+            Reset {cell.value?.name} to its scene
+          </button>
+        </p>
+      )}
+    </>
+  );
+}
