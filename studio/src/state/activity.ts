@@ -61,15 +61,19 @@ function findInterrupted(all: readonly OperationStatus[]): OperationStatus[] {
     .filter((each) => each.continued_by === "" && each.decisions.length > 0);
 }
 
-/** Return for how long a question may still be answered, and what happens then; nothing while the time is not known. */
-export function describeRemaining({ ends_s, default: otherwise }: Prompt): string {
+/** Return for how long a question may still be answered; nothing while the time is not known. */
+export function describeLeft({ ends_s }: Prompt): string {
   const now = sample.value?.time_s;
   if (now === undefined) return "";
-  const then = otherwise ? `then “${otherwise}” counts` : "then the skill fails";
   const left = Math.ceil(ends_s - now);
-  return left <= 0
-    ? "the time to answer is over"
-    : `${left < 100 ? `${left} s` : formatTime(left)} left, ${then}`;
+  return left <= 0 ? "the time to answer is over" : `${left < 100 ? `${left} s` : formatTime(left)} left`;
+}
+
+/** Return the same with what happens then. */
+export function describeRemaining(prompt: Prompt): string {
+  const left = describeLeft(prompt);
+  const then = prompt.default ? `then “${prompt.default}” counts` : "then the skill fails";
+  return left.endsWith("left") ? `${left}, ${then}` : left;
 }
 
 /** Return who wants what. */

@@ -3,6 +3,7 @@ import { api } from "../api/client";
 import { attempt, showOperation } from "../state/actions";
 import {
   activities,
+  describeLeft,
   describeOwned,
   describeRemaining,
   movedBy,
@@ -79,8 +80,10 @@ function Item({ activity: { operation, attention, prompt } }: { activity: Activi
   const isShown = operation.id === operationId.value && replay.value === null;
   const isUrgent = attention !== "goes on";
   const said = prompt?.text ?? (operation.state === "planned" ? "" : operation.reason);
-  const left = prompt === null ? "" : describeRemaining(prompt);
-  const title = [describeOwned(operation), said, left].filter((each) => each !== "").join("\n");
+  const left = prompt === null ? "" : describeLeft(prompt);
+  const title = [describeOwned(operation), said, prompt === null ? "" : describeRemaining(prompt)]
+    .filter((each) => each !== "")
+    .join("\n");
   return (
     <button
       class={`strip-item ${isUrgent ? "is-urgent" : ""}`}
