@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
 import type { Envelope } from "../src/api/types";
-import { compareNumbers, isAnotherCall, numberCalls, pairCalls } from "../src/state/calls";
+import { isDifferentCall, numberCalls, pairCalls } from "../src/state/calls";
 import { overlay } from "../src/state/comparison";
 import { endOfSecond } from "../src/state/history";
 import { applyEvents, EMPTY } from "../src/state/operation";
@@ -20,15 +20,19 @@ describe("the numbers of calls", () => {
     expect(calls.every((each) => each.skill !== "" && each.took !== null)).toBe(true);
   });
 
-  test("have an order that is not that of texts", () => {
-    expect(["10", "2.1", "2", "1.10", "1.9"].sort(compareNumbers)).toEqual(["1.9", "1.10", "2", "2.1", "10"]);
-  });
-
-  test("pair the calls of two runs; one that only one has is another call", () => {
-    const pairs = pairCalls(calls, calls.slice(1));
-    expect(pairs.map((each) => each.number)).toEqual(calls.map((each) => each.number));
-    expect(pairs[0]?.second).toBeNull();
-    expect(pairs.map(isAnotherCall)).toEqual(pairs.map((_, index) => index === 0));
+  test("pair calls that call the same, whatever their numbers; one that only one run has stands alone", () => {
+    expect(pairCalls(calls, calls).map(isDifferentCall)).toEqual(calls.map(() => false));
+    const steps = calls.filter((each) => each.depth === 0);
+    const [step] = steps;
+    if (step === undefined) throw new Error("the run has no steps");
+    const later = steps.map((each, at) => ({ ...each, number: `${at + 2}` }));
+    const moved = pairCalls(steps, [{ ...step, skill: "Another", values: "" }, ...later]);
+    expect(moved.map(isDifferentCall)).toEqual([true, ...steps.map(() => false)]);
+    expect(moved.slice(1).map((each) => each.number)).toEqual(
+      steps.map((each, at) => `${each.number} / ${at + 2}`),
+    );
+    const changed = pairCalls(steps, [{ ...step, values: "lab:Other" }, ...steps.slice(1)]);
+    expect(changed.map(isDifferentCall)).toEqual(steps.map((_, at) => at === 0));
   });
 });
 

@@ -97,39 +97,103 @@ function addCalls(
   );
 }
 
-/** A line of a comparison: the calls of both runs with one number; null where a run has none. */
+/** A line of a comparison: the calls of both runs that call the same; null where a run has none. */
 export interface CallPair {
+  /** The number in the first run, and that in the second one if it is another. */
   number: string;
   depth: number;
   first: NumberedCall | null;
   second: NumberedCall | null;
 }
 
-/** Return the calls of two runs side by side, in the order of their numbers. */
+/** A call, and the calls inside it. */
+interface Block {
+  call: NumberedCall;
+  inside: readonly NumberedCall[];
+}
+
+/**
+ * Return the calls of two runs side by side, in the order of both: those with the same skill and values, then, between
+ * these, those with the same skill. What only one of the runs has stands alone.
+ */
 export function pairCalls(first: readonly NumberedCall[], second: readonly NumberedCall[]): CallPair[] {
-  const pairs = new Map<string, CallPair>();
-  for (const each of first)
-    pairs.set(each.number, { number: each.number, depth: each.depth, first: each, second: null });
-  for (const each of second) {
-    const pair = pairs.get(each.number);
-    if (pair === undefined)
-      pairs.set(each.number, { number: each.number, depth: each.depth, first: null, second: each });
-    else pair.second = each;
-  }
-  return [...pairs.values()].sort((one, other) => compareNumbers(one.number, other.number));
+  const [one, other] = [blocksOf(first), blocksOf(second)];
+  return pairAlike(
+    one,
+    other,
+    ({ call }) => `${call.skill} ${call.values}`,
+    (left, right) =>
+      pairAlike(
+        left,
+        right,
+        ({ call }) => call.skill,
+        (alone, rest) => [
+          ...alone.flatMap(({ call, inside }) => [call, ...inside].map((each) => pairOf(each, null))),
+          ...rest.flatMap(({ call, inside }) => [call, ...inside].map((each) => pairOf(null, each))),
+        ],
+      ),
+  );
 }
 
-export function compareNumbers(one: string, other: string): number {
-  const [left, right] = [one.split("."), other.split(".")];
-  for (let at = 0; at < Math.min(left.length, right.length); at++) {
-    const apart = Number(left[at]) - Number(right[at]);
-    if (apart !== 0) return apart;
-  }
-  return left.length - right.length;
+function pairOf(first: NumberedCall | null, second: NumberedCall | null): CallPair {
+  const numbers = new Set([first?.number, second?.number].filter((each) => each !== undefined));
+  return { number: [...numbers].join(" / "), depth: (first ?? second)?.depth ?? 0, first, second };
 }
 
-/** Whether one number means two calls: another skill, other values, or one of the runs has none. */
-export function isAnotherCall({ first, second }: CallPair): boolean {
+/** Return calls with those inside each; calls inside others follow these. */
+function blocksOf(calls: readonly NumberedCall[]): Block[] {
+  const outer = calls[0]?.depth ?? 0;
+  const begins = calls.flatMap((each, at) => (each.depth === outer ? [{ each, at }] : []));
+  return begins.map(({ each, at }, index) => ({
+    call: each,
+    inside: calls.slice(at + 1, begins[index + 1]?.at ?? calls.length),
+  }));
+}
+
+/** Pair the longest common sequence of blocks by their names; `between` pairs what is left before, between and after. */
+function pairAlike(
+  first: readonly Block[],
+  second: readonly Block[],
+  name: (block: Block) => string,
+  between: (first: readonly Block[], second: readonly Block[]) => CallPair[],
+): CallPair[] {
+  const found: CallPair[] = [];
+  let [left, right] = [0, 0];
+  for (const [at, with_] of commonOf(first.map(name), second.map(name))) {
+    const [one, other] = [first[at], second[with_]];
+    if (one === undefined || other === undefined) continue;
+    found.push(...between(first.slice(left, at), second.slice(right, with_)));
+    found.push(pairOf(one.call, other.call), ...pairCalls(one.inside, other.inside));
+    [left, right] = [at + 1, with_ + 1];
+  }
+  return [...found, ...between(first.slice(left), second.slice(right))];
+}
+
+/** Return the indices of the longest common sequence of two lists. */
+function commonOf(one: readonly string[], other: readonly string[]): [number, number][] {
+  if (one.length === 0 || other.length === 0) return [];
+  const width = other.length + 1;
+  const lengths = new Uint32Array((one.length + 1) * width);
+  const lengthAt = (at: number, with_: number): number => lengths[at * width + with_] ?? 0;
+  for (let at = one.length - 1; at >= 0; at--)
+    for (let with_ = other.length - 1; with_ >= 0; with_--)
+      lengths[at * width + with_] =
+        one[at] === other[with_]
+          ? lengthAt(at + 1, with_ + 1) + 1
+          : Math.max(lengthAt(at + 1, with_), lengthAt(at, with_ + 1));
+  const found: [number, number][] = [];
+  for (let [at, with_] = [0, 0]; at < one.length && with_ < other.length;) {
+    if (one[at] === other[with_]) found.push([at++, with_++]);
+    else if (lengthAt(at + 1, with_) >= lengthAt(at, with_ + 1)) at++;
+    else with_++;
+  }
+  return found;
+}
+
+/** Whether the calls of a line differ: in skill, values, implementation or end, or one of the runs has none. */
+export function isDifferentCall({ first, second }: CallPair): boolean {
   if (first === null || second === null) return true;
-  return first.skill !== second.skill || first.values !== second.values;
+  const told = ({ skill, values, implementation, status }: NumberedCall): string =>
+    [skill, values, implementation, status].join("\n");
+  return told(first) !== told(second);
 }

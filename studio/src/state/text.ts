@@ -142,6 +142,13 @@ export function formatTime(seconds: number): string {
   return `${minutes}:${String(Math.floor(seconds % 60)).padStart(2, "0")} min`;
 }
 
+/** Return the arguments with which a task was started, as it names them. */
+export function describeArguments(request: OperationRequest): string {
+  return Object.entries(request.arguments ?? {})
+    .map(([name, value]) => `${name}: ${value}`)
+    .join(", ");
+}
+
 /** Return what an operation is to do, in short. */
 export function describeRequest(request: OperationRequest): string {
   if (request.task) return request.task;

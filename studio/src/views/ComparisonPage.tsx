@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import type { OperationStatus } from "../api/types";
 import { attempt, select, showOperation } from "../state/actions";
-import { isAnotherCall, type CallPair, type NumberedCall } from "../state/calls";
+import { isDifferentCall, type CallPair, type NumberedCall } from "../state/calls";
 import { compareRuns, comparison, differencesOfCalls, type Comparison } from "../state/comparison";
 import { replayOperation } from "../state/replay";
 import { describeRequest, formatTime } from "../state/text";
@@ -64,7 +64,7 @@ interface CallsProps {
 function Calls({ shown, found }: CallsProps) {
   const differences = differencesOfCalls(found.diff);
   const wanted = found.pairs.filter(
-    (each) => !onlyDifferent.value || differences.has(each.number) || isAnotherCall(each),
+    (each) => !onlyDifferent.value || differences.has(each.number) || isDifferentCall(each),
   );
   const scale = Math.max(durationOf(found.first.state), durationOf(found.second.state), 0.1);
   const plans = Math.max(found.first.state.attempts.length, found.second.state.attempts.length);
@@ -171,7 +171,7 @@ interface CallLineProps {
 }
 
 function CallLine({ pair, scale, runs, what }: CallLineProps) {
-  const differs = what !== "" || isAnotherCall(pair);
+  const differs = what !== "" || isDifferentCall(pair);
   const skill = pair.first?.skill ?? pair.second?.skill ?? "";
   return (
     <tr class={differs ? "is-different" : ""}>

@@ -5,7 +5,7 @@ import { select } from "../state/actions";
 import { activeCalls, ancestors, type TreeNode } from "../state/operation";
 import { selectedNode } from "../state/selection";
 import { operation, selection, shownRun } from "../state/studio";
-import { describeFailure, formatTime } from "../state/text";
+import { formatTime } from "../state/text";
 import { CallExplanation, Explanation } from "./Explanation";
 import { Fact, PlaceLink, ThingLink, Value } from "./links";
 import { FalseClaims, nodeWord, NodeMark, RunBadge } from "./status";
@@ -174,7 +174,7 @@ function NodeDetails({ node }: { node: TreeNode }) {
 function FailureText({ failure }: { failure: Failure }) {
   return (
     <div class="notice bad stack">
-      <p>{describeFailure(failure)}</p>
+      <p>{failure.message}</p>
       {failure.detail && <p class="small">{failure.detail}</p>}
       {failure.source != null && (
         <p class="small">
@@ -182,20 +182,21 @@ function FailureText({ failure }: { failure: Failure }) {
           {failure.skill ? ` in ${failure.skill}` : ""}
         </p>
       )}
-      <Causes causes={failure.causes ?? []} />
+      <Causes causes={failure.causes ?? []} above={failure.message} />
     </div>
   );
 }
 
-function Causes({ causes }: { causes: readonly Failure[] }) {
+/** What a failure came from, as a list: each way that was tried with its place; what is said above is not repeated. */
+function Causes({ causes, above }: { causes: readonly Failure[]; above: string }) {
   if (causes.length === 0) return null;
   return (
     <ul class="causes small">
       {causes.map((each, index) => (
         <li key={index}>
           {each.alternative ? `${each.alternative}: ` : ""}
-          {each.message} {each.source != null && <PlaceLink place={each.source} />}
-          <Causes causes={each.causes ?? []} />
+          {each.message !== above && each.message} {each.source != null && <PlaceLink place={each.source} />}
+          <Causes causes={each.causes ?? []} above={each.message} />
         </li>
       ))}
     </ul>

@@ -9,10 +9,10 @@ import { hasWords, readOlder, searchHistory } from "../state/history";
 import { replayOperation } from "../state/replay";
 import { makeReport, reports } from "../state/reports";
 import { cellName, ENDS, operationId, operations, replay, status } from "../state/studio";
-import { describeFailure, describeRequest } from "../state/text";
+import { describeArguments, describeFailure, describeRequest } from "../state/text";
 import { openFile } from "./Dropping";
 import { choosing } from "./layout";
-import { formatStart, newestFirst } from "../state/run_times";
+import { formatDuration, formatStart, newestFirst } from "../state/run_times";
 import { RunBadge } from "./status";
 
 const search = signal("");
@@ -85,6 +85,7 @@ export function RunsView() {
 function Run({ run }: { run: OperationStatus }) {
   const isShown = run.id === operationId.value && replay.value === null;
   const first = status.value;
+  const given = describeArguments(run.request);
   const show = (): void => {
     choosing.value = false;
     showOperation(run);
@@ -93,12 +94,14 @@ function Run({ run }: { run: OperationStatus }) {
     <li class={`run-item ${isShown ? "is-selected" : ""}`}>
       <button class="run-show" aria-pressed={isShown} title={run.id} onClick={show}>
         <span class="row spread">
-          <strong class="truncate">{describeRequest(run.request)}</strong>
+          <strong class="truncate" title={describeRequest(run.request)}>
+            {describeRequest(run.request)}
+          </strong>
           <RunBadge state={run.state} verified={run.verified} claims={run.false_claims} />
         </span>
+        {given !== "" && <span class="mono wrap-anywhere">{given}</span>}
         <span class="muted small">
-          {formatStart(run)}
-          {run.request.owner ? ` · ${run.request.owner}` : ""} · {run.events} events
+          {[formatStart(run), formatDuration(run), run.request.owner].filter(Boolean).join(" · ")}
         </span>
         {run.failure != null && <span class="small run-failure">{describeFailure(run.failure)}</span>}
       </button>

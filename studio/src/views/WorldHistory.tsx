@@ -35,9 +35,24 @@ function Waiting({ writes, children }: { writes: WorldWrite[] | null; children: 
 const timeOf = (write: WorldWrite): string =>
   write.written_ns === 0 ? `write ${write.sequence}` : new Date(write.written_ns / 1e6).toLocaleTimeString();
 
+interface WorldHistoryProps {
+  /** Words; only what has all of them is shown. */
+  search: string;
+  onUndo: (edits: string[], why: string) => void;
+}
+
+const originOf = (write: WorldWrite): string => `${write.origin || "the scene"} ${write.evidence ?? "given"}`;
+
 /** The writes, the last one first; `onUndo` gets the edits that undo one, and why. */
-export function WorldHistory({ onUndo }: { onUndo: (edits: string[], why: string) => void }) {
+export function WorldHistory({ search, onUndo }: WorldHistoryProps) {
   const writes = useWrites();
+  const words = search.toLowerCase().split(/\s+/);
+  const shown = (writes ?? []).filter((each) => {
+    const told = `${originOf(each)} ${each.changes.map(formatChange).join("; ")}`.toLowerCase();
+    return words.every((word) => told.includes(word));
+  });
+  if (writes !== null && writes.length > 0 && shown.length === 0)
+    return <div class="empty">Nobody has changed anything with “{search}” in it.</div>;
   return (
     <Waiting writes={writes}>
       <table>
@@ -52,11 +67,11 @@ export function WorldHistory({ onUndo }: { onUndo: (edits: string[], why: string
           </tr>
         </thead>
         <tbody>
-          {(writes ?? []).map((each) => (
+          {shown.map((each) => (
             <tr key={each.sequence}>
               <td class="muted when">{timeOf(each)}</td>
               <td class="wrap-anywhere">
-                {each.origin || "the scene"} <span class="muted">{each.evidence ?? "given"}</span>
+                {each.origin || "the scene"} <span class="muted when">{each.evidence ?? "given"}</span>
               </td>
               <td class="mono wrap-anywhere">{each.changes.map(formatChange).join("; ")}</td>
               <td>

@@ -26,7 +26,9 @@ export function WorldView() {
       <div class="view-tools row">
         <input
           type="search"
-          placeholder={`Search in ${facts.value.length} facts`}
+          placeholder={
+            view.value === "history" ? "Search in the changes" : `Search in ${facts.value.length} facts`
+          }
           aria-label="Search in the facts"
           value={search.value}
           onInput={(event) => (search.value = event.currentTarget.value)}
@@ -69,7 +71,7 @@ function Shown() {
     case "history":
       return (
         <div class="scroll">
-          <WorldHistory onUndo={proposeUndo} />
+          <WorldHistory search={search.value} onUndo={proposeUndo} />
         </div>
       );
     case "differences":
