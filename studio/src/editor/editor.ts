@@ -218,6 +218,11 @@ const LOOK = EditorView.theme({
   ".cm-running": { boxShadow: "inset 3px 0 var(--running)", backgroundColor: "var(--running-ground)" },
   ".cm-breakpoints": { width: "16px", cursor: "pointer" },
   ".cm-breakpoints .cm-gutterElement": { display: "flex", alignItems: "center", justifyContent: "center" },
+  // Problems are triangles: a red disc is a breakpoint, and nothing else.
+  ".cm-lint-marker": { width: "10px", height: "9px", clipPath: "polygon(50% 0, 100% 100%, 0 100%)" },
+  ".cm-lint-marker-error": { content: "normal", backgroundColor: "var(--bad)" },
+  ".cm-lint-marker-warning": { content: "normal", backgroundColor: "var(--waiting)" },
+  ".cm-lint-marker-info": { content: "normal", backgroundColor: "var(--idle)" },
   ".cm-breakpoint": { width: "9px", height: "9px", borderRadius: "50%", backgroundColor: "var(--bad)" },
   "&.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground, ::selection": {
     backgroundColor: "var(--selected)",

@@ -2,18 +2,41 @@
 import * as three from "three";
 import type { SceneBodies } from "./bodies";
 import type { Box } from "./labels";
-import type { PoseNumbers } from "./types";
+import type { CellModel, PoseNumbers } from "./types";
 
 const LEAST_M = 0.15;
 
-/** Return the sphere that is to be seen: that around what is selected, or around everything. */
+/** How far from an arm, in m, a thing is that it may work on, and how large at most. */
+const [REACH_M, WORK_M] = [1, 3];
+
+/** Return the box around the arms and what they may work on: a hall around them is not looked at first. */
+export function boxOfWork(
+  individuals: CellModel["individuals"],
+  boxOf: (individual: string) => three.Box3,
+): three.Box3 {
+  const arms = new three.Box3();
+  const ofArms = (kind: string): boolean => kind === "arm" || kind === "gripper" || kind === "base";
+  for (const [each, { kind }] of Object.entries(individuals)) if (ofArms(kind)) arms.union(boxOf(each));
+  if (arms.isEmpty()) return arms;
+  const [near, work] = [arms.clone().expandByScalar(REACH_M), arms.clone()];
+  for (const [each, { kind }] of Object.entries(individuals)) {
+    const box = ofArms(kind) ? new three.Box3() : boxOf(each);
+    const size = box.getSize(new three.Vector3());
+    if (!box.isEmpty() && box.intersectsBox(near) && Math.max(...size.toArray()) < WORK_M) work.union(box);
+  }
+  return work;
+}
+
+/** Return the sphere that is to be seen: that around what is selected, else around the robots and their work. */
 export function frameThese(
   bodies: SceneBodies | null,
+  individuals: CellModel["individuals"],
   poses: readonly PoseNumbers[],
   selected: readonly string[],
 ): three.Sphere {
   const box = new three.Box3();
   if (bodies !== null) for (const each of selected) box.union(bodies.boxOf(poses, each));
+  if (bodies !== null && box.isEmpty()) box.copy(boxOfWork(individuals, (each) => bodies.boxOf(poses, each)));
   if (bodies !== null && box.isEmpty()) box.copy(bodies.boxOf(poses));
   if (box.isEmpty()) return new three.Sphere(new three.Vector3(), 1);
   const sphere = box.getBoundingSphere(new three.Sphere());

@@ -284,7 +284,8 @@ export class SceneView implements SceneHandle {
   }
 
   private framed(): three.Sphere {
-    return frameThese(this.bodies, this.poses, this.sources.selected.value);
+    const individuals = this.sources.model.value?.individuals ?? {};
+    return frameThese(this.bodies, individuals, this.poses, this.sources.selected.value);
   }
 
   private async applyMove(act: (displacement: Displacement) => Promise<boolean>): Promise<void> {

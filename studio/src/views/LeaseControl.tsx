@@ -45,7 +45,12 @@ interface ActionProps {
 function Action({ label, role, act }: ActionProps) {
   return (
     <>
-      <button class="primary" disabled={!may(role)} onClick={() => void act()}>
+      <button
+        class="primary"
+        disabled={!may(role)}
+        title={may(role) ? "" : `This needs the role ${role}`}
+        onClick={() => void act()}
+      >
         {label}
       </button>
       {!may(role) && (

@@ -31,7 +31,11 @@ export function Rehearse({ request }: { request: PlanWish }) {
     <>
       <button
         disabled={!may("operate") || goesOn}
-        title="Do it in a simulated twin of the cell first; nothing changes in the cell"
+        title={
+          may("operate")
+            ? "Do it in a simulated twin of the cell first; nothing changes in the cell"
+            : "This needs the role operate"
+        }
         onClick={begin}
       >
         {goesOn ? <span class="spinner" /> : null}

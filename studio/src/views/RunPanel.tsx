@@ -78,6 +78,7 @@ function Prompts() {
               <button
                 key={choice}
                 disabled={!allows("answer") || !mayCommand()}
+                title={refusalOf("operate")}
                 onClick={() => void command({ type: "answer", choice, prompt: each.id ?? 0 })}
               >
                 {choice}
@@ -180,9 +181,7 @@ function Plan() {
                     <NodeMark status={node?.status ?? "pending"} />
                     <span class="plan-text">
                       <span>{step.skill}</span>
-                      <span class="muted small truncate">
-                        {Object.values(step.arguments).map(formatValue).join(", ")}
-                      </span>
+                      <Arguments values={Object.values(step.arguments).map(formatValue).join(", ")} />
                     </span>
                     <span class="mono small muted">
                       {node === undefined ? "" : formatTime((node.endedAt ?? time) - node.startedAt)}
@@ -228,6 +227,15 @@ function Span({ from, to, whole, status }: SpanProps) {
   return (
     <span class="span" aria-hidden="true">
       <span class={`span-bar is-${status ?? "pending"}`} style={{ left: `${left}%`, width: `${width}%` }} />
+    </span>
+  );
+}
+
+/** The arguments of a step; all of them where they do not fit. */
+function Arguments({ values }: { values: string }) {
+  return (
+    <span class="muted small truncate" title={values}>
+      {values}
     </span>
   );
 }

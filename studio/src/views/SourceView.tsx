@@ -102,11 +102,7 @@ function SourceTools({ library }: { library: string }) {
       <button
         class="primary"
         disabled={!isChanged || !isWritable.value}
-        title={
-          isWritable.value
-            ? "Save and check (Ctrl-S)"
-            : "This needs the role edit, and a file of this library"
-        }
+        title={isWritable.value ? "Save and check (Ctrl-S)" : UNWRITABLE}
         onClick={() => void saveFile()}
       >
         Save
@@ -115,19 +111,26 @@ function SourceTools({ library }: { library: string }) {
   );
 }
 
+const UNWRITABLE = "This needs the role edit, and a file of this library";
+
 /** What the language server changes in a text. */
 function AssistanceTools() {
   const editor = shownEditor.value;
   const can = editor !== null && isWritable.value && source.value?.path.endsWith(".skill") === true;
   return (
     <>
-      <button class="plain" disabled={!can} title="Format (Shift-Alt-F)" onClick={() => editor?.format()}>
+      <button
+        class="plain"
+        disabled={!can}
+        title={isWritable.value ? "Format (Shift-Alt-F)" : UNWRITABLE}
+        onClick={() => editor?.format()}
+      >
         Format
       </button>
       <button
         class="plain"
         disabled={!can}
-        title="Rename what is at the cursor, in all files (F2)"
+        title={isWritable.value ? "Rename what is at the cursor, in all files (F2)" : UNWRITABLE}
         onClick={() => (renaming.value = true)}
       >
         Rename
@@ -136,7 +139,7 @@ function AssistanceTools() {
         <button
           class="plain"
           disabled={!isWritable.value}
-          title="Apply all safe fixes; Ctrl-. fixes what is at the cursor"
+          title={isWritable.value ? "Apply all safe fixes; Ctrl-. fixes what is at the cursor" : UNWRITABLE}
           onClick={() => editor?.fixAll()}
         >
           Fix all

@@ -124,8 +124,8 @@ function OperationTitle() {
         </span>
       )}
       {current.state !== null && <RunBadge {...current} state={current.state} />}
-      <span class="clock mono" title="Time of the cell">
-        {formatTime(operation.value.time)}
+      <span class="clock mono" title="How long it has run, in the time of the cell">
+        {formatTime(Math.max(0, operation.value.time - (operation.value.task?.time ?? 0)))}
       </span>
     </span>
   );
