@@ -182,6 +182,7 @@ def walk_past(page: Page, cells: RunningServer, look: Look) -> None:
 def walk_viewer(page: Page, cells: RunningServer, look: Look) -> None:
     """The page of somebody who may only see, while another client has the lease and rests."""
     made = cells.client.post("/tokens", json={"name": "visitor-with-a-long-name", "role": "view"}).json()
+    cells.client.put("/cells/yard/pace", json={"factor": 1.0})
     cells.client.put("/cells/yard/lease", json={})
     cells.submit(task="rest")
     page.get_by_role("button", name="admin").click()

@@ -37,15 +37,12 @@ def test_each_fact_is_read_as_it_is_shown(state: WorldState) -> None:
             assert read_edits([shown], state) == (AddRelation(each.iri, relation, object_),)
             relations += 1
         for stated in each.properties:
-            shown = format_fact(label_fact(PropertyFact(each.iri, stated.property), state))
+            fact = PropertyFact(each.iri, stated.property)
+            shown = format_fact(label_fact(fact, state))
             (change,) = read_edits([shown], state)
-            assert isinstance(change, SetProperty) and (change.individual, change.property) == (
-                each.iri,
-                stated.property,
-            )
-            assert shown == format_fact(
-                label_fact(PropertyFact(each.iri, stated.property), state.with_changes([change]))
-            )
+            assert isinstance(change, SetProperty)
+            assert (change.individual, change.property) == (each.iri, stated.property)
+            assert shown == format_fact(label_fact(fact, state.with_changes([change])))
             values += 1
     assert relations > 10 and values > 100
 
