@@ -189,6 +189,8 @@ def walk_viewer(page: Page, cells: RunningServer, look: Look) -> None:
     page.get_by_label("Token").fill(made["token"])
     page.keyboard.press("Enter")
     page.locator(".workspace").wait_for()
+    page.keyboard.press("h")
+    page.locator(".run-show", has_text="rest").first.click()
     page.locator(".topbar .badge", has_text="running").wait_for()
     look("viewer")
     page.keyboard.press("r")
