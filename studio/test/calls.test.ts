@@ -1,5 +1,6 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
+import { makeLine } from "../src/state/series";
 import type { Envelope } from "../src/api/types";
 import { isDifferentCall, numberCalls, pairCalls } from "../src/state/calls";
 import { overlay } from "../src/state/comparison";
@@ -38,20 +39,20 @@ describe("the numbers of calls", () => {
 
 test("signals of two runs lie over each other from their beginnings", () => {
   const one = {
-    lines: [{ name: "force", unit: "N" }],
+    lines: [makeLine("force", "Arm")],
     columns: [
       [10, 10.1],
       [1, 2],
     ],
   };
   const other = {
-    lines: [{ name: "force", unit: "N" }],
+    lines: [makeLine("force", "Arm")],
     columns: [
       [90, 90.05],
       [3, 4],
     ],
   };
-  expect(overlay("force", one, other)).toEqual([
+  expect(overlay("force at Arm", one, other)).toEqual([
     [0, 0.05, 0.1],
     [1, null, 2],
     [3, 4, null],

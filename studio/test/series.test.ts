@@ -1,18 +1,60 @@
 import { expect, test } from "vitest";
-import { ArmMeter, Series } from "../src/state/series";
+import { makeLine, measureArm, Series } from "../src/state/series";
+import { drawSvg, writeCsv } from "../src/state/signal_files";
+import { continuePlot, hasGaps } from "../src/state/signals";
 import type { Sample } from "../src/api/types";
 
+const FORCE = makeLine("force", "Arm");
+const SPEED = makeLine("speed", "Arm");
+
 test("a series keeps the newest rows, in order, without repeated times", () => {
-  const series = new Series([{ name: "f", unit: "N" }], 3);
-  for (const time of [1, 2, 2, 3, 4, 5]) series.add(time, time === 4 ? [] : [time * 10]);
+  const series = new Series([FORCE], 3);
+  for (const time of [0.1, 0.2, 0.2, 0.3, 0.4, 0.5]) series.add(time, time === 0.4 ? [] : [time * 10]);
   expect(series.length).toBe(3);
   expect(series.columns()).toEqual([
-    [3, 4, 5],
-    [30, null, 50],
+    [0.3, 0.4, 0.5],
+    [3, null, 5],
   ]);
 });
 
-test("an arm is measured by the length of its force and the way of its tool", () => {
+test("what a page missed is a gap, never a line", () => {
+  const series = new Series([FORCE], 10);
+  for (const time of [0, 0.1, 5, 5.1]) series.add(time, [time]);
+  const columns = series.columns();
+  expect(columns[1]).toEqual([0, 0.1, null, 5, 5.1]);
+  expect(hasGaps(columns, 0)).toBe(true);
+  expect(hasGaps(columns, 5)).toBe(false);
+  expect(hasGaps(columns, 20)).toBe(true);
+});
+
+test("the recording comes before what was seen, and fills its gaps", () => {
+  const stored = {
+    lines: [SPEED, FORCE],
+    columns: [
+      [0, 1, 2],
+      [1, 1, 1],
+      [5, 6, 7],
+    ],
+  };
+  const seen = {
+    lines: [FORCE],
+    columns: [
+      [0, 1.5, 2, 3],
+      [5, null, 7, 8],
+    ],
+  };
+  expect(continuePlot(stored, seen)).toEqual({
+    lines: [SPEED, FORCE],
+    columns: [
+      [0, 1, 2, 3],
+      [1, 1, 1, null],
+      [5, 6, 7, 8],
+    ],
+  });
+  expect(continuePlot(stored, { lines: [FORCE], columns: [[0], [5]] })).toEqual(stored);
+});
+
+test("the speed of a tool is not that of a reference that changes", () => {
   const at = (time_s: number, x: number): Sample => ({
     cell: "c",
     time_s,
@@ -24,11 +66,28 @@ test("an arm is measured by the length of its force and the way of its tool", ()
         base: [0, 0, 0, 1, 0, 0, 0],
         tool: [x, 0, 0, 1, 0, 0, 0],
         wrench: [3, 4, 0, 9, 9, 9],
+        velocity: [0, 0.1, 0],
+        commanded: [0.12, 0, 0],
       },
     },
   });
-  const meter = new ArmMeter();
-  expect(meter.measure(at(1, 0), "a")).toEqual([5, NaN]);
-  expect(meter.measure(at(1.5, 0.1), "a")).toEqual([5, 0.2]);
-  expect(meter.measure(at(2, 0.1), "b")).toEqual([NaN, NaN]);
+  expect(measureArm(at(1, 0), "a")).toEqual([5, 0.1, 0.12]);
+  expect(measureArm(at(1.02, 0.2), "a")).toEqual([5, 0.1, 0.12]);
+  expect(measureArm(at(2, 0.1), "b")).toEqual([NaN, NaN, NaN]);
+});
+
+test("signals are written as a table and as a drawing with their gaps", () => {
+  const plotted = {
+    lines: [FORCE, SPEED],
+    columns: [
+      [0, 1, 2, 3],
+      [5, null, 7, 8],
+      [0, 0, 0, 1],
+    ],
+  };
+  expect(writeCsv(plotted)).toBe("time [s],force at Arm [N],speed of Arm [m/s]\n0,5,0\n1,,0\n2,7,0\n3,8,1\n");
+  const drawing = drawSvg(plotted, [0, 3]);
+  const paths = [...drawing.matchAll(/stroke="#0b62c4" d="([^"]*)"/g)].map((each) => each[1] ?? "");
+  expect(paths.map((each) => each.split("M").length - 1)).toEqual([2, 1]);
+  expect(drawing).toContain("force at Arm");
 });

@@ -30,6 +30,14 @@ test("a damaged column is refused", () => {
   expect(() => decodeColumn([1, 0, 0, [], new Uint8Array(3)], 10)).toThrow();
 });
 
+test("commands are beside what is measured", () => {
+  const names = ["Arm/command/tool_v", "Eraser/truth/face_v"].flatMap((each) =>
+    ["x", "y", "z"].map((axis) => ({ column: `${each}${axis}_m_s` })),
+  );
+  const plot = new PlotColumns(names);
+  expect(plot.lines.map((each) => each.name)).toEqual(["commanded speed of Arm", "speed of Eraser"]);
+});
+
 test("the lengths of a force and a speed, and contact forces are plotted", () => {
   const plot = new PlotColumns(
     [

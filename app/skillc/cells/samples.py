@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from skillc.contract.sample import ArmSample, ForceSample, PoseNumbers, Sample
+from skillc.contract.sample import ArmSample, ForceSample, PoseNumbers, Sample, Vector
 from skillc_runtime.devices.live import LiveArm, LiveSensors
-from skillc_runtime.motion.pose import Pose, quaternion_from_rotation, rotation_from_quaternion
+from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.backend import Backend
@@ -63,8 +63,15 @@ class Sampler:
     def _sample_arm(self, arm: LiveArm) -> ArmSample:
         joints, speeds = np.frombuffer(arm.measured()).reshape(2, arm.joints).tolist()
         wrench = None if arm.wrench is None else tuple(np.frombuffer(arm.wrench()).tolist())
-        tool = self._backend.cell.arm(arm.individual).measured.pose
-        return ArmSample(tuple(joints), tuple(speeds), list_numbers(arm.base()), list_numbers(tool), wrench)
+        driver = self._backend.cell.arm(arm.individual)
+        poses = list_numbers(arm.base()), list_numbers(driver.measured.pose)
+        velocities = _list_linear(driver.measured.velocity), _list_linear(driver.motion.reference.twist)
+        return ArmSample(tuple(joints), tuple(speeds), *poses, wrench, *velocities)
+
+
+def _list_linear(twist: Array) -> Vector:
+    x, y, z = twist[:3].tolist()
+    return x, y, z
 
 
 def _find_joints(drawing: Drawing | None, live: LiveSignals | None) -> Iterator[tuple[str, int]]:

@@ -10,10 +10,15 @@ PoseNumbers = tuple[float, float, float, float, float, float, float]
 """A pose in the world: position in m, then the unit quaternion (w, x, y, z)."""
 
 
+Vector = tuple[float, float, float]
+
+
 class ArmSample(msgspec.Struct, frozen=True):
     """An arm: joint angles in rad and speeds in rad/s, as measured last, and the poses of base and tool in the world.
 
     `wrench` is what a force-torque sensor measures on the tool, N and N m, in the arm's base frame; None without one.
+    `velocity` is that of the tool as measured, `commanded` that of its reference, in m/s, in the world. The difference
+    of the poses of two samples is neither: the tool and its reference may be others at once.
     """
 
     joints: tuple[float, ...]
@@ -21,6 +26,8 @@ class ArmSample(msgspec.Struct, frozen=True):
     base: PoseNumbers
     tool: PoseNumbers
     wrench: tuple[float, float, float, float, float, float] | None = None
+    velocity: Vector = (0.0, 0.0, 0.0)
+    commanded: Vector = (0.0, 0.0, 0.0)
 
 
 class ForceSample(msgspec.Struct, frozen=True):

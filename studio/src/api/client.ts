@@ -219,8 +219,10 @@ export const api = {
   reportPage: (id: string) => locate("read_report_file", [id, "report.html"]),
   tree: (id: string) => call("show_tree", [id]),
   why: (id: string, question: string) => call("explain_run", [id], { query: { question } }),
-  signals: (id: string, match: string, afterS: number | null) =>
-    call("read_signals", [id], { query: afterS === null ? { match } : { match, after_s: afterS } }),
+  signals: (id: string, match: string, afterS: number | null, everyS: number) =>
+    call("read_signals", [id], {
+      query: { match, every_s: everyS, ...(afterS === null ? {} : { after_s: afterS }) },
+    }),
   diff: (id: string, other: string) => call("compare_runs", [id], { query: { other } }),
   libraries: () => call("list_libraries", []),
   files: (library: string) => call("list_library_sources", [library]),

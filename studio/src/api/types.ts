@@ -75,6 +75,9 @@ export interface ArmSample {
   base: PoseNumbers;
   tool: PoseNumbers;
   wrench: [number, number, number, number, number, number] | null;
+  /** The velocities of the tool and of its reference, in m/s; what is built of a recording has none. */
+  velocity?: [number, number, number];
+  commanded?: [number, number, number];
 }
 
 /** What moves in a cell at one instant, by IRI. */

@@ -1,10 +1,10 @@
-// Which recorded signals are plotted: the lengths of the force and the speed of each arm, and contact forces.
-import type { Line } from "../state/series";
+// Which recorded signals are plotted: the lengths of forces, of speeds and of commanded speeds, and contact forces.
+import { makeLine, type Kind, type SignalLine } from "../state/series";
 
 type Columns = readonly (ArrayLike<number | null> | undefined)[];
 
 export class PlotColumns {
-  readonly lines: Line[] = [];
+  readonly lines: SignalLine[] = [];
   /** The time in s, then a column for each line; null where a value is not known. */
   readonly columns: (number | null)[][] = [[]];
   /** The numbers of the signals that each line is the length of. */
@@ -12,10 +12,13 @@ export class PlotColumns {
 
   constructor(signals: readonly { column: string }[]) {
     signals.forEach(({ column }, at) => {
-      const [device = "", , quantity = ""] = column.split("/");
-      if (quantity === "contact_force_n") this.take(`contact of ${device}`, "N", [at]);
-      if (quantity === "force_x_n") this.take(`force at ${device}`, "N", [at, at + 1, at + 2]);
-      if (quantity === "tool_vx_m_s") this.take(`speed of ${device}`, "m/s", [at, at + 1, at + 2]);
+      const [device = "", origin = "", quantity = ""] = column.split("/");
+      const vector = [at, at + 1, at + 2];
+      if (quantity === "contact_force_n") this.take("contact", device, [at]);
+      if (quantity === "force_x_n") this.take("force", device, vector);
+      if (quantity === "face_vx_m_s") this.take("speed", device, vector);
+      if (quantity === "tool_vx_m_s")
+        this.take(origin === "command" ? "commanded speed" : "speed", device, vector);
     });
   }
 
@@ -35,8 +38,8 @@ export class PlotColumns {
     }
   }
 
-  private take(name: string, unit: string, source: number[]): void {
-    this.lines.push({ name, unit });
+  private take(kind: Kind, of: string, source: number[]): void {
+    this.lines.push(makeLine(kind, of));
     this.sources.push(source);
     this.columns.push([]);
   }

@@ -3,7 +3,7 @@ import { McapStreamReader, type McapTypes } from "@mcap/core";
 import { decode } from "@msgpack/msgpack";
 import { decompress } from "fzstd";
 import type { Envelope } from "../api/types";
-import type { Line } from "../state/series";
+import type { SignalLine } from "../state/series";
 import { Film } from "./film";
 import { PlotColumns } from "./plot_columns";
 import { decodeColumn, type SignalBlock } from "./signal_block";
@@ -11,7 +11,7 @@ import { decodeColumn, type SignalBlock } from "./signal_block";
 export interface Recording {
   envelopes: Envelope[];
   /** What is plotted, with its columns, the time in s first. */
-  lines: Line[];
+  lines: SignalLine[];
   columns: (number | null)[][];
   film: Film;
 }

@@ -7,6 +7,23 @@ export interface Line {
   unit: string;
 }
 
+export type Kind = "force" | "contact" | "speed" | "commanded speed";
+
+/** A line that can be chosen by its kind, and by what it is of: an arm or a tool. */
+export interface SignalLine extends Line {
+  kind: Kind;
+  of: string;
+}
+
+/** Return the line of a kind of signal of a device, called alike live and in recordings. */
+export function makeLine(kind: Kind, of: string): SignalLine {
+  const unit = kind === "force" || kind === "contact" ? "N" : "m/s";
+  return { name: `${kind} ${kind === "force" ? "at" : "of"} ${of}`, unit, kind, of };
+}
+
+/** How far apart samples may be in s of the cell: after more, what was between was missed, and is a gap. */
+export const GAP_S = 0.5;
+
 /** The newest `capacity` rows of some lines; NaN where a value is not known. */
 export class Series {
   private start = 0;
@@ -14,7 +31,7 @@ export class Series {
   private readonly rows: Float64Array;
 
   constructor(
-    readonly lines: readonly Line[],
+    readonly lines: readonly SignalLine[],
     private readonly capacity: number,
   ) {
     this.rows = new Float64Array(capacity * (lines.length + 1));
@@ -26,8 +43,14 @@ export class Series {
 
   /** Add a row; one that is not later than the last one is left out. */
   add(time: number, values: readonly number[]): void {
+    const before = this.count > 0 ? (this.timeAt(this.count - 1) ?? -Infinity) : -Infinity;
+    if (time <= before) return;
+    if (Number.isFinite(before) && time - before > GAP_S) this.push((time + before) / 2, []);
+    this.push(time, values);
+  }
+
+  private push(time: number, values: readonly number[]): void {
     const width = this.lines.length + 1;
-    if (this.count > 0 && time <= (this.timeAt(this.count - 1) ?? -Infinity)) return;
     const at = ((this.start + this.count) % this.capacity) * width;
     this.rows[at] = time;
     for (let index = 0; index < this.lines.length; index++) this.rows[at + 1 + index] = values[index] ?? NaN;
@@ -56,19 +79,10 @@ export function norm(vector: readonly number[]): number {
   return Math.hypot(...vector);
 }
 
-/** Computes what is plotted of an arm live: the force at its wrist in N, and the speed of its tool in m/s. */
-export class ArmMeter {
-  private before: { time: number; tool: readonly number[] } | null = null;
-
-  measure(sample: Sample, arm: string): [force: number, speed: number] {
-    const now = sample.arms[arm];
-    if (now === undefined) return [NaN, NaN];
-    const force = now.wrench === null ? NaN : norm(now.wrench.slice(0, 3));
-    const seconds = this.before === null ? 0 : sample.time_s - this.before.time;
-    const tool = now.tool.slice(0, 3);
-    const moved =
-      this.before === null ? [] : tool.map((each, axis) => each - (this.before?.tool[axis] ?? each));
-    this.before = { time: sample.time_s, tool };
-    return [force, seconds > 0 ? norm(moved) / seconds : NaN];
-  }
+/** Return what is plotted of an arm live: the force at its wrist in N, the speeds of its tool and of its reference in m/s. */
+export function measureArm(sample: Sample, arm: string): [force: number, speed: number, commanded: number] {
+  const now = sample.arms[arm];
+  const length = (vector: readonly number[] | null | undefined): number =>
+    vector == null ? NaN : norm(vector.slice(0, 3));
+  return [length(now?.wrench), length(now?.velocity), length(now?.commanded)];
 }

@@ -1,64 +1,108 @@
-// What is plotted: the force and the speed of each arm live, or what is recorded of an operation that was not seen live.
+// What is plotted: forces and speeds of each arm live, and what is recorded of an operation where the page missed it.
 import { computed, effect, signal } from "@preact/signals";
 import { api, ApiError } from "../api/client";
 import { PlotColumns } from "../recording/plot_columns";
-import { ArmMeter, Series, type Line } from "./series";
+import { GAP_S, makeLine, measureArm, Series, type SignalLine } from "./series";
 import { isOngoing, live, operationId, replay, sample, status } from "./studio";
 import { localName } from "./text";
 
 const CAPACITY = 6000;
+/** How far apart points of a plot are at least, in s, and how often the recording fills gaps, in ms. */
+const POINT_S = 0.02;
+const FILL_MS = 5000;
+const NEEDED = "force_,contact_force,tool_v,face_v";
 
 /** Lines and their columns, the time in s first. */
 export interface Plotted {
-  lines: readonly Line[];
+  lines: readonly SignalLine[];
   columns: readonly (number | null)[][];
 }
 
 interface Measuring {
   arms: readonly string[];
   series: Series;
-  meters: readonly ArmMeter[];
 }
 
 let measuring: Measuring | null = null;
 let lastTimeS = -Infinity;
 const revision = signal(0);
-const liveLines = signal<readonly Line[]>([]);
-/** The operations whose first samples have come while the page was open. */
-const seen = new Set<string>();
+const liveLines = signal<readonly SignalLine[]>([]);
 
 /** What a recording that is played has. */
 export const recorded = signal<Plotted | null>(null);
-/** What is recorded of the operation that is shown, if it was not seen live. */
+/** What is recorded of the operation that is shown, as far as it was needed. */
 const stored = signal<Plotted | null>(null);
-/** Whether that is being read. */
+/** Whether that is being read for the first time. */
 export const isReadingStored = signal(false);
 
-const shown = computed(() => (replay.value === null ? stored.value : recorded.value));
-export const plotLines = computed(
-  () => shown.value?.lines ?? (replay.value === null && !isReadingStored.value ? liveLines.value : []),
-);
-
-/** The columns to plot, the time first: those of the operation that is shown. */
-export const plotColumns = computed(() => {
-  if (shown.value !== null) return shown.value.columns;
-  if (revision.value === 0 || replay.value !== null) return [];
-  const columns = measuring?.series.columns() ?? [];
+const liveColumns = computed((): (number | null)[][] => {
+  if (revision.value === 0) return [];
   const { task, ended } = live.value;
-  return task === null ? columns : between(columns, task.time, ended?.time ?? Infinity);
+  const columns = measuring?.series.columns() ?? [];
+  if (task !== null) return between(columns, task.time, ended?.time ?? Infinity);
+  return operationId.value === null ? columns : [];
 });
 
-/** Return the rows of columns whose times are in a span; all if there are none. */
+const plotted = computed((): Plotted => {
+  if (replay.value !== null) return recorded.value ?? { lines: [], columns: [] };
+  const own = { lines: liveLines.value, columns: liveColumns.value };
+  return stored.value === null ? own : continuePlot(stored.value, own);
+});
+
+/** All lines that there are to choose from. */
+export const allLines = computed(() => plotted.value.lines);
+/** What is chosen: a device, and a kind of signal; empty for all. */
+export const chosenDevice = signal("");
+export const chosenKind = signal("");
+const shownIndices = computed(() =>
+  allLines.value.flatMap(({ of, kind }, index) =>
+    (chosenDevice.value === "" || chosenDevice.value === of) &&
+    (chosenKind.value === "" || chosenKind.value === kind)
+      ? [index]
+      : [],
+  ),
+);
+export const plotLines = computed(() => shownIndices.value.flatMap((index) => allLines.value[index] ?? []));
+
+/** The columns to plot, the time first: those of the lines that are chosen. */
+export const plotColumns = computed(() => {
+  const { columns } = plotted.value;
+  return [columns[0] ?? [], ...shownIndices.value.map((index) => columns[index + 1] ?? [])];
+});
+
+/** Return a plot with the rows of another one that are later; a line that one of them does not have is not known there. */
+export function continuePlot(first: Plotted, then: Plotted): Plotted {
+  const last = first.columns[0]?.at(-1) ?? -Infinity;
+  const times = then.columns[0] ?? [];
+  const from = times.findIndex((each) => (each ?? 0) > last);
+  const names = new Set(first.lines.map((each) => each.name));
+  const lines = [...first.lines, ...then.lines.filter((each) => !names.has(each.name))];
+  const [before, after] = [first.columns[0]?.length ?? 0, from < 0 ? 0 : times.length - from];
+  const column = ({ lines: own, columns }: Plotted, name: string, count: number): (number | null)[] => {
+    const at = own.findIndex((each) => each.name === name);
+    const found = at < 0 || count === 0 ? undefined : columns[at + 1]?.slice(-count);
+    return found ?? Array.from({ length: count }, () => null);
+  };
+  return {
+    lines,
+    columns: [
+      [...(first.columns[0] ?? []), ...times.slice(times.length - after)],
+      ...lines.map(({ name }) => [...column(first, name, before), ...column(then, name, after)]),
+    ],
+  };
+}
+
+/** Return the rows of columns whose times are in a span; none if there are none there. */
 export function between(columns: (number | null)[][], from: number, to: number): (number | null)[][] {
   const times = columns[0] ?? [];
   const first = times.findIndex((each) => (each ?? 0) >= from);
   const end = times.findLastIndex((each) => (each ?? 0) <= to);
-  return first < 0 || end < first ? columns : columns.map((each) => each.slice(first, end + 1));
+  return columns.map((each) => (first < 0 || end < first ? [] : each.slice(first, end + 1)));
 }
 
 /** Begin to measure the samples that come; the function that is returned ends that. */
 export function measureSamples(): () => void {
-  const ends = [effect(takeSample), effect(readStored)];
+  const ends = [effect(takeSample), effect(followStored)];
   return () => ends.forEach((end) => end());
 }
 
@@ -66,66 +110,111 @@ function takeSample(): void {
   const now = sample.value;
   if (now === null) {
     measuring = null;
-    seen.clear();
     return;
   }
   if (now.time_s < lastTimeS) measuring = null; // The cell was reset, and its clock with it.
   lastTimeS = now.time_s;
   const arms = Object.keys(now.arms).sort();
   if (measuring?.arms.join() !== arms.join()) begin(arms);
-  const current = measuring;
-  if (current === null) return;
-  const values = arms.flatMap((arm, index) => current.meters[index]?.measure(now, arm) ?? []);
-  current.series.add(now.time_s, values);
-  const begun = status.peek();
-  if (begun !== null && ["queued", "planning", "planned"].includes(begun.state)) seen.add(begun.id);
+  measuring?.series.add(
+    now.time_s,
+    arms.flatMap((arm) => measureArm(now, arm)),
+  );
   revision.value = revision.peek() + 1;
 }
 
 function begin(arms: readonly string[]): void {
   const lines = armLines(arms.map(localName));
-  measuring = { arms, series: new Series(lines, CAPACITY), meters: arms.map(() => new ArmMeter()) };
+  measuring = { arms, series: new Series(lines, CAPACITY) };
   liveLines.value = lines;
 }
 
-/** Return the lines of arms: their names only where there are several. */
-export function armLines(arms: readonly string[]): Line[] {
-  const name = (what: string, arm: string): string => (arms.length === 1 ? what : `${what} ${arm}`);
+/** Return the lines of what `measureArm` measures of arms. */
+export function armLines(arms: readonly string[]): SignalLine[] {
   return arms.flatMap((arm) => [
-    { name: name("force", arm), unit: "N" },
-    { name: name("speed", arm), unit: "m/s" },
+    makeLine("force", arm),
+    makeLine("speed", arm),
+    makeLine("commanded speed", arm),
   ]);
 }
 
-/** Read what is recorded of an operation that has ended and was not seen from its beginning. */
-function readStored(): void {
-  const id = operationId.value;
-  stored.value = null;
-  isReadingStored.value = id !== null && !isOngoing.value && status.value !== null && !seen.has(id);
-  if (id === null || !isReadingStored.peek()) return;
-  void readSignals(id)
-    .then(
-      (found) => {
-        if (operationId.peek() === id) stored.value = found;
-      },
-      (error: unknown) => {
-        if (!(error instanceof ApiError)) throw error;
-      },
-    )
-    .finally(() => {
-      if (operationId.peek() === id) isReadingStored.value = false;
-    });
+/** Fill from the recording of the operation that is shown what the page missed of it, until it has ended and all is read. */
+function followStored(): () => void {
+  const [id, ongoing] = [operationId.value, isOngoing.value];
+  const isKnown = id !== null && hasStatus.value;
+  if (stored.peek() !== null && reader?.id !== id) stored.value = null;
+  if (!isKnown) return () => undefined;
+  reader = reader?.id === id ? reader : new StoredReader(id);
+  const current = reader;
+  const fill = (): void => void current.fill(!ongoing);
+  fill();
+  const timer = ongoing ? window.setInterval(fill, FILL_MS) : 0;
+  return () => window.clearInterval(timer);
 }
 
-/** Read the recorded forces of an operation; null if it has none. */
-export async function readSignals(id: string): Promise<Plotted | null> {
-  let plot: PlotColumns | null = null;
-  let after: number | null = null;
-  for (let more = true; more;) {
-    const page = await api.signals(id, "force_,contact_force,tool_v", after);
-    plot ??= new PlotColumns(page.signals);
-    plot.add(page.time_s, page.columns);
-    [more, after] = [page.more && page.time_s.length > 0, page.time_s.at(-1) ?? null];
+const hasStatus = computed(() => status.value !== null);
+let reader: StoredReader | null = null;
+
+/** Whether a page has missed something after a time: columns have a gap, or begin later. */
+export function hasGaps(columns: readonly (readonly (number | null)[])[], since: number): boolean {
+  const [times = [], ...values] = columns;
+  const first = times.findIndex((each) => (each ?? 0) >= since);
+  if (first < 0 || (times[first] ?? 0) - since > GAP_S) return true;
+  return times.some((_, row) => row >= first && values.every((each) => each[row] === null));
+}
+
+/** Reads the recorded signals of an operation on and on. */
+class StoredReader {
+  private isReading = false;
+  private readonly pages: SignalPages;
+
+  constructor(readonly id: string) {
+    this.pages = new SignalPages(id);
   }
-  return plot === null || plot.lines.length === 0 ? null : plot;
+
+  /** Read what is recorded by now if the page has missed something; `all` if nothing is recorded later. */
+  async fill(all: boolean): Promise<void> {
+    if (this.isReading || !this.isNeeded(all)) return;
+    this.isReading = true;
+    isReadingStored.value = all && stored.peek() === null;
+    try {
+      const found = await this.pages.read();
+      if (reader === this && found !== null) stored.value = found;
+    } catch (error) {
+      if (!(error instanceof ApiError)) throw error; // it has no recording, or none yet
+    } finally {
+      this.isReading = false;
+      if (reader === this) isReadingStored.value = false;
+    }
+  }
+
+  private isNeeded(all: boolean): boolean {
+    const since = stored.peek()?.columns[0]?.at(-1) ?? live.peek().task?.time ?? null;
+    return since === null ? all : hasGaps(liveColumns.peek(), since);
+  }
+}
+
+/** The recorded signals of an operation, read as far as they are written. */
+class SignalPages {
+  private plot: PlotColumns | null = null;
+  private after: number | null = null;
+
+  constructor(private readonly id: string) {}
+
+  /** Read what has been written since; return all up to now, null if there is nothing to plot. */
+  async read(): Promise<Plotted | null> {
+    for (let more = true; more;) {
+      const page = await api.signals(this.id, NEEDED, this.after, POINT_S);
+      this.plot ??= new PlotColumns(page.signals);
+      this.plot.add(page.time_s, page.columns);
+      [more, this.after] = [page.more && page.time_s.length > 0, page.time_s.at(-1) ?? this.after];
+    }
+    const { plot } = this;
+    return plot === null || plot.lines.length === 0 ? null : { lines: plot.lines, columns: plot.columns };
+  }
+}
+
+/** Read the recorded forces and speeds of an operation; null if it has none. */
+export function readSignals(id: string): Promise<Plotted | null> {
+  return new SignalPages(id).read();
 }

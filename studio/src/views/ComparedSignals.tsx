@@ -60,6 +60,7 @@ function OverlaidPlot({ name, first, second }: { name: string; first: Plotted; s
       lines,
       () => undefined,
       () => null,
+      true, // the rows of one run are not those of the other
     ).then((made) => {
       if (isOver) return made.destroy();
       plot = made;

@@ -1,8 +1,16 @@
 // Signals: force and speed over time, with the span of the selection; a click selects a moment.
 import { useEffect, useRef } from "preact/hooks";
-import { effect, signal } from "@preact/signals";
+import { effect, signal, type Signal } from "@preact/signals";
 import type uPlot from "uplot";
-import { isReadingStored, plotColumns, plotLines } from "../state/signals";
+import { drawSvg, writeCsv } from "../state/signal_files";
+import {
+  allLines,
+  chosenDevice,
+  chosenKind,
+  isReadingStored,
+  plotColumns,
+  plotLines,
+} from "../state/signals";
 import { select } from "../state/actions";
 import { replay, span } from "../state/studio";
 import { GanttView } from "./GanttView";
@@ -36,11 +44,79 @@ function describeNothing(): string {
 
 function Tools() {
   return (
-    <label class="row small" title="Keep the plot still, to look at it">
-      <input type="checkbox" checked={pausedAt.value} onChange={() => (pausedAt.value = !pausedAt.value)} />
-      hold
-    </label>
+    <>
+      <Choice
+        label="Which arm or tool"
+        every="all devices"
+        chosen={chosenDevice}
+        options={allLines.value.map((each) => each.of)}
+      />
+      <Choice
+        label="Which kind of signal"
+        every="all signals"
+        chosen={chosenKind}
+        options={allLines.value.map((each) => each.kind)}
+      />
+      <button class="plain small" title="Save what is plotted as a table" onClick={saveCsv}>
+        CSV
+      </button>
+      <button class="plain small" title="Save what is plotted as a drawing" onClick={saveSvg}>
+        SVG
+      </button>
+      <label class="row small" title="Keep the plot still, to look at it">
+        <input type="checkbox" checked={pausedAt.value} onChange={() => (pausedAt.value = !pausedAt.value)} />
+        hold
+      </label>
+    </>
   );
+}
+
+/** A choice among the values that lines have; without several there is none. */
+function Choice(of: { label: string; every: string; chosen: Signal<string>; options: readonly string[] }) {
+  const options = [...new Set(of.options)];
+  if (options.length < 2) return null;
+  return (
+    <select
+      class="small"
+      aria-label={of.label}
+      value={options.includes(of.chosen.value) ? of.chosen.value : ""}
+      onChange={(event) => (of.chosen.value = event.currentTarget.value)}
+    >
+      <option value="">{of.every}</option>
+      {options.map((each) => (
+        <option key={each} value={each}>
+          {each}
+        </option>
+      ))}
+    </select>
+  );
+}
+
+function saveCsv(): void {
+  saveFile("signals.csv", "text/csv", writeCsv({ lines: plotLines.peek(), columns: plotColumns.peek() }));
+}
+
+function saveSvg(): void {
+  const columns = plotColumns.peek();
+  const [times = []] = columns;
+  const range = shownRange ?? [times[0] ?? 0, times.at(-1) ?? 0];
+  saveFile("signals.svg", "image/svg+xml", drawSvg({ lines: plotLines.peek(), columns }, range));
+}
+
+/** The times between which the plot shows signals. */
+let shownRange: [number, number] | null = null;
+
+function rangeOf(plot: uPlot): [number, number] | null {
+  const { min, max } = plot.scales.x ?? {};
+  return min == null || max == null ? null : [min, max];
+}
+
+function saveFile(name: string, type: string, text: string): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([text], { type }));
+  link.download = name;
+  link.click();
+  URL.revokeObjectURL(link.href);
 }
 
 function Plots() {
@@ -62,9 +138,11 @@ function Plots() {
       if (isOver) return made.destroy();
       plot = made;
       fitPlot(made, element);
+      made.over.addEventListener("pointerup", () => window.setTimeout(() => (shownRange = rangeOf(made))));
       end = effect(() => {
         const columns = plotColumns.value;
         if (!pausedAt.value) made.setData(columns as uPlot.AlignedData);
+        shownRange = rangeOf(made);
       });
     });
     const ofSpan = span.subscribe(() => plot?.redraw(false));

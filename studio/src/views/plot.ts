@@ -14,12 +14,13 @@ export function themeColour(name: string): string {
   return found;
 }
 
-/** Draw a plot into an element; `onPick` gets the time of a click, `span` what to shade. */
+/** Draw a plot into an element; `onPick` gets the time of a click, `span` what to shade. Rows without a value are gaps unless it has `spanGaps`. */
 export async function drawPlot(
   element: HTMLElement,
   lines: readonly Line[],
   onPick: (time: number) => void,
   span: () => [number, number] | null,
+  spanGaps = false,
 ): Promise<uPlot> {
   const { default: UPlot } = await import("uplot");
   const [ink, line, accent] = [themeColour("muted"), themeColour("line"), themeColour("accent")];
@@ -58,7 +59,7 @@ export async function drawPlot(
         scale: each.unit,
         stroke: themeColour(`line${(index % 4) + 1}`),
         width: 1.5,
-        spanGaps: true,
+        spanGaps,
         ...(index % 2 === 1 ? { dash: [5, 3] } : {}),
         value: (_: uPlot, value: number | null) => format(value, each.unit),
       })),

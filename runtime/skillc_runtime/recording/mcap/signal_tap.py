@@ -147,7 +147,9 @@ class SampleLayout:
         for arm, base in zip(self._arms, block.bases, strict=True):
             columns += _convert_arm(arm, base, content[:, start : start + _width(arm)])
             start += _width(arm)
-        columns += (content[:, start + first : start + first + 4] for _, first in self._sensors.faces)
+        faces = content[:, start:]
+        for _, first in self._sensors.faces:
+            columns += (faces[:, first : first + 4], faces[:, first + 8 : first + 11])
         return np.concatenate([np.empty((block.rows, 0)), *columns], axis=1)
 
     def faces_of(self, block: SampledBlock) -> Iterator[tuple[str, Array]]:
@@ -176,6 +178,7 @@ def _convert_arm(arm: LiveArm, base: Pose, content: Array) -> Iterator[Array]:
     joints = 2 * arm.joints
     yield content[:, :joints]
     yield content[:, joints : joints + 3] @ base.rotation.T + base.position
+    yield content[:, joints + 12 : joints + 15] @ base.rotation.T  # the first half of the reference's twist
     if arm.wrench is not None:
         yield (content[:, joints + 24 : joints + 30].reshape(-1, 2, 3) @ base.rotation.T).reshape(-1, 6)
     if arm.stamp is not None:
@@ -188,6 +191,8 @@ def _describe_arm(columns: Columns, arm: LiveArm) -> Iterator[Signal]:
     yield from columns.make("sensor", joints, "rad/s", "", "speed of a joint")
     what = "position of the tool's reference; not known while the joints are controlled"
     yield from columns.make("command", [f"tool_{axis}" for axis in XYZ], "m", WORLD, what)
+    what = "velocity of the tool's reference; not known while the joints are controlled"
+    yield from columns.make("command", [f"tool_v{axis}" for axis in XYZ], "m/s", WORLD, what)
     if arm.wrench is not None:
         what = "on the tool, by the force-torque sensor"
         yield from columns.make("sensor", [f"force_{axis}" for axis in XYZ], "N", WORLD, f"force {what}")
@@ -199,3 +204,5 @@ def _describe_arm(columns: Columns, arm: LiveArm) -> Iterator[Signal]:
 def _describe_tool(columns: Columns) -> Iterator[Signal]:
     yield from columns.make("truth", ["contact_force"], "N", "", "normal force of the contacts of the working face")
     yield from columns.make("truth", [f"face_{axis}" for axis in XYZ], "m", WORLD, "middle of the working face")
+    what = "velocity of the middle of the working face"
+    yield from columns.make("truth", [f"face_v{axis}" for axis in XYZ], "m/s", WORLD, what)
