@@ -189,6 +189,7 @@ class StoredReader {
   }
 
   private isNeeded(all: boolean): boolean {
+    if (all && stored.peek() !== null) return true;
     const since = stored.peek()?.columns[0]?.at(-1) ?? live.peek().task?.time ?? null;
     return since === null ? all : hasGaps(liveColumns.peek(), since);
   }

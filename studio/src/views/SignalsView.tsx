@@ -27,9 +27,8 @@ export function SignalsView() {
       title="Signals and plan"
       active={signalsTab.value}
       onChoose={(id) => (signalsTab.value = id as typeof signalsTab.value)}
-      tools={signalsTab.value === "signals" && <Tools />}
       tabs={[
-        { id: "signals", title: "Signals", view: () => <Plots /> },
+        { id: "signals", title: "Signals", view: () => <Signals /> },
         { id: "plan", title: "Plan over time", view: () => <GanttView /> },
       ]}
     />
@@ -42,9 +41,19 @@ function describeNothing(): string {
   return isReadingStored.value ? "The recorded signals are read …" : "No arm of this cell is measured yet.";
 }
 
-function Tools() {
+function Signals() {
   return (
-    <>
+    <div class="signals">
+      <Tools />
+      <Plots />
+    </div>
+  );
+}
+
+function Tools() {
+  if (allLines.value.length === 0) return null;
+  return (
+    <div class="row signal-tools">
       <Choice
         label="Which arm or tool"
         every="all devices"
@@ -67,7 +76,7 @@ function Tools() {
         <input type="checkbox" checked={pausedAt.value} onChange={() => (pausedAt.value = !pausedAt.value)} />
         hold
       </label>
-    </>
+    </div>
   );
 }
 
