@@ -174,6 +174,7 @@ export const api = {
   writes: (cell: string, query: Requests["list_writes"]["query"] = {}) =>
     call("list_writes", [cell], { query }),
   terms: (cell: string, subject: string) => call("list_terms", [cell], { query: { subject } }),
+  query: (cell: string, sparql: string) => call("query_world", [cell], { body: { sparql } }),
   edit: (cell: string, edits: string[], why: string) => call("edit_world", [cell], { body: { edits, why } }),
   plan: (cell: string, wish: PlanWish, signal: AbortSignal) =>
     call("preview_plan", [cell], { body: wish, signal }),

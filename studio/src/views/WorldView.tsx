@@ -9,9 +9,10 @@ import { maximised } from "./layout";
 import { Fact } from "./links";
 import { WorldGraph } from "./WorldGraph";
 import { WorldDifferences, WorldHistory } from "./WorldHistory";
+import { WorldSkills } from "./WorldSkills";
 
 const search = signal("");
-const view = signal<"facts" | "graph" | "history" | "differences">("facts");
+const view = signal<"facts" | "graph" | "skills" | "history" | "differences">("facts");
 
 /** Show the edits that undo a change in the form, to be made with who and why. */
 function proposeUndo(edits: readonly string[], why: string): void {
@@ -27,9 +28,13 @@ export function WorldView() {
         <input
           type="search"
           placeholder={
-            view.value === "history" ? "Search in the changes" : `Search in ${facts.value.length} facts`
+            view.value === "history"
+              ? "Search in the changes"
+              : view.value === "skills"
+                ? "Search in the skills"
+                : `Search in ${facts.value.length} facts`
           }
-          aria-label="Search in the facts"
+          aria-label={view.value === "skills" ? "Search in the skills" : "Search in the facts"}
           value={search.value}
           onInput={(event) => (search.value = event.currentTarget.value)}
         />
@@ -41,6 +46,7 @@ export function WorldView() {
           >
             <option value="facts">facts</option>
             <option value="graph">graph</option>
+            <option value="skills">what robots can do</option>
             <option value="history">who changed what</option>
             <option value="differences">between two times</option>
           </select>
@@ -68,6 +74,12 @@ export function WorldView() {
 /** What is chosen; facts and graph are beside each other where there is room. */
 function Shown() {
   switch (view.value) {
+    case "skills":
+      return (
+        <div class="scroll">
+          <WorldSkills search={search.value} />
+        </div>
+      );
     case "history":
       return (
         <div class="scroll">
