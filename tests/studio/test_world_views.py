@@ -107,3 +107,18 @@ def test_the_graph_is_beside_the_table_and_shares_the_selection(page: Page, sche
     expect(page.locator(".world tr.is-selected").first).to_contain_text("lab:crate-4")
     check_axe(page, f"world-graph-{scheme}")
     page.keyboard.press("m")
+
+
+@pytest.mark.parametrize(
+    "scheme", [pytest.param(each, marks=pytest.mark.looks(color_scheme=each)) for each in ("light", "dark")]
+)
+def test_what_robots_can_do_is_found_by_a_word(page: Page, scheme: str) -> None:
+    show(page, "what robots can do")
+    row = page.locator(".world table.skills tbody tr").filter(has=page.get_by_role("cell", name="Unload", exact=True))
+    expect(row).to_contain_text("contain")
+    expect(row).to_contain_text("the cell has no robot")
+    page.get_by_label("Search in the skills").fill("no such skill")
+    expect(page.locator(".world .empty")).to_have_text("No skill has “no such skill” in it.")
+    page.get_by_label("Search in the skills").fill("")
+    expect(row).to_be_visible()
+    check_axe(page, f"world-skills-{scheme}")

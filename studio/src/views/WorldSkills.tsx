@@ -57,6 +57,7 @@ export function WorldSkills({ search }: { search: string }) {
               {each.robots.map((one) => (
                 <Robot key={one.robot} one={one} />
               ))}
+              {each.robots.length === 0 && <span class="muted">the cell has no robot</span>}
             </td>
           </tr>
         ))}
