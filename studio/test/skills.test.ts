@@ -19,7 +19,11 @@ test("a robot has what it can use and why it cannot use the rest", () => {
       name: "Grip",
       changes: ["hand contain object", "not from contain object"],
       robots: [
-        { robot: "lab:A", how: ["wsg"], rejections: [{ how: "robotiq", why: "`hand` needs RobotiqGripper" }] },
+        {
+          robot: "lab:A",
+          how: ["wsg"],
+          rejections: [{ how: "robotiq", why: "`hand` needs RobotiqGripper" }],
+        },
         { robot: "lab:B", how: [], rejections: [{ how: "wsg", why: "there is no hand" }] },
       ],
     },
