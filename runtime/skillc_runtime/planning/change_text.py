@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence, Set
 from typing import assert_never
 
+from skillc_model.conditions import Not
 from skillc_model.pddl.domain import (
     ClassMeaning,
     ExclusionMeaning,
@@ -43,7 +44,7 @@ class ChangeText:
     def _describe(self, lack: Lack, reader: Reader, choices: Sequence[tuple[Lack, Reader]]) -> Iterator[str]:
         skill = reader.action.skill
         meaning = self._problem.domain.predicate[lack.atom.predicate].meaning
-        if not lack.holds:
+        if not lack.holds and not isinstance(meaning, GuardMeaning):
             yield f"`{self._formatter.format(lack.atom)}` holds, and {skill} does not start while it does"
             return
         match meaning:
@@ -93,12 +94,13 @@ class ChangeText:
             variable: self._problem.names[term]
             for variable, term in zip(meaning.variables, lack.atom.terms, strict=True)
         }
+        condition = meaning.condition if lack.holds else Not(meaning.condition)
         try:
-            obstacle = find_obstacle(meaning.condition, self._state, bindings)
+            obstacle = find_obstacle(condition, self._state, bindings)
             if obstacle is not None:
                 self.obstacles.append(obstacle)
                 return str(obstacle)
-            return explain(meaning.condition, self._state, bindings, self._state.vocabulary)
+            return explain(condition, self._state, bindings, self._state.vocabulary)
         except EvaluationError as reason:
             return str(reason)
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import assert_never
 
 from skillc_model.format_condition import (
     format_all,
     format_any,
     format_class,
+    format_condition,
     format_property,
     format_quantified,
     format_relation,
@@ -24,7 +25,7 @@ from skillc_model.pddl.domain import (
 )
 from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Equal, Existential, Formula, Negation, Universal
 from skillc_model.pddl.problem import Problem
-from skillc_model.skills import Implementation, SkillLibrary
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.world.state.values import show
 
 
@@ -34,10 +35,11 @@ class FormulaFormatter:
     def __init__(self, problem: Problem, library: SkillLibrary) -> None:
         self._problem = problem
         self._short = library.vocabulary.short
+        self._vocabulary = library.vocabulary
         self._texts = {
-            (each.skill, label): text
+            (each.skill, part.condition): part.text
             for each in library.implementations.values()
-            for label, text in _labelled_texts(each)
+            for part in (*each.pre, *each.hold)
         }
         self._classes = {each.name: each.cls for each in problem.domain.types}
 
@@ -84,7 +86,8 @@ class FormulaFormatter:
             case ClassMeaning(cls):
                 return format_class(terms[0], self._short(cls))
             case GuardMeaning():
-                text = self._texts.get((meaning.skill, meaning.label), meaning.label)
+                text = self._texts.get((meaning.skill, meaning.condition))
+                text = text or format_condition(meaning.condition, self._vocabulary)
                 return f"{text} for {', '.join(terms)}"
             case GoalMeaning():
                 return "the goal"
@@ -97,8 +100,3 @@ class FormulaFormatter:
         if term in names or term not in self._problem.names:
             return names.get(term, term.removeprefix("?"))
         return self._short(self._problem.names[term])
-
-
-def _labelled_texts(implementation: Implementation) -> Iterator[tuple[str, str]]:
-    """Yield the label and the source text of each condition."""
-    yield from ((each.label, each.text) for each in (*implementation.pre, *implementation.hold))

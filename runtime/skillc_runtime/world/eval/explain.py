@@ -109,22 +109,23 @@ class _Explainer:
     def met(self, condition: Condition, bindings: Bindings) -> str:
         """Return the facts that make a condition true that should be false."""
         match condition:
-            case Holds(subject, relation, object_):
-                facts = sorted(self._pairs(subject, object_, relation, bindings))
+            case Holds(subject, _, object_):
                 wanted = "nothing" if Anything() in (subject, object_) else "that it does not hold"
-                return f"{self._facts(facts, relation)}; needed: {wanted}"
+                return f"{self._found(condition, bindings)}; needed: {wanted}"
             case Not(body):
                 return self.unmet(body, bindings)
             case And(parts):
-                return " and ".join(self.met(part, bindings) for part in parts) or "it always holds"
+                return " and ".join(self._found(part, bindings) for part in parts) or "it always holds"
             case Or(parts):
                 true = [part for part in parts if evaluate(part, self._state, bindings)]
                 return "; ".join(self.met(part, bindings) for part in true)
             case Exists(variable, cls, body):
                 found = self._those(variable, cls, body, bindings)
                 return f"{self.met(body, {**bindings, variable: found[0]})}{_more(found[1:])}"
-            case Compare(left, sign, right):
-                return f"{self._reading(left, bindings)} {sign} {self._reading(right, bindings)}"
+            case Compare(_, sign, right):
+                shown = self._reading(right, bindings)
+                wanted = shown if sign == "!=" else f"not {shown}" if sign == "==" else f"not {sign} {shown}"
+                return f"{self._found(condition, bindings)}; needed: {wanted}"
             case IsA(subject, _):
                 return self._class_of(subject, bindings)
             case Same(left, right):
@@ -137,6 +138,16 @@ class _Explainer:
                 return f"it is so for every {self._short(cls)}"
             case _:
                 assert_never(condition)
+
+    def _found(self, condition: Condition, bindings: Bindings) -> str:
+        """Return the facts that make a condition true, without what is needed instead."""
+        match condition:
+            case Holds(subject, relation, object_):
+                return self._facts(sorted(self._pairs(subject, object_, relation, bindings)), relation)
+            case Compare(left, _, _):
+                return self._reading(left, bindings)
+            case _:
+                return self.met(condition, bindings)
 
     def _no_relation(self, subject: Term, relation: str, object_: Term, bindings: Bindings, anything: str = "_") -> str:
         """Name the facts that share the subject or, when there are none, the object."""
@@ -165,13 +176,18 @@ class _Explainer:
             if compile_expression(side)(self._state, bindings) is None:
                 return describe_missing_value(side, self._state, bindings)
         found = self._reading(left, bindings)
-        needed = (
-            f"{sign} {self._reading(right, bindings)}" if not isinstance(right, Literal) else self._needed(sign, right)
-        )
+        needed = self._needed(sign, right) if isinstance(right, Literal) else self._compared(sign, right, bindings)
         return f"{found}; needed: {needed}"
 
     def _needed(self, sign: str, literal: Literal) -> str:
         return show(literal.value) if sign == "==" else f"{sign} {show(literal.value)}"
+
+    def _compared(self, sign: str, right: Expression, bindings: Bindings) -> str:
+        """Return what a value is to be compared with, such as `< 0.1, which is lab:Hand-1.opening`."""
+        value, reading = compile_expression(right)(self._state, bindings), self._reading(right, bindings)
+        shown = "missing" if value is None else self._value(value)
+        what = reading.removesuffix(f" is {shown}")
+        return f"{sign} {shown}" if what == reading else f"{sign} {shown}, which is {what}"
 
     def _reading(self, expression: Expression, bindings: Bindings) -> str:
         """Return an expression with its value, such as `lab:Arm-1.deviceState is "Fault"`."""
