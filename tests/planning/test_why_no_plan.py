@@ -53,7 +53,9 @@ KINDS = {
     "no width": Kind(PUT, " ; lib:width 0.05", "", "Part-1 has no width"),
     "no opening": Kind(PUT, " ; lib:opening 0.1", "", "Hand-1 has no opening"),
     "too heavy": Kind(PUT, "lib:mass 0.2", "lib:mass 20", "lab:Part-1.mass is 20; needed: < 5"),
-    "too wide": Kind(PUT, "lib:width 0.05", "lib:width 0.3", "lab:Part-1.width is 0.3; needed: < 0.1, which is lab:Hand-1.opening"),
+    "too wide": Kind(
+        PUT, "lib:width 0.05", "lib:width 0.3", "lab:Part-1.width is 0.3; needed: < 0.1, which is lab:Hand-1.opening"
+    ),
     "empty battery": Kind(CLEAN, "lib:charge 80", "lib:charge 5", "lab:Cart-1.charge is 5; needed: > 10", "Door"),
     "arm in fault": Kind(CLEAN, "lib:inFault false", "lib:inFault true", "lab:Arm-1.inFault is true"),
     "tilted board": Kind(CLEAN, "lib:tilt 0", "lib:tilt 40", "lab:Board-1.tilt is", "full|force"),

@@ -94,6 +94,8 @@ class NearestChanges:
         self._partial = PartialBindings(problem, grounding, limit)
         self._guards = _group_guards(problem)
         self._readers: dict[Lack, Reader] = {}
+        self._made: dict[Atom, tuple[Way, ...]] = {}
+        """What actions lack that make an atom true, as far as it was found where the atom was first needed."""
 
     def find(self) -> tuple[NearestChange, ...]:
         """Return the nearest changes with which the goal can be reached, all equally near; none if none is known."""
@@ -201,13 +203,14 @@ class NearestChanges:
         stated = () if by is None else (frozenset({self._lack(read, values, True, Reader(depth, by, read))}),)
         if atom in visiting or depth >= MAX_DEPTH or not self._problem.domain.predicate[atom.predicate].changes:
             return stated
-        made = (
-            way
-            for action, start in self._makers(atom)
-            for bound, lacking in self._partial.find(action, start)
-            for way in _together([self._ways(each, bound, action, depth + 1, visiting | {atom}) for each in lacking])
-        )
-        return _least((*made, *stated))
+        if atom not in self._made:
+            self._made[atom] = _least(self._ways_by_actions(atom, depth, visiting | {atom}))
+        return _least((*self._made[atom], *stated))
+
+    def _ways_by_actions(self, atom: Atom, depth: int, visiting: frozenset[Atom]) -> Iterator[Way]:
+        for action, start in self._makers(atom):
+            for bound, lacking in self._partial.find(action, start):
+                yield from _together([self._ways(each, bound, action, depth + 1, visiting) for each in lacking])
 
     def _makers(self, atom: Atom) -> Iterator[tuple[Action, dict[str, str]]]:
         """Yield the actions that make an atom true, with the parameters that are bound by it."""

@@ -39,6 +39,7 @@ class PartialBindings:
     def __init__(self, problem: Problem, grounding: Grounding, limit: CancelToken) -> None:
         self._problem, self._grounding, self._limit = problem, grounding, limit
         self._types = {each.name: each.type for each in problem.objects}
+        self._members: dict[str, tuple[str, ...]] = {}
         self._tried = 0
 
     def find(self, action: Action, start: Values) -> Iterator[tuple[dict[str, str], list[Formula]]]:
@@ -77,11 +78,16 @@ class PartialBindings:
             yield values, failed
             return
         name, linked = self._choose(open_, read, values)
-        members = self._problem.domain.of_type(self._problem.objects, open_[name])
+        members = self._members_of(open_[name])
         near = [each for each in members if each in linked]
         others = (each for each in members if each not in linked) if len(failed) < most or not near else ()
         for each in chain(near, others):
             yield from self._bind(action, read, {**values, name: each}, most)
+
+    def _members_of(self, type_: str) -> tuple[str, ...]:
+        if type_ not in self._members:
+            self._members[type_] = self._problem.domain.of_type(self._problem.objects, type_)
+        return self._members[type_]
 
     def _is_possible(self, part: Formula, values: Values) -> bool:
         return self._grounding.is_possible(self._grounding.reduce(part, values))
