@@ -116,13 +116,11 @@ WAYS = {
     "part in nothing": Way(
         ", lab:Part-1, lab:Part-2", ", lab:Part-2", "Pick needs `a skiros:Location contain lab:Part-1`"
     ),
-    "nothing in the cell": Way(IN_CELL, "skiros:contain lab:Table .", "Place needs `a cora:Robot at lab:Box-1"),
-    "robot nowhere": Way(" ; skiros:at lab:Cell", "", "Place needs `a cora:Robot at lab:Box-1"),
-    "robot without arm": Way(" ; skillc:hasArm lab:Arm-1", "", "Place needs `a cora:Robot hasA a rparts:ArmDevice`"),
+    "nothing in the cell": Way(IN_CELL, "skiros:contain lab:Table .", "state `lab:Cell skiros:contain lab:Box-1`"),
+    "robot nowhere": Way(" ; skiros:at lab:Cell", "", "state `lab:Robot-1 skiros:at lab:Cell`"),
+    "robot without arm": Way(" ; skillc:hasArm lab:Arm-1", "", "state `lab:Robot-1 skillc:hasArm lab:Arm-1`"),
     "arm in fault": Way(IDLE, IDLE.replace("Idle", "Fault"), 'lab:Arm-1.deviceState is "Fault"'),
-    "arm without hand": Way(
-        " ; skillc:hasGripper lab:Hand-1", "", "Place needs `a rparts:ArmDevice hasA a rparts:GripperEffe"
-    ),
+    "arm without hand": Way(" ; skillc:hasGripper lab:Hand-1", "", "state `lab:Arm-1 skillc:hasGripper lab:Hand-1`"),
     "arm without sheet": Way(
         "skillc:hasSheet skillc:iiwa14-sheet ; ", "", "lab:Arm-1 has no skillc:hasSheet", "invalid"
     ),

@@ -23,6 +23,7 @@ from skillc_model.pddl.formulas import (
     Negation,
     Typed,
     Universal,
+    atoms,
     conjuncts,
 )
 from skillc_model.pddl.problem import Problem
@@ -94,6 +95,7 @@ class NearestChanges:
         self._partial = PartialBindings(problem, grounding, limit)
         self._guards = _group_guards(problem)
         self._readers: dict[Lack, Reader] = {}
+        self._wanted = frozenset(atoms(problem.goal))
         self._made: dict[Atom, tuple[Way, ...]] = {}
         """What actions lack that make an atom true, as far as it was found where the atom was first needed."""
 
@@ -200,7 +202,11 @@ class NearestChanges:
         self, read: Atom, values: Values, by: Action | None, depth: int, visiting: frozenset[Atom]
     ) -> tuple[Way, ...]:
         atom = _bind(read, values)
-        stated = () if by is None else (frozenset({self._lack(read, values, True, Reader(depth, by, read))}),)
+        stated = (
+            ()
+            if by is None or atom in self._wanted
+            else (frozenset({self._lack(read, values, True, Reader(depth, by, read))}),)
+        )
         if atom in visiting or depth >= MAX_DEPTH or not self._problem.domain.predicate[atom.predicate].changes:
             return stated
         if atom not in self._made:
