@@ -130,11 +130,13 @@ def why(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("goal", [CLEAN, PUT])
 def test_the_cell_has_plans(goal: str, why: Path) -> None:
     assert plan(why, Kind(goal, "lib:charge 80", "lib:charge 80", ""))[0] == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KINDS)
 def test_the_answer_names_what_a_person_can_change(name: str, why: Path) -> None:
     kind = KINDS[name]
