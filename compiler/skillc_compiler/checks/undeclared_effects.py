@@ -32,12 +32,12 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
         effects = " and ".join(dict.fromkeys(f"`{each.post.text}`" for each in (one, *others)))
         passed = dict.fromkeys(name for each in (one, *others) if each.remedy for name in each.remedy.passed)
         then = f", and pass {' and '.join(f'`{name}`' for name in passed)} to {calls}" if passed else ""
-        verb = "cause" if " and " in calls else "causes"
+        verb, what = "cause" if " and " in calls else "causes", added or "a `post` that declares it"
         yield Diagnostic(
             "undeclared-effect",
             one.call.written.skill.span,
             f"{calls} {verb} {effects}, which `{skill.name}` does not declare",
-            help=f"add {added or 'a `post` that declares it'} to `{skill.name}` or to this implementation{then}, or undo it",
+            help=f"add {what} to `{skill.name}` or to this implementation{then}, or undo it",
             labels=(
                 Label(one.post.span, "the effect"),
                 Label(skill.name_span, "whose posts do not declare it"),
