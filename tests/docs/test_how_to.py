@@ -28,7 +28,7 @@ def follow(page: Path, folder: Path, monkeypatch: pytest.MonkeyPatch, everything
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["own-controller", "own-primitive", "pick-a-part"])
+@pytest.mark.parametrize("name", ["own-controller", "own-primitive", "pick-a-part", "wrap-skills"])
 def test_what_is_checked_and_planned_is_as_the_page_says(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -43,8 +43,7 @@ def add_remedies(
     """Yield the findings, with a remedy where one is known to help."""
     left = MOST_TRIED
     for one in found:
-        is_open = isinstance(one, UnprovedPost | UnprovedPrecondition) and not one.false
-        if left and is_open:
+        if left and isinstance(one, UnprovedPost | UnprovedPrecondition) and not one.false:
             left -= 1
             yield structs.replace(one, remedy=_find(run, implementation, one, assume))
         elif isinstance(one, UndeclaredEffect) and not one.missing and one.condition is not None:

@@ -51,6 +51,6 @@ def _help(one: UnprovedPrecondition, proof: Proof) -> tuple[str, Fix | None]:
     if one.path is None:
         return "establish it before, or test it: `check(..)`", None
     return (
-        "a `pre` would not be enough, as steps before may change it: establish it here, or test it: `check(..)`",
+        "no `pre` is enough, as steps before may change it: establish it here, or test it: `check(..)`",
         None,
     )

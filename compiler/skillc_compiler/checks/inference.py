@@ -8,6 +8,7 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Skill, TypedCondition
 from skillc_compiler.program.walk import conditions_in, values_in
+from skillc_compiler.program.types import Thing, describe_type
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import And, Compare, Exists, HasProperty, Holds, IsA, Or, Same, Variable
 from skillc_model.traversal import free_variables
@@ -32,11 +33,13 @@ def check(program: Program) -> Iterator[Diagnostic]:
 def _problem(skill: Skill, name: str, linked: set[str]) -> Diagnostic:
     parameter = next(p for p in skill.parameters if p.name == name)
     known = next((p.name for p in skill.parameters if p.direction == "in" or p.name in linked), "..")
+    kind = describe_type(parameter.type)
+    only = f"write `pre {name} is {kind.split()[-1]}` if there is one only; " if isinstance(parameter.type, Thing) and parameter.type.cls else ""
     return Diagnostic(
         "unlinked-inference",
         parameter.span,
         f"no precondition says which `{name}` is meant, so it cannot be inferred",
-        help=f"relate it to something: `pre {known} RELATION {name}`, or make it an `in` parameter",
+        help=f"relate it to something: `pre {known} RELATION {name}`; {only}or make it an `in` parameter",
         labels=tuple(Label(r.span, "add it beside this one") for r in skill.requirements if r.kind == "pre")[-1:],
     )
 

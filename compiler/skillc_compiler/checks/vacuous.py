@@ -16,6 +16,7 @@ from skillc_compiler.program.walk import nodes_in
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import Compare, Given, Holds, IsA, Literal, Not, Or, Same, Variable
 from skillc_model.rewriting import constant_number, fold
+from skillc_model.traversal import free_variables
 
 NAMES = ("always-true", "always-false")
 NEEDS = Need.TYPES
@@ -26,7 +27,11 @@ _Parameters = Mapping[str, Parameter]
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a warning for each condition that is always true, a problem for each that is always false."""
     conflicts = Conflicts(program.vocabulary)
+    owners: tuple[Skill | Implementation, ...] = (*program.skills.values(), *program.implementations)
+    telling = {id(each) for owner in owners for each in _telling_which(owner)}
     for condition, parameters in _conditions(program):
+        if id(condition) in telling:
+            continue
         for part, denied in _parts(condition):
             yield from _check_condition(conflicts, part, parameters, denied)
 
@@ -49,6 +54,17 @@ def _conditions(program: Program) -> Iterator[tuple[TypedCondition, _Parameters]
             yield task.goal, {}
         for node in nodes_in(task.body) if task.body else ():
             yield from ((condition, {}) for condition in node.conditions)
+
+
+def _telling_which(owner: Skill | Implementation) -> Iterator[TypedCondition]:
+    """Yield the preconditions that an inferred parameter is of a class, where no other says which one is meant."""
+    asked = [each.condition for each in owner.requirements if each.kind == "pre"]
+    inferred = {each.name for each in owner.parameters if each.direction == "infer"}
+    for condition in asked:
+        match condition.meaning:
+            case IsA(subject=Variable(name=name)) if name in inferred:
+                if not any(name in free_variables(each.meaning) for each in asked if each is not condition):
+                    yield condition
 
 
 def _written_in(owner: Skill | Implementation) -> Iterator[TypedCondition]:
