@@ -34,7 +34,11 @@ def _problem(skill: Skill, name: str, linked: set[str]) -> Diagnostic:
     parameter = next(p for p in skill.parameters if p.name == name)
     known = next((p.name for p in skill.parameters if p.direction == "in" or p.name in linked), "..")
     kind = describe_type(parameter.type)
-    only = f"write `pre {name} is {kind.split()[-1]}` if there is one only; " if isinstance(parameter.type, Thing) and parameter.type.cls else ""
+    only = (
+        f"write `pre {name} is {kind.split()[-1]}` if there is one only; "
+        if isinstance(parameter.type, Thing) and parameter.type.cls
+        else ""
+    )
     return Diagnostic(
         "unlinked-inference",
         parameter.span,
