@@ -51,7 +51,7 @@ def test_python_beside_a_library_needs_no_manifest(folder: Path) -> None:
 def test_a_scene_that_is_named_is_the_only_one(folder: Path) -> None:
     write(folder, tasks__skill=TASKS)
     assert "unknown-scene" in names(check(".", "--json"))
-    assert names(check(".", "--scene", "iiwa_table.ttl", "--json")) == []
+    assert not {"unknown-scene", "unknown-individual"} & {*names(check(".", "--scene", "iiwa_table.ttl", "--json"))}
 
 
 def test_a_skill_that_is_not_imported_names_its_file(folder: Path) -> None:

@@ -26,6 +26,7 @@ from skillc_compiler.program.walk import calls_in
 from skillc_model.conditions import Condition, Expression, Holds, Not, Same, Variable
 from skillc_model.rewriting import substitute
 from skillc_model.traversal import conjuncts, free_variables
+from skillc_rdf.vocabulary.types import THING
 
 MOST_TRIED = 8
 """The number of findings in a body for which a remedy is looked for."""
@@ -122,7 +123,9 @@ def _name(run: Exploration, implementation: Implementation, condition: Condition
         name not in own and name not in found.values() for name in free_variables(condition)
     ):
         return None
-    classes = {new: run.types.classes[name] for name, new in fresh.items()}
+    classes = {new: run.types.classes.get(name, THING) for name, new in fresh.items()}
+    if THING in classes.values():  # what is found is a value, or may be anything
+        return None
     if any(new in own and not run.types.vocabulary.is_a(class_of(own[new]), cls) for new, cls in classes.items()):
         return None
     said = substitute(condition, {found[name]: Variable(new) for name, new in fresh.items()})

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Skill, TypedCondition
-from skillc_compiler.program.walk import conditions_in, values_in
 from skillc_compiler.program.types import Thing, describe_type
+from skillc_compiler.program.walk import conditions_in, values_in
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import And, Compare, Exists, HasProperty, Holds, IsA, Or, Same, Variable
 from skillc_model.traversal import free_variables
@@ -33,12 +33,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
 def _problem(skill: Skill, name: str, linked: set[str]) -> Diagnostic:
     parameter = next(p for p in skill.parameters if p.name == name)
     known = next((p.name for p in skill.parameters if p.direction == "in" or p.name in linked), "..")
-    kind = describe_type(parameter.type)
-    only = (
-        f"write `pre {name} is {kind.split()[-1]}` if there is one only; "
-        if isinstance(parameter.type, Thing) and parameter.type.cls
-        else ""
-    )
+    is_classified = isinstance(parameter.type, Thing) and parameter.type.cls is not None
+    kind = describe_type(parameter.type).split()[-1]
+    only = f"write `pre {name} is {kind}` if there is one only; " if is_classified else ""
     return Diagnostic(
         "unlinked-inference",
         parameter.span,

@@ -32,7 +32,6 @@ _LABELLED = MappingProxyType(
     {
         **dict.fromkeys(("IN", "OPT", "INFER", "ANY", "OUT"), "parameter"),
         **dict.fromkeys(("EXISTS", "FORALL"), "variable"),
-        **dict.fromkeys(("PRE", "HOLD", "POST", "SENSED"), "label"),
     }
 )
 """What is named after a token, and what a name with its `:` is the name of."""
