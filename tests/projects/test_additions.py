@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import mujoco
+import numpy as np
 import pytest
 
 from projects.folders import call, checked
+from skillc_ontology import catalogue
 
 
 @pytest.fixture
@@ -52,11 +55,55 @@ def test_a_device_is_used_by_the_scene(kind: str, like: str, edits: tuple[str, .
         assert planned.exit_code == 0, planned.output
 
 
+@pytest.mark.parametrize(
+    ("like", "old", "new"),
+    [
+        ("eraser", (0.1, 0.05, 0.03), (0.14, 0.07, 0.04)),
+        ("polisher", (0.08, 0.06, 0.03), (0.05, 0.12, 0.02)),
+        ("peg", (0.02, 0.02, 0.06), (0.03, 0.03, 0.05)),
+    ],
+)
+def test_a_tool_of_another_size_has_it_in_model_sheet_and_scene(
+    like: str, old: tuple[float, ...], new: tuple[float, ...], project: Path
+) -> None:
+    shipped = mujoco.MjModel.from_xml_path(str(catalogue.model_path(f"tools/{like}.xml")))
+    for name, size in (("same", old), ("other", new)):
+        made = call(project, "add", "tool", name, "--like", like, "--size", *map(str, size))
+        assert made.exit_code == 0 and f"skiros:SizeX {size[0]:g} ; skiros:SizeY {size[1]:g}" in made.stderr, (
+            made.output
+        )
+        model = mujoco.MjModel.from_xml_path(str(project / f"ontology/tools/{name}.xml"))
+        share = np.prod(size) / np.prod(old)
+        assert model.body_mass.sum() == pytest.approx(shipped.body_mass.sum() * share, rel=1e-3)
+        face, handle = model.geom("face"), model.geom("handle")
+        assert face.size[:2] * 2 == pytest.approx(size[:2])
+        assert handle.size == pytest.approx(shipped.geom("handle").size)
+        ribs = [model.geom(each) for each in range(model.ngeom) if model.geom(each).name.startswith("rib")]
+        for rib in ribs:
+            assert abs(rib.pos[0]) + rib.size[0] <= size[0] / 2 + 1e-6 and rib.size[0] == pytest.approx(size[2] / 4)
+            assert rib.size[1] + rib.size[0] == pytest.approx(size[1] / 2)
+        if name == "same":
+            assert model.body_inertia == pytest.approx(shipped.body_inertia, rel=1e-3)
+
+
+@pytest.mark.slow
+def test_a_scene_with_a_resized_tool_has_no_problem(project: Path) -> None:
+    made = call(project, "add", "tool", "sponge", "--size", "0.14", "0.07", "0.04")
+    stated = made.stderr.partition(": skillc:")[2].rstrip(" .\n")
+    edits = [f"lab:Eraser-1 {each.strip()}" for each in f"skillc:{stated}".split(" ;")]
+    assert len(edits) == 5
+    assert call(project, "scene", "edit", "cell.ttl", *edits).exit_code == 0
+    assert checked(project) == []
+
+
 def test_what_cannot_be_added_is_refused_in_words(project: Path) -> None:
     for arguments, words in (
         (("robot", "Six"), "not a valid name"),
         (("robot", "six", "--like", "ur6e"), "did you mean `ur5e`"),
         (("skill", "six", "--like", "ur5e"), "--like is for robots"),
+        (("skill", "six", "--size", "1", "1", "1"), "--size is for `skillc add tool`"),
+        (("tool", "six", "--size", "140", "70", "40"), "three lengths in m, each from 0.005 to 1"),
+        (("tool", "six", "--size", "0.1", "0.02", "0.05"), "wider than half of its height"),
     ):
         refused = call(project, "add", *arguments)
         assert refused.exit_code == 2 and words in refused.stderr, refused.output

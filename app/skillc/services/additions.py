@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Literal
 
@@ -31,13 +31,33 @@ def add_files(project: Project, kind: Kind, name: str, like: str | None) -> tupl
     `like` is the shipped device whose files are copied. RequestError if the name is invalid, a file exists, or there
     is no such device; ServiceError if a file cannot be written.
     """
-    if not NAME.fullmatch(name):
-        raise RequestError(f"`{name}` is not a valid name: use a-z, 0-9 and `_`, starting with a letter")
+    _check_name(name)
     if kind == "skill":
         if like is not None:
             raise RequestError("--like is for robots, grippers and tools")
         return _write({project.root / f"{name}.skill": _skill(name)})
     return add_device_files(project, kind, name, *_device(project, kind, name, like or MODELS[kind]))
+
+
+def add_resized_tool(
+    project: Project, name: str, like: str | None, size: Sequence[float]
+) -> tuple[tuple[Path, ...], str]:
+    """Write a tool as a copy of a shipped one with another size (3,) in m; return its files, and how a scene names it.
+
+    RequestError as of `add_files`, and for a size that no tool in a hand has.
+    """
+    from skillc.services.resized_tool import resize_tool
+
+    _check_name(name)
+    made = resize_tool(*_device(project, "tool", name, like or MODELS["tool"]), size, name)
+    files = add_device_files(project, "tool", name, made.sheet, made.model)
+    sizes = " ; ".join(f"skiros:Size{axis} {each:g}" for axis, each in zip("XYZ", made.size, strict=True))
+    return files, f"skillc:hasSheet {project.name}:{name}-sheet ; {sizes} ; skiros:Weight {made.weight_kg:.3g}"
+
+
+def _check_name(name: str) -> None:
+    if not NAME.fullmatch(name):
+        raise RequestError(f"`{name}` is not a valid name: use a-z, 0-9 and `_`, starting with a letter")
 
 
 def add_device_files(project: Project, kind: Kind, name: str, sheet: str, model: str) -> tuple[Path, ...]:

@@ -29,6 +29,7 @@ MODELS = (".urdf", ".xml", ".mjcf", ".xacro", ".sdf")
     examples="""
     skillc add skill rinse_board
     skillc add gripper my_gripper --like wsg50
+    skillc add tool sponge --size 0.15 0.08 0.04
     skillc add robot arm.urdf --like iiwa14
     """,
 )
@@ -39,6 +40,13 @@ MODELS = (".urdf", ".xml", ".mjcf", ".xacro", ".sdf")
     metavar="DEVICE",
     shell_complete=complete_device,
     help="The shipped device to copy, such as `ur5e` or `wsg50`; with FILE, what has the numbers that FILE lacks.",
+)
+@click.option(
+    "--size",
+    nargs=3,
+    type=float,
+    metavar="X Y Z",
+    help="The size of a new tool without its handle, in m; its weight and its pad follow.",
 )
 @model_option("--name", "called", metavar="NAME", help="The name of the arm; by default that of the file.")
 @model_option(
@@ -69,7 +77,9 @@ MODELS = (".urdf", ".xml", ".mjcf", ".xacro", ".sdf")
     multiple=True,
     help="A value of the data sheet in SI units, such as forceLimit=40; may be repeated.",
 )
-def command(kind: Kind, name: str, like: str | None, called: str | None, **options: Any) -> None:
+def command(
+    kind: Kind, name: str, like: str | None, size: tuple[float, ...] | None, called: str | None, **options: Any
+) -> None:
     """Add a skill, robot, gripper or tool called NAME to the project here, or the arm of a URDF or MJCF FILE.
 
     A skill is a `.skill` file. A robot, gripper or tool is a data sheet and a model in the project's ontology folder,
@@ -80,12 +90,14 @@ def command(kind: Kind, name: str, like: str | None, called: str | None, **optio
     still to be stated is listed by `skillc check`.
     """
     from skillc.errors import RequestError
-    from skillc.services.additions import add_files
+    from skillc.services.additions import add_files, add_resized_tool
     from skillc.services.project.loading import find_project
 
     project = find_project(Path())
     if project is None:
         raise RequestError("there is no skillc.toml here or above; `skillc new NAME` writes a project")
+    if size is not None and kind != "tool":
+        raise RequestError("--size is for `skillc add tool`")
     if kind == "robot" and (Path(name).suffix.lower() in MODELS or "/" in name):
         _add_robot(project, Path(name), like, called, **options)
         return
@@ -94,7 +106,12 @@ def command(kind: Kind, name: str, like: str | None, called: str | None, **optio
         raise RequestError(
             f"{given[0].replace('settings', 'set')} is for `skillc add robot FILE`, with a URDF or MJCF file"
         )
-    for path in add_files(project, kind, name, like):
+    if size is not None:
+        files, stated = add_resized_tool(project, name, like, size)
+        print_remark(f"in a scene, of a thing of the class of the copied tool: {stated} .")
+    else:
+        files = add_files(project, kind, name, like)
+    for path in files:
         click.echo(path)
 
 
