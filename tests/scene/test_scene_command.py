@@ -246,3 +246,25 @@ def test_the_hull_of_points_has_all_of_them_inside() -> None:
         away = points - start
         assert (edge[0] * away[:, 1] - edge[1] * away[:, 0] > -1e-6).all()
     assert 3 <= len(hull) < 60
+
+
+def test_a_rack_has_its_slots_in_a_grid_on_its_floor(cell: Path) -> None:
+    arguments = ("add", str(cell), "Rack-1", "Container", "--size", "0.308", "0.208", "0.06", "--on", "Table-1")
+    assert scene(*arguments, "--slots", "3", "2").exit_code == 0
+    text = cell.read_text("utf-8")
+    assert text.count("a skiros:PlacingPose") == 6 and 'skiros:FrameId "rack_1"' in text
+    found = json.loads(scene("show", str(cell), "--json").stdout)
+    places = {each["name"]: each for each in found if "slot" in each["name"]}
+    rack = next(each for each in found if each["name"] == "lab:Rack-1")
+    assert len(places) == 6
+    offsets = {name: np.subtract(each["position"], rack["position"]) for name, each in places.items()}
+    assert offsets["lab:Rack-1-slot-1-1"] == pytest.approx([-0.1, -0.05, 0.004 - 0.03])
+    assert offsets["lab:Rack-1-slot-3-2"] == pytest.approx([0.1, 0.05, 0.004 - 0.03])
+    for more, words in (
+        (("R2", "Container", "--size", "0.2", "0.2", "0.06", "--slots", "0", "2"), "whole numbers from 1"),
+        (("R2", "Furniture", "--size", "0.2", "0.2", "0.06", "--slots", "1", "2"), "is no skiros:Container"),
+        (("R2", "Container", "--slots", "1", "2"), "--slots needs the size"),
+    ):
+        refused = scene("add", str(cell), *more, "--on", "Table-1")
+        assert refused.exit_code == 2 and words in refused.stderr, refused.output
+    assert cell.read_text("utf-8") == text

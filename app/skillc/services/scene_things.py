@@ -12,6 +12,7 @@ import pyoxigraph as ox
 
 from skillc.errors import RequestError, ServiceError
 from skillc.services.scene_file import SceneFile
+from skillc.services.scene_slots import frame_of, make_slots
 from skillc_rdf.turtle.editing import StatementNotFound
 from skillc_rdf.turtle.statements import Node
 from skillc_rdf.turtle.terms import RDF_TYPE, XSD
@@ -22,6 +23,8 @@ from skillc_runtime.world.state.terms import (
     BOARD,
     CONTAIN,
     FACE,
+    FRAME_ID,
+    HAS_A,
     OFFSET,
     ON,
     ORIENTATION,
@@ -68,7 +71,10 @@ class PoseRequest:
 
 @dataclass(frozen=True, slots=True)
 class ThingRequest:
-    """A new thing: its name and class, its label, its size in m, its mass in kg, its shape, and what contains it."""
+    """A new thing: its name and class, its label, its size in m, its mass in kg, its shape, and what contains it.
+
+    slots: how many slots for parts it has along x and y, none if empty.
+    """
 
     name: str
     cls: str
@@ -77,6 +83,7 @@ class ThingRequest:
     weight: Number | None = None
     shape: str | None = None
     inside: str | None = None
+    slots: tuple[int, ...] = ()
 
 
 def add_thing(scene: Path, state: WorldState, thing: ThingRequest, pose: PoseRequest) -> str:
@@ -88,7 +95,8 @@ def add_thing(scene: Path, state: WorldState, thing: ThingRequest, pose: PoseReq
     if (thing.size or pose.at) and not (thing.inside or pose.on or pose.position):
         pose = replace(pose, on=_find_floor(state))
     iri = file.name_new_thing(thing.name)
-    kind: Pairs = [(RDF_TYPE, ox.NamedNode(file.find_class(thing.cls)))]
+    cls = file.find_class(thing.cls)
+    kind: Pairs = [(RDF_TYPE, ox.NamedNode(cls))]
     if thing.label is not None:
         kind.append((LABEL, ox.Literal(thing.label)))
     body: Pairs = [(name, _number(each)) for name, each in zip(SIZE, thing.size, strict=False)]
@@ -98,7 +106,12 @@ def add_thing(scene: Path, state: WorldState, thing: ThingRequest, pose: PoseReq
         body.append((SHAPE, ox.Literal(thing.shape)))
     if thing.inside is not None:
         file.editor.add(file.find_thing(thing.inside), CONTAIN, ox.NamedNode(iri))
-    file.append(iri, (kind, body, [*_place(file, pose), *_turn(pose, in_frame=bool(pose.position))]))
+    slots = make_slots(iri, cls, thing.size, thing.slots, state) if thing.slots else ()
+    rack: Pairs = [(FRAME_ID, ox.Literal(frame_of(iri))), *((HAS_A, ox.NamedNode(each.iri)) for each in slots)]
+    placed = [*_place(file, pose), *_turn(pose, in_frame=bool(pose.position))]
+    file.append(iri, (kind, body, placed, rack if slots else ()))
+    for each in slots:
+        file.append(each.iri, each.rows)
     file.write()
     return state.vocabulary.short(iri)
 

@@ -141,6 +141,7 @@ def new(scene: Path, arm: str | None) -> None:
 @click.option("--shape", metavar="SHAPE", help="The shape within its size, such as cylinder; else that of its class.")
 @click.option("--label", metavar="TEXT", help="A text for people.")
 @click.option("--in", "inside", metavar="PLACE", help="The place that contains the thing.")
+@click.option("--slots", nargs=2, type=int, metavar="NX NY", help="Slots for parts in a rack, along its x and y.")
 @pose_options
 @LIBRARY
 @file_only
@@ -152,7 +153,14 @@ def add(scene: Path, name: str, cls: str, library: Path | None, **given: Any) ->
     from skillc.services.scene_things import ThingRequest, add_thing
 
     thing = ThingRequest(
-        name, cls, given["label"], given["size"] or (), given["weight"], given["shape"], given["inside"]
+        name,
+        cls,
+        given["label"],
+        given["size"] or (),
+        given["weight"],
+        given["shape"],
+        given["inside"],
+        given["slots"] or (),
     )
     with _opened(scene, library) as (path, state):
         print_remark(f"{scene}: {add_thing(path, state, thing, _pose(given))} added")
