@@ -41,7 +41,8 @@ class Terminal:
         from skillc_dsl.rendering.full import render
 
         text = render(diagnostics, texts, colour=has_colours(sys.stderr), width=page_width(sys.stderr))
-        print_talk(*text.splitlines())
+        if text:
+            print_talk(*text.removesuffix("\n").split("\n"))
 
 
 def print_talk(*lines: str) -> None:
