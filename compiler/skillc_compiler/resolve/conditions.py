@@ -9,6 +9,7 @@ from skillc_compiler.program.labels import label_values
 from skillc_compiler.program.typed import TypedCondition, TypedExpression
 from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, fits
 from skillc_compiler.program.unknown import UnknownName
+from skillc_compiler.resolve.called_conditions import report_called_condition, report_compared_by_is
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_property, resolve_value
 from skillc_dsl import syntax as s
@@ -47,9 +48,8 @@ def resolve_condition(context: FileContext, scope: Scope, written: s.Condition) 
             of = resolve_value(context, scope, subject)
             iri = resolve_property(context, of, name) or name.text
             return TypedCondition(HasProperty(_to_term(context, of), iri), span, (of,))
-        case s.Is(subject=subject, cls=name, span=span):
-            of = resolve_value(context, scope, subject, ExpectedType(Thing(None)))
-            return TypedCondition(IsA(_to_term(context, of), _look_up_class(context, name)), span, (of,))
+        case s.Is():
+            return _resolve_is(context, scope, written)
         case s.Given(parameter=name, span=span):
             return _resolve_given(context, scope, name, span)
         case s.Not(body=body, span=span):
@@ -68,6 +68,13 @@ def resolve_condition(context: FileContext, scope: Scope, written: s.Condition) 
             return _resolve_bare(context, scope, written)
         case _:
             assert_never(written)
+
+
+def _resolve_is(context: FileContext, scope: Scope, written: s.Is) -> TypedCondition:
+    if report_compared_by_is(context, written.subject, written.cls):
+        return TypedCondition(And(()), written.span)
+    of = resolve_value(context, scope, written.subject, ExpectedType(Thing(None)))
+    return TypedCondition(IsA(_to_term(context, of), _look_up_class(context, written.cls)), written.span, (of,))
 
 
 def _not(body: TypedCondition, span: Span) -> TypedCondition:
@@ -225,6 +232,8 @@ def _resolve_quantified(context: FileContext, scope: Scope, written: s.Quantifie
 
 def _resolve_bare(context: FileContext, scope: Scope, written: s.Bare) -> TypedCondition:
     """Resolve a value that stands as a condition: report it, with the comparison to write if it is a truth value."""
+    if report_called_condition(context, written.value):
+        return TypedCondition(And(()), written.span)
     of = resolve_value(context, scope, written.value)
     span = written.span
     if of.type == BOOL:

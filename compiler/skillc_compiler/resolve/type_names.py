@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
+
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.names import Names
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.spelling import close_names, did_you_mean
 from skillc_dsl.units import DIMENSIONS
 from skillc_rdf.vocabulary.types import ClassType, DirectionType, ListType, NumberType, PlainType, ValueType, VectorType
@@ -20,6 +22,16 @@ BUILT_IN: dict[str, ValueType] = {
     "Vector": VectorType("Number"),
     "Direction": DirectionType(),
 }
+
+_FOREIGN = MappingProxyType(
+    {
+        **dict.fromkeys(("float", "double", "real"), "Number"),
+        **dict.fromkeys(("string", "String", "str"), "Text"),
+        **dict.fromkeys(("boolean", "Boolean"), "Bool"),
+        **dict.fromkeys(("integer", "Integer"), "Int"),
+    }
+)
+"""Types as other languages call them."""
 
 
 def resolve_type(names: Names, written: s.TypeName) -> ValueType:
@@ -41,6 +53,9 @@ def _of_dimension(names: Names, written: s.OfDimension) -> ValueType:
     """Return the type of `Vector of DIMENSION`; anything else before or after `of` is reported."""
     of, dimension = written.of, written.dimension
     if of.text != "Vector":
+        if of.text in ("list", "List", "array", "Array"):
+            _report_foreign(names, written, of.text, f"[{dimension.text}]")
+            return UNRESOLVED_TYPE
         message = f"only a `Vector` has a dimension, and this is `{of.text}`"
         help_ = f"write `{dimension.text}` alone" if of.text in DIMENSIONS else f"write `{of.text}` alone"
         names.problems.append(Diagnostic("unknown-type", written.span, message, help=help_))
@@ -60,6 +75,10 @@ def _class(names: Names, written: s.Name) -> ValueType:
 
 def _unknown(names: Names, written: s.Name) -> ValueType:
     """Report an unknown type: as a class, unless a built-in type is probably meant."""
+    meant = _FOREIGN.get(written.text)
+    if meant is not None and not names.find_line("class", written.text):
+        _report_foreign(names, written, written.text, meant)
+        return UNRESOLVED_TYPE
     near = (
         () if names.find_line("class", written.text) else close_names(written.text, {*BUILT_IN, *names.bare["class"]})
     )
@@ -68,3 +87,10 @@ def _unknown(names: Names, written: s.Name) -> ValueType:
         names.unknown.append(UnknownName("type", written, message, tuple(BUILT_IN)))
         return UNRESOLVED_TYPE
     return _class(names, written)
+
+
+def _report_foreign(names: Names, written: s.TypeName, text: str, meant: str) -> None:
+    """Report the name of a type in another language."""
+    help_ = f"write `{meant}`"
+    fix = Fix(written.span, meant, help_)
+    names.problems.append(Diagnostic("unknown-type", written.span, f"there is no type `{text}`", help_, fix=fix))

@@ -100,15 +100,27 @@ def _unknown_value(context: FileContext, name: s.Name, wanted: ExpectedType) -> 
     context.report_unknown(UnknownName("value", name, message, tuple(wanted.values), help_))
 
 
+_NOTHING = frozenset(("null", "None", "nil", "undefined", "nothing"))
+"""What other languages call a missing value."""
+
+
 def _unknown_name(context: FileContext, scope: Scope, written: s.NameReference, wanted: ExpectedType) -> None:
+    name = written.name.text
     fitting = [n for n, v in scope.variables.items() if fits(context.vocabulary, v.type, wanted.type)]
+    otherwise = "an individual is written with its prefix: `lab:Board-1`"
+    if name in _NOTHING:
+        fitting, otherwise = [], "that there is none is written `not a has property` or `not a REL _`"
+    elif context.names.is_term("class", name):
+        fitting, otherwise = [], f"`{name}` is a class: write `a is {name}`"
+    elif name == "any":
+        fitting, otherwise = [], "write `_` for any individual"
     context.report_unknown(
         UnknownName(
             "parameter",
             written.name,
-            f"{scope.owner} has no parameter or other name `{written.name.text}`",
+            f"{scope.owner} has no parameter or other name `{name}`",
             tuple(fitting),
-            "an individual is written with its prefix: `lab:Board-1`",
+            otherwise,
             owner=scope.skill,
             repeats=scope.repeats,
         )

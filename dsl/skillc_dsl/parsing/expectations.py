@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterable
-from types import MappingProxyType
 
 import msgspec
 
@@ -76,29 +75,6 @@ def explain_where_it_belongs(token: Token) -> str:
         kind for kind, start in homes if token.type != "RBRACE" and token.type in list_following_terminals(start)
     ]
     return f"`{token}` belongs in {' or '.join(fitting)}" if fitting else ""
-
-
-_FOREIGN = MappingProxyType(
-    {
-        "then": "the braces follow the condition right away: `if C { }`",
-        "sequence": "write `seq { }`",
-        "selector": "write `sel { }`",
-        "parallel": "write `par all { }`, `par any { }`, `par race { }` or `par lead { }`",
-        "param": "write `in`, `opt`, `infer` or `out`",
-        "input": "write `in`",
-        "output": "write `out`",
-        "return": "a step succeeds or fails by itself; give a value out with `Skill(..) -> name`",
-        "/": "a comment begins with `#`",
-    }
-)
-"""Words and marks of other languages, with advice on what to write instead."""
-
-
-def advise_on_foreign_word(token: Token, before: Token | None) -> str:
-    """Return help for a word or mark of another language at the fault or right before it, or an empty string."""
-    if token == "=" and before is not None and before.isidentifier():
-        return "an argument is written `name: value`, a value is named by `let` before the steps"
-    return _FOREIGN.get(str(token)) or (_FOREIGN.get(str(before), "") if before is not None else "")
 
 
 def _set(terminals: str) -> frozenset[str]:

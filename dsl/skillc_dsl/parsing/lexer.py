@@ -28,6 +28,8 @@ _HINTS = MappingProxyType(
         "?": "parameters are read by their bare name",
     }
 )
+_MEANT = MappingProxyType({";": "", "&": "and", "&&": "and", "|": "or", "||": "or", "!": "not", "$": "", "?": ""})
+"""What replaces characters of other languages."""
 
 
 class LexerPosition(NamedTuple):
@@ -87,7 +89,7 @@ def _skip(place: LexerPosition, source: Source, tokens: list[Token], problems: l
         tokens.append(Token("STRING", f'"{stretch[1:-1]}"', start, line, column, *end))
         problems.append(_single_quotes(span, stretch))
     else:
-        problems.append(_unknown_character(span, stretch))
+        problems.append(_unknown_character(span, stretch, source.text[max(0, start - 1) : end[2] + 1]))
     return len(stretch)
 
 
@@ -105,6 +107,11 @@ def _single_quotes(span: Span, stretch: str) -> Diagnostic:
     )
 
 
-def _unknown_character(span: Span, stretch: str) -> Diagnostic:
+def _unknown_character(span: Span, stretch: str, around: str) -> Diagnostic:
     shown = stretch if stretch.isprintable() else f"U+{ord(stretch[0]):04X}"
-    return Diagnostic("unknown-character", span, f"`{shown}` means nothing here", _HINTS.get(stretch[0], "delete it"))
+    help_, meant = _HINTS.get(stretch[0], "delete it"), _MEANT.get(stretch)
+    fix = None
+    if meant is not None:
+        before, after = (" " * (bool(meant) and not side.isspace()) for side in (around[0], around[-1]))
+        fix = Fix(span, f"{before}{meant}{after}", f"write `{meant}`" if meant else "delete it", safe=False)
+    return Diagnostic("unknown-character", span, f"`{shown}` means nothing here", help_, fix=fix)

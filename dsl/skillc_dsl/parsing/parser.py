@@ -44,7 +44,7 @@ def parse_with_problems(source: Source, lexed: Outcome[tuple[Token, ...]], wrong
     named = rename_reserved(repaired.value, source.path)
     closed = close_braces(named.value, source.path)
     reported = {problem.span.line for problem in (*repaired.diagnostics, *named.diagnostics)}
-    recovery = Recovery(closed.value, source.path, reported)
+    recovery = Recovery(closed.value, source, reported)
     builder = FileBuilder(source)
     tree, too_deep = drop_too_deep(recovery.run(), source.path)
     file = builder.file(tree)

@@ -7,12 +7,9 @@ from collections.abc import Collection, Sequence
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, Misfit
 from skillc_dsl.parsing.automaton import MisfitError, Parser
-from skillc_dsl.parsing.expectations import (
-    advise_on_foreign_word,
-    describe_terminals,
-    describe_token,
-    explain_where_it_belongs,
-)
+from skillc_dsl.parsing.expectations import describe_terminals, describe_token, explain_where_it_belongs
+from skillc_dsl.parsing.foreign.constructs import show_construct
+from skillc_dsl.parsing.foreign.matching import report_foreign_form
 from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line, can_continue, list_fitting_terminals
 from skillc_dsl.parsing.lexer import empty_token_after, token_span
 from skillc_dsl.parsing.nesting import DEEPEST, report_too_deep
@@ -22,6 +19,7 @@ from skillc_dsl.parsing.reserved_names import declared_words
 from skillc_dsl.parsing.second_step import report_second_step
 from skillc_dsl.parsing.token_repairs import join_tokens
 from skillc_dsl.parsing.tokens import Branch, Token, Tree, tokens_in
+from skillc_dsl.source import Source
 
 _LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
 _MOST_STATES = 10 * DEEPEST
@@ -33,14 +31,15 @@ _CALM = 2
 
 
 class Recovery:
-    """One run over a copy of a file's tokens, which repairs change; lines in `reported` already have a problem.
+    """One run over a copy of the tokens of `source`, which repairs change; lines in `reported` already have a problem.
 
     `errors` are the places where tokens were dropped.
     """
 
-    def __init__(self, tokens: Sequence[Token], path: str, reported: Collection[int]) -> None:
+    def __init__(self, tokens: Sequence[Token], source: Source, reported: Collection[int]) -> None:
         self.tokens = list(tokens)
-        self.path = path
+        self.path = source.path
+        self._lines = source.text.split("\n")
         self.reported = reported
         self.problems: list[Diagnostic] = []
         self.errors: list[s.ErrorNode] = []
@@ -78,14 +77,16 @@ class Recovery:
             return self._give_up(index)
         if self._leave_unclosed_call(index):
             return index - 1
-        found = repair(Fault(self._parser.states, self.tokens, index, self.path))
+        fault = Fault(self._parser.states, self.tokens, index, self.path)
+        foreign = report_foreign_form(fault, self._lines)
+        found = repair(fault) if foreign is None else None
         if found is not None:
             self._report(found.problem)
             self._leave_error(index, [] if self.tokens[index] in found.tokens else [self.tokens[index]])
             self.tokens[index : index + 1] = found.tokens
             self._since = 0
             return index
-        misfit = self._misfit(before, index)
+        misfit = foreign or self._misfit(before, index)
         if misfit.span.line not in self.reported:
             self._report(misfit)
         position = self._resume(index)
@@ -173,8 +174,8 @@ class Recovery:
         if index and not expected & {"RBRACE", END} and begins_line(self.tokens, index):
             last = self.tokens[index - 1]
             span, found = token_span(last, self.path), f"something is missing after {describe_token(last)}"
-        left = self.tokens[index - 1] if index else None
-        help_ = advise_on_foreign_word(token, left) or (explain_where_it_belongs(token) if "RBRACE" in expected else "")
+        home = explain_where_it_belongs(token) if "RBRACE" in expected else ""
+        help_ = home or show_construct(self._parser.values)
         message = f"{found}: expected {describe_terminals(expected)}"
         return Misfit("syntax", span, message, help_, found=found, could_end="RBRACE" in expected)
 

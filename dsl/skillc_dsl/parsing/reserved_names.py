@@ -73,6 +73,8 @@ def _find(tokens: Sequence[Token]) -> Iterator[tuple[int, str, str]]:
             word = token[:-1]
         else:
             kind, word = _NAMED.get(before), token.value
+        if before == "IMPL" and tokens[index + 1].type != "OF":
+            kind = None
         if kind is not None and terminals.get(word) in reserved[kind]:
             yield index, kind, word
         before = token.type

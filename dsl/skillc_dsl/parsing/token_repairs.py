@@ -23,6 +23,8 @@ MEANT: Mapping[str, tuple[str, str]] = MappingProxyType(
 """Comparisons of other languages, with the terminal and text to use instead."""
 
 
+_COUNTED = frozenset(("RETRY", "REPEAT", "MAX"))
+"""What a number without a unit follows."""
 _NO_VALUES = frozenset(("COLON", "COMMA", "RPAR", "RBRACE", "RSQB"))
 
 
@@ -79,7 +81,7 @@ def _unit_length(tokens: tuple[Token, ...], index: int) -> int:
 
     Examples are `5 furlong`, `5 km/h`, and `5 N/mm`, which is tokenized as the quantity `5 N` divided by `mm`.
     """
-    if tokens[index].type not in ("QUANTITY", "NUMBER"):
+    if tokens[index].type not in ("QUANTITY", "NUMBER") or tokens[index - 1].type in _COUNTED:
         return 0
     first, second, third, fourth = (*tokens[index : index + 4], *(4 * [tokens[-1]]))[:4]
     if first.type == "QUANTITY" and second.type == "SLASH" and _touch(first, second) and _touch(second, third):
@@ -170,6 +172,8 @@ def _assigned_argument(name: Token, equal: Token, value: Token, path: str) -> tu
 def _is_split_label(tokens: tuple[Token, ...], index: int) -> bool:
     """Whether a word and a `:` at `index` do not form a label, as in `speed:0.5 m/s` or `arm : ArmDevice`."""
     if index + 2 >= len(tokens) or tokens[index + 1].type != "COLON":
+        return False
+    if tokens[index + 2].type == "EQUAL":
         return False
     is_nameless_prefix = tokens[index].type == "PREFIX" and tokens[index + 2].type == "IRI"
     return tokens[index].isidentifier() and tokens[index].line == tokens[index + 1].line and not is_nameless_prefix

@@ -1,0 +1,58 @@
+"""Conditions as other languages write them: `hasA(arm, tool)`, `Tool(x)`, a skill as a condition, `a.state is Idle`."""
+
+from __future__ import annotations
+
+from skillc_compiler.resolve.names import Names
+from skillc_compiler.resolve.scope import FileContext
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Fix
+
+
+def report_called_condition(context: FileContext, written: s.Value) -> bool:
+    """Report a call of a relation, property, class or skill where a condition is expected; whether it is one."""
+    names = context.names
+    if not isinstance(written, s.Invoke) or written.function.text in names.functions:
+        return False
+    name = written.function.text
+    kind, meant = _term(names, written)
+    if not kind and context.skills.get(name) is not None:
+        help_ = f"write `do {name}(..)` to run it, or the condition that it makes true"
+        problem = Diagnostic("unknown-function", written.span, f"the skill `{name}` is not a condition", help_)
+    elif kind:
+        message = f"the {kind} `{name}` is not written as a call"
+        fix = Fix(written.span, meant, f"write `{meant}`", safe=False)
+        problem = Diagnostic("unknown-function", written.span, message, f"write `{meant}`", fix=fix)
+    else:
+        return False
+    names.problems.append(problem)
+    return True
+
+
+def report_compared_by_is(context: FileContext, subject: s.Value, cls: s.Name) -> bool:
+    """Report the value of a property that is compared by `is`, as in `arm.deviceState is Idle`; whether it is so."""
+    if not isinstance(subject, s.Member) or context.names.is_term("class", cls.text):
+        return False
+    fix = Fix(subject.span.after.to(cls.span), f" == {cls.text}", f"write `== {cls.text}`", safe=False)
+    message = "`is` asks for the class of an individual, not for the value of a property"
+    help_ = f"write `.. == {cls.text}`; that it has no value is `not a has {subject.property.text}`"
+    context.names.problems.append(Diagnostic("unknown-class", cls.span, message, help_, fix=fix))
+    return True
+
+
+def _term(names: Names, written: s.Invoke) -> tuple[str, str]:
+    """Return the kind of term that is called, and the condition that is meant; two empty strings if it is none."""
+    name = written.function.text
+    match [_show(each) for each in written.arguments]:
+        case [subject, object_] if names.is_term("relation", name):
+            return "relation", f"{subject} {name} {object_}"
+        case [subject] if names.is_term("property", name):
+            return "property", f"{subject}.{name} == true"
+        case [subject] if names.is_term("class", name):
+            return "class", f"{subject} is {name}"
+        case _:
+            return "", ""
+
+
+def _show(value: s.Value) -> str:
+    """Return an argument as it is written, if it is a name."""
+    return value.name.text if isinstance(value, s.NameReference) else ".."

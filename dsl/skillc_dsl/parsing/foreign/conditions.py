@@ -1,0 +1,59 @@
+"""Conditions as other languages write them."""
+
+from __future__ import annotations
+
+from skillc_dsl.parsing.foreign.form import inner
+
+_NAME = r"[^\W\d]\w*(?::[^\W\d][\w-]*)?"
+_PATH = r"[^\W\d][\w:.-]*"
+_VALUE = rf"(?:\d[\d.]*(?:\s?(?!and\b|or\b)[A-Za-z][\w/]*)?|{_PATH})"
+_LESS = r"(?:<=?|>=?|==)"
+_NOT_WORDS = r"(?!(?:and|or|not|implies|pre|hold|post|goal|if|while|until|verify|never)\b)"
+_SUBJECT = rf"\b{_NOT_WORDS}{_NAME}"
+
+FORMS = (
+    inner(rf"(?P<a>{_NAME}\.{_NAME})\s+is\s+not\s+(?P<b>{_NAME})", r"\g<a> != \g<b>"),
+    inner(rf"(?P<a>{_SUBJECT})\s+is\s+not\s+(?:an?\s+)?(?P<b>{_NAME})", r"not \g<a> is \g<b>"),
+    inner(rf"(?P<a>{_SUBJECT})\s+is\s+an?\s+(?P<b>{_NAME})", r"\g<a> is \g<b>"),
+    inner(rf"(?P<a>{_SUBJECT})\s+not\s+(?P<b>{_NAME})\s+(?P<c>{_NAME})", r"not \g<a> \g<b> \g<c>"),
+    inner(rf"(?P<a>{_SUBJECT})\s+(?P<b>{_NAME})\s+no\s+(?P<c>{_NAME})", r"not \g<a> \g<b> \g<c>"),
+    inner(
+        rf"(?P<a>{_VALUE})\s*(?P<b>{_LESS})\s*(?P<c>{_VALUE})\s*(?P<d>{_LESS})\s*(?P<e>{_VALUE})",
+        r"\g<a> \g<b> \g<c> and \g<c> \g<d> \g<e>",
+    ),
+    inner(
+        rf"(?P<a>(?P<d>{_PATH})\s*(?:{_LESS}|!=)\s*{_VALUE})\s+(?P<b>and|or)\s+(?=[<>=!])",
+        r"\g<a> \g<b> \g<d> ",
+    ),
+    inner(rf"(?P<a>{_PATH})\s+(?P<b>and|or)\s+(?=[<>=!])", r"\g<a> \g<b> \g<a> "),
+    inner(rf"(?P<a>{_SUBJECT})\s+has\s+(?P<b>{_NAME})\s*(?={_LESS})", r"\g<a>.\g<b> "),
+    inner(rf"(?P<a>{_SUBJECT}\s+{_NAME}\s+{_NAME})\s*={{1,2}}\s*true\b", r"\g<a>"),
+    inner(rf"(?P<a>{_SUBJECT}\s+{_NAME}\s+{_NAME})\s*={{1,2}}\s*false\b", r"not \g<a>"),
+    inner(
+        rf"(?P<a>{_PATH})\s+(?:between\s+(?P<b>{_VALUE})\s+and|in\s+(?P<d>{_VALUE})\s*\.\.)\s*(?P<c>{_VALUE})",
+        r"\g<a> >= \g<b>\g<d> and \g<a> <= \g<c>",
+    ),
+    inner(
+        rf"(?P<a>{_PATH})\s+in\s+\[(?P<b>{_VALUE}),\s*(?P<c>{_VALUE})\]",
+        r"(\g<a> == \g<b> or \g<a> == \g<c>)",
+    ),
+    inner(rf"\bhas\s*\(\s*(?P<a>{_NAME})\s*,\s*(?P<b>{_NAME})\s*\)", r"\g<a> has \g<b>"),
+    inner(rf"\bexists\s*\(\s*(?P<a>{_NAME})\.(?P<b>{_NAME})\s*\)", r"\g<a> has \g<b>"),
+    inner(rf"(?P<a>{_NAME})\.(?P<b>{_NAME})\s+exists\b", r"\g<a> has \g<b>"),
+    inner(rf"(?P<a>{_NAME})\.(?P<b>{_NAME})\(\s*(?P<c>{_NAME})\s*\)", r"\g<a> \g<b> \g<c>"),
+    inner(rf"(?P<a>{_NAME})->(?P<b>{_NAME})", r"\g<a> \g<b>"),
+    inner(r"\bfor\s+all\b", "forall"),
+    inner(r"\bthere\s+(?:exists|is)\b", "exists"),
+    inner(
+        rf"\b(?P<a>exists|forall)\s*\(?\s*(?P<b>\w+)\s*(?::|\bin\b)\s*(?P<c>{_NAME})\s*\)?\s*(?:[.:,]\s*)?"
+        r"(?:\((?P<d>.*)\)|(?P<e>[^(].*\S))\s*$",
+        r"\g<a> \g<b>: \g<c> (\g<d>\g<e>)",
+    ),
+    inner(r"\bif\s+(?P<a>.*?)\s+then\s+(?P<b>.*\S)", r"\g<a> implies \g<b>", where="LABEL"),
+    inner(rf"\b(?:delete|remove)\s+(?P<a>{_NAME}\s+{_NAME}\s+{_NAME})", r"not \g<a>"),
+    inner(r":=", "==", where="EQUALS"),
+    inner(r"\*", "_", where="UNDERSCORE"),
+    inner(r"[\[{]\s*(?P<a>[^\]}]*?)\s*[\]}]", r"\g<a>", where="NOT"),
+    inner(r"\s*,\s*", " and ", where="AND"),
+    inner(r"\s*->\s*", " implies ", where="IMPLIES"),
+)

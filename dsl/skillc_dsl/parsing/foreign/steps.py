@@ -1,0 +1,101 @@
+"""Steps as other languages write them."""
+
+from __future__ import annotations
+
+from skillc_dsl.parsing.foreign.form import inner, leading
+
+_CALL = r"[A-Z]\w*\s*\(.*\)"
+_BLOCK = r"seq|sel|try|once|invert|par\s+\w+|(?:retry|repeat)\s+\d+|timeout\s+[\d.]+\s?\w+"
+_LOOP = "write `repeat 3 { .. }`, or `while C max 10 { .. }`"
+
+FORMS = (
+    leading(r"(?:elif|elseif|elsif)\b", "else if"),
+    leading(r"otherwise\b", "else"),
+    leading(
+        r"try\s*\{(?P<a>[^{}]*)\}\s*(?:catch|except|else)\b\s*(?:\([^)]*\))?\s*\{(?P<b>[^{}]*)\}",
+        r"sel { seq {\g<a>} seq {\g<b>} }",
+    ),
+    leading(
+        r"else\b",
+        None,
+        "`else` follows the `}` of an `if`; a step that follows a failure is the next one in a `sel`",
+        "SEQ",
+    ),
+    leading(
+        r"(?:catch|except|rescue)\b\s*(?:\([^)]*\))?",
+        None,
+        "write `sel { seq { .. } seq { .. } }`: the second runs if the first fails",
+    ),
+    leading(r"finally\b", None, "what is undone however a block ends is a scoped skill: `with CALL { .. }`"),
+    leading(r"(?P<a>retry|repeat)\s*\(\s*(?P<b>\d+)\s*\)", r"\g<a> \g<b>"),
+    leading(r"(?P<a>retry|repeat)\s+(?:up\s+to|at\s+most)\s+(?P<b>\d+)(?:\s+times)?", r"\g<a> \g<b>"),
+    leading(r"(?P<a>retry|repeat)\s+(?P<b>\d+)\s*(?:times|x)\b", r"\g<a> \g<b>"),
+    leading(r"repeat\s*\{.*\}\s*until\b.*", None, "write `while not C max 10 { .. }`"),
+    leading(r"(?P<a>retry|repeat)\s*\{", r"\g<a> 3 {", r"say how often, such as `\g<a> 3 {`"),
+    leading(r"loop\s+(?P<a>\d+)(?:\s+times)?", r"repeat \g<a>"),
+    leading(r"(?:loop|forever)\b", None, _LOOP),
+    leading(r"do\s*\{.*\}\s*while\b.*", None, "write `while C max 10 { .. }`"),
+    leading(r"until\s+(?P<a>.*?)\s*\{", r"while not (\g<a>) max 10 {"),
+    leading(
+        r"while\s+(?P<a>.*?)\s*\{", r"while \g<a> max 10 {", r"say how often at most: `while \g<a> max 10 {`", "MAX"
+    ),
+    leading(r"for\s*\(\s*(?P<a>\w+)\s+(?:in|of)\s+(?P<b>.*?)\)", r"for \g<a> in \g<b>"),
+    leading(r"for\s*each\s+(?P<a>\w+)\s+(?:in|of)\b", r"for \g<a> in"),
+    leading(r"for\s+(?P<a>\w+)\s+of\b", r"for \g<a> in"),
+    leading(r"for\s+\w+\s+in\s+\d+\s*\.\.\s*(?P<a>\d+)", r"repeat \g<a>"),
+    leading(r"unless\s+(?P<a>.*?)\s*\{", r"if not (\g<a>) {"),
+    leading(r"when\b", "if"),
+    leading(r"(?:switch|match|case)\b.*", None, "write `if C { .. } else if C { .. }`"),
+    inner(r"\bthen\b\s*(?=\{)", ""),
+    leading(rf"if\s+(?P<a>[^{{}}]*?)\s*:?\s+(?P<b>{_CALL})", r"if \g<a> { \g<b> }"),
+    leading(rf"(?P<a>{_BLOCK})\s+(?P<b>{_CALL})", r"\g<a> { \g<b> }"),
+    leading(r"(?P<a>seq|sel)\s*[\[(](?P<b>.*)[\])]", r"\g<a> {\g<b>}"),
+    leading(
+        rf"(?P<a>{_BLOCK}|else|if\b.*?|for\b.*?|while\b.*?|with\b.*?)\s*:(?=\s|$)",
+        None,
+        "a block stands in braces: `{ .. }`",
+    ),
+    leading(r"with\s+(?P<a>.*\))\s+as\s+\w+", r"with \g<a>"),
+    leading(
+        r"return\b.*", "", "delete it: a step succeeds or fails by itself; a value is given out by `Skill(..) -> name`"
+    ),
+    leading(r"pass\b", ""),
+    leading(r"(?:fail|abort|throw|raise)\b.*", None, "write `check(C)`, which fails if the condition does not hold"),
+    leading(
+        r"(?:break|continue)\b",
+        None,
+        "a loop ends by its condition, `while C max 10 { .. }`; steps are left out by `if C { .. }`",
+    ),
+    leading(r"(?:assert|check|expect)\s*\((?P<a>.*)\)\s*$", r"check(\g<a>)"),
+    leading(r"(?:assert|check|expect)\s+(?P<a>[^({].*\S)", r"check(\g<a>)"),
+    leading(r"(?:print|log|echo)\b.*", "", "delete it: what happens in a run is recorded"),
+    leading(r"(?:let|var|const|val|auto)?\s*\b(?P<a>\w+)\s*:?=\s*(?P<b>[A-Z]\w*\(.*\))", r"\g<b> -> \g<a>"),
+    *(
+        leading(pattern, None, r"values are named before the steps: `let \g<a> = \g<b>` above `do`", where)
+        for pattern, where in (
+            (r"let\s+(?P<a>\w+)\s*:?=\s*(?P<b>[^=\s].*)", "SEQ"),
+            (
+                r"(?:(?:var|const|val|auto|int|float|double|bool|string|def|set)\s+)?(?P<a>\w+)\s*:?=\s*(?P<b>.*\S)",
+                "LSQB",
+            ),
+        )
+    ),
+    leading(r"(?:sleep|delay|wait)\s*\(?\s*(?P<a>\d[\d.]*)\s*\)?\s*$", r"wait \g<a> s"),
+    leading(r"(?:sleep|delay)\s*\(?\s*(?P<a>\d[\d.]*\s?\w+)\s*\)?", r"wait \g<a>"),
+    leading(r"wait\s+for\b", "wait"),
+    leading(r"wait_until\b", "wait until"),
+    leading(r"wait\s+(?!until\b)(?P<a>[^{}]*[=<>].*\S)", r"wait until \g<a>"),
+    leading(r"within\b", "timeout"),
+    leading(r"(?:[Pp]arallel\b|par(?=\s*\{))", "par all", "write `par all`, `par any`, `par race` or `par lead`"),
+    leading(r"(?:[Ss]equence|Seq)\b", "seq"),
+    leading(r"(?:[Ss]elector|[Ff]allback|Sel)\b(?=\s*\{)", "sel"),
+    leading(r"(?:[Ii]nverter|not)\b(?=\s*\{)", "invert"),
+    leading(rf"not\s+(?P<a>{_CALL})", r"invert { \g<a> }"),
+    leading(rf"(?:do|call|run|execute|await|start)\s+(?={_CALL})", ""),
+    leading(r"(?:begin|end)\b", None, "a block stands in braces: `{ .. }`"),
+    leading(r"(?P<a>\w+)\.(?P<b>[A-Z]\w*)\(\s*\)", r"\g<b>(\g<a>)"),
+    leading(r"(?P<a>\w+)\.(?P<b>[A-Z]\w*)\(", r"\g<b>(\g<a>, "),
+    leading(r"(?P<a>[A-Z]\w*)\s+(?P<b>\w+)\s*$", r"\g<a>(\g<b>)", where="LSQB"),
+    leading(r"(?P<a>[A-Z]\w*)\s*$", r"\g<a>()", where="LSQB"),
+    leading(r"(?://|/\*+|--)", "#", "a comment begins with `#`"),
+)

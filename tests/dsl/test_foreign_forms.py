@@ -1,0 +1,146 @@
+"""Forms of other languages: each gives one error, and its fix writes the form of this language."""
+
+from __future__ import annotations
+
+import pytest
+
+from skillc_dsl.edits import apply_fixes
+from skillc_dsl.parsing.parser import parse
+from skillc_dsl.source import Source
+
+PLACES = {
+    "step": "impl x of X {\n    do seq {\n        @\n        Go()\n    }\n}\n",
+    "member": "skill X {\n    in a: Arm\n    @\n    noplan\n}\n",
+    "value": "impl x of X {\n    @\n    do Go()\n}\n",
+    "head": "use skiros\n@\n    do Go()\n}\n",
+    "declaration": "use skiros\n@\n",
+    "task": 'task t {\n    scene "a.ttl"\n    @\n}\n',
+}
+FORMS = (
+    ("step", "try { Go() } catch { Turn() }", "sel { seq { Go() } seq { Turn() } }"),
+    ("step", "try { Go() } else { Turn() }", "sel { seq { Go() } seq { Turn() } }"),
+    ("step", "retry 3 times { Go() }", "retry 3 { Go() }"),
+    ("step", "retry(3) { Go() }", "retry 3 { Go() }"),
+    ("step", "retry { Go() }", "retry 3 { Go() }"),
+    ("step", "repeat up to 3 { Go() }", "repeat 3 { Go() }"),
+    ("step", "retry 3 Go()", "retry 3 { Go() }"),
+    ("step", "loop 3 { Go() }", "repeat 3 { Go() }"),
+    ("step", "while (a.x == B) { Go() }", "while (a.x == B) max 10 { Go() }"),
+    ("step", "while a.x == B {\n            Go()\n        }", "while a.x == B max 10 {\n            Go()\n        }"),
+    ("step", "until a.x == B { Go() }", "while not (a.x == B) max 10 { Go() }"),
+    ("step", "for (b in bs) { Go() }", "for b in bs { Go() }"),
+    ("step", "foreach b in bs { Go() }", "for b in bs { Go() }"),
+    ("step", "for b of bs {\n            Go()\n        }", "for b in bs {\n            Go()\n        }"),
+    ("step", "for i in 0..3 { Go() }", "repeat 3 { Go() }"),
+    ("step", "if a.x == B { Go() } elif a.x == C { Turn() }", "if a.x == B { Go() } else if a.x == C { Turn() }"),
+    ("step", "if a.x == B {\n        } elsif a.x == C {\n            Turn()\n        }", None),
+    ("step", "if a.x == B then { Go() }", "if a.x == B { Go() }"),
+    ("step", "if a.x == B: Go()", "if a.x == B { Go() }"),
+    ("step", "if a.x = B { Go() }", "if a.x == B { Go() }"),
+    ("step", "if a.x == B && a.y == C { Go() }", "if a.x == B and a.y == C { Go() }"),
+    ("step", "if a.x == B||a.y == C { Go() }", "if a.x == B or a.y == C { Go() }"),
+    ("step", "if !(a.x == B) { Go() }", "if not (a.x == B) { Go() }"),
+    ("step", "unless a.x == B { Go() }", "if not (a.x == B) { Go() }"),
+    ("step", "return", ""),
+    ("step", "pass", ""),
+    ("step", "assert a.x == B", "check(a.x == B)"),
+    ("step", "check a.x == B", "check(a.x == B)"),
+    ("step", "m = Weigh(a)", "Weigh(a) -> m"),
+    ("step", "var m = Weigh(a)", "Weigh(a) -> m"),
+    ("step", "var x = 3", None),
+    ("step", "let x = 3", None),
+    ("step", "call Go(a)", "Go(a)"),
+    ("step", "a.Go()", "Go(a)"),
+    ("step", "Go a", "Go(a)"),
+    ("step", "Go(a);", "Go(a)"),
+    ("step", "Go(a, b = c)", "Go(a, b: c)"),
+    ("step", "sleep(1 s)", "wait 1 s"),
+    ("step", "wait a.x == B", "wait until a.x == B"),
+    ("step", "parallel { Go() Turn() }", "par all { Go() Turn() }"),
+    ("step", "par {\n            Go()\n            Go()\n        }", "par all {\n            Go()\n            Go()\n        }"),
+    ("step", "sequence { Go() }", "seq { Go() }"),
+    ("step", "fallback { Go() Turn() }", "sel { Go() Turn() }"),
+    ("step", "not Go()", "invert { Go() }"),
+    ("step", "// go", "# go"),
+    ("step", "try {\n            Go()\n        } catch {\n            Turn()\n        }", None),
+    ("step", "try {\n            Go()\n        } catch (e) {\n            Turn()\n        }", None),
+    ("step", "break", None),
+    ("step", "switch (a.x) { }", None),
+    ("member", "pre a.b(c)", "pre a b c"),
+    ("member", "pre a is not Arm", "pre not a is Arm"),
+    ("member", "pre a.x is not B", "pre a.x != B"),
+    ("member", "pre a is an Arm", "pre a is Arm"),
+    ("member", "pre a not hasA b", "pre not a hasA b"),
+    ("member", "pre b hasA c or a not hasA b", "pre b hasA c or not a hasA b"),
+    ("member", "pre 1 kg < a.m < 5 kg", "pre 1 kg < a.m and a.m < 5 kg"),
+    ("member", "pre a.m > 1 kg and < 5 kg", "pre a.m > 1 kg and a.m < 5 kg"),
+    ("member", "pre a.m between 1 kg and 2 kg", "pre a.m >= 1 kg and a.m <= 2 kg"),
+    ("member", "pre a.x === B", "pre a.x == B"),
+    ("member", "pre a.x <> B", "pre a.x != B"),
+    ("member", "pre a.x = B", "pre a.x == B"),
+    ("member", "pre a.x == B, a.y == C", "pre a.x == B and a.y == C"),
+    ("member", "pre a.x == B -> a.y == C", "pre a.x == B implies a.y == C"),
+    ("member", "pre if a.x == B then a.y == C", "pre a.x == B implies a.y == C"),
+    ("member", "pre exists b in Box: a hasA b", "pre exists b: Box (a hasA b)"),
+    ("member", "pre forall b: Box, a hasA b", "pre forall b: Box (a hasA b)"),
+    ("member", "pre for all b: Box (a hasA b)", "pre forall b: Box (a hasA b)"),
+    ("member", "pre a hasA *", "pre a hasA _"),
+    ("member", "pre a hasA b == true", "pre a hasA b"),
+    ("member", "post a hasA b = false", "post not a hasA b"),
+    ("member", "post delete a hasA b", "post not a hasA b"),
+    ("member", "post a.m := 1 kg", "post a.m == 1 kg"),
+    ("member", "pre a has m == 1 kg", "pre a.m == 1 kg"),
+    ("member", "pre exists(a.m)", "pre a has m"),
+    ("member", "pre: a hasA b", "pre a hasA b"),
+    ("member", "requires a hasA b", "pre a hasA b"),
+    ("member", "ensures a hasA b", "post a hasA b"),
+    ("member", "param b: Box", "in b: Box"),
+    ("member", "in Box b", "in b: Box"),
+    ("member", "in b as Box", "in b: Box"),
+    ("member", "in b, c: Box", "in b: Box\n    in c: Box"),
+    ("member", "opt m: Mass := 1 kg", "opt m: Mass = 1 kg"),
+    ("member", "opt m: Mass = 1 kg [1 kg, 2 kg]", "opt m: Mass = 1 kg range 1 kg .. 2 kg"),
+    ("member", "in b: List[Pose]", "in b: [Pose]"),
+    ("value", "var x = 3 kg", "let x = 3 kg"),
+    ("value", "x = 3 kg", "let x = 3 kg"),
+    ("value", "let x: Mass = 3 kg", "let x = 3 kg"),
+    ("value", "let x := 3 kg", "let x = 3 kg"),
+    ("value", "priority 3", "prefer 3"),
+    ("head", "impl of X {", None),
+    ("head", "impl X {", None),
+    ("head", "impl for X {", None),
+    ("head", "impl a for X {", "impl a of X {"),
+    ("head", "impl a: X {", "impl a of X {"),
+    ("head", "impl X.a {", "impl a of X {"),
+    ("head", "impl X::a {", "impl a of X {"),
+    ("head", "implementation a of X {", "impl a of X {"),
+    ("head", "class a implements X {", "impl a of X {"),
+    ("declaration", "skill X(a: Arm) {\n    noplan\n}", None),
+    ("declaration", "skill X() { noplan }", "skill X { noplan }"),
+    ("declaration", "public skill X { noplan }", "skill X { noplan }"),
+    ("declaration", "class Blue extends Box", "class Blue < Box"),
+    ("declaration", "class Blue: Box", "class Blue < Box"),
+    ("declaration", "relation near: Box -> Box", "relation near(Box, Box)"),
+    ("declaration", "property p(Box) -> Mass", "property p(Box): Mass"),
+    ("declaration", "import motion", 'import "motion.skill"'),
+    ("declaration", "from motion import Go", 'import "motion.skill"'),
+    ("task", "goal Go(a: lab:A)", "do Go(a: lab:A)"),
+    ("task", "Go(a: lab:A)", "do Go(a: lab:A)"),
+    ("task", "run Go(a: lab:A)", "do Go(a: lab:A)"),
+    ("task", "goal: lab:A hasA lab:B", "goal lab:A hasA lab:B"),
+    ("task", "goal lab:A hasA lab:B, lab:A hasA lab:C", "goal lab:A hasA lab:B and lab:A hasA lab:C"),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("place", "written", "meant"), FORMS, ids=[written.split("\n")[0] for _, written, _ in FORMS])
+def test_form(place: str, written: str, meant: str | None) -> None:
+    text = PLACES[place].replace("@", written)
+    [problem] = parse(Source("own.skill", text)).diagnostics
+    assert problem.help or problem.fix
+    if meant is None:
+        return
+    assert problem.fix is not None
+    fixed = apply_fixes(text, [problem.fix])
+    assert fixed.replace("{  ", "{ ") == PLACES[place].replace("@", meant)
+    again = parse(Source("own.skill", fixed)).diagnostics
+    assert again == ()
