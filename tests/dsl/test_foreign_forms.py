@@ -57,7 +57,7 @@ FORMS = (
     ("step", "sleep(1 s)", "wait 1 s"),
     ("step", "wait a.x == B", "wait until a.x == B"),
     ("step", "parallel { Go() Turn() }", "par all { Go() Turn() }"),
-    ("step", "par {\n            Go()\n            Go()\n        }", "par all {\n            Go()\n            Go()\n        }"),
+    ("step", "par {\n            Go()\n        }", "par all {\n            Go()\n        }"),
     ("step", "sequence { Go() }", "seq { Go() }"),
     ("step", "fallback { Go() Turn() }", "sel { Go() Turn() }"),
     ("step", "not Go()", "invert { Go() }"),

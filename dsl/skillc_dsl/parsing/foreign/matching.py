@@ -14,6 +14,8 @@ from skillc_dsl.parsing.repairs import Fault
 from skillc_dsl.source import Span
 
 _FORMS = (*declarations.FORMS, *steps.FORMS, *conditions.FORMS)
+_LONGEST = 200
+"""The maximum length of a line in which forms are looked for, which bounds the time."""
 
 
 def report_foreign_form(fault: Fault, lines: Sequence[str]) -> Diagnostic | None:
@@ -44,6 +46,8 @@ def _places(fault: Fault) -> Iterator[Span]:
 
 def _find(form: Form, line: str, place: Span) -> re.Match[str] | None:
     """Return a match that touches a place in the line."""
+    if len(line) > _LONGEST:
+        return None
     found = form.pattern.finditer(line.partition(" #")[0])
     start, end = place.column - 1, place.end_column - 1
     return next((each for each in found if each.start("form") <= end and each.end("form") >= start), None)
