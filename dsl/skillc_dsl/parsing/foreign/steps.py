@@ -16,12 +16,6 @@ FORMS = (
         r"sel { seq {\g<a>} seq {\g<b>} }",
     ),
     leading(
-        r"else\b",
-        None,
-        "`else` follows the `}` of an `if`; a step that follows a failure is the next one in a `sel`",
-        "SEQ",
-    ),
-    leading(
         r"(?:catch|except|rescue)\b\s*(?:\([^)]*\))?",
         None,
         "write `sel { seq { .. } seq { .. } }`: the second runs if the first fails",
@@ -53,7 +47,13 @@ FORMS = (
     leading(
         rf"(?P<a>{_BLOCK}|else|if\b.*?|for\b.*?|while\b.*?|with\b.*?)\s*:(?=\s|$)",
         None,
-        "a block stands in braces: `{ .. }`",
+        r"a block stands in braces: `\g<a> { .. }`",
+    ),
+    leading(
+        r"else\b",
+        None,
+        "`else` follows the `}` of an `if`; a step that follows a failure is the next one in a `sel`",
+        "SEQ",
     ),
     leading(r"with\s+(?P<a>.*\))\s+as\s+\w+", r"with \g<a>"),
     leading(
@@ -91,7 +91,8 @@ FORMS = (
     leading(r"(?:[Ss]elector|[Ff]allback|Sel)\b(?=\s*\{)", "sel"),
     leading(r"(?:[Ii]nverter|not)\b(?=\s*\{)", "invert"),
     leading(rf"not\s+(?P<a>{_CALL})", r"invert { \g<a> }"),
-    leading(rf"(?:do|call|run|execute|await|start)\s+(?={_CALL})", ""),
+    leading(rf"(?:do|run)\s+(?={_CALL})", "", where="SEQ"),
+    leading(rf"(?:call|execute|await|start)\s+(?={_CALL})", "", where="LSQB"),
     leading(r"(?:begin|end)\b", None, "a block stands in braces: `{ .. }`"),
     leading(r"(?P<a>\w+)\.(?P<b>[A-Z]\w*)\(\s*\)", r"\g<b>(\g<a>)"),
     leading(r"(?P<a>\w+)\.(?P<b>[A-Z]\w*)\(", r"\g<b>(\g<a>, "),
