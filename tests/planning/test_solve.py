@@ -79,7 +79,7 @@ UNSOLVABLE = [
     (
         [],
         And((Holds(i("robot"), iri("at"), i("wall")), Holds(i("robot"), iri("at"), i("shelf")))),
-        "each part of the goal can be reached, but not all of them together",
+        "`t:robot at t:wall` and `t:robot at t:shelf` cannot be reached together: once the first is, Drive undoes that",
     ),
 ]
 
@@ -173,7 +173,7 @@ def test_a_plan_that_does_not_work_is_refused() -> None:
     broken = {
         "step 1, Pick: `here` does not hold: t:robot at t:dock; needed: t:robot at t:shelf": steps[1:],
         "step 3, Clean: `here` does not hold": (*steps[:2], steps[3]),
-        "the goal does not hold after the plan: board has no isClean": steps[:3],
+        "the goal does not hold after the plan: t:board has no t:isClean": steps[:3],
         "step 1, Fly: there is no such skill": (Step("Fly", {}), *steps),
         "step 1, Drive: `to` is t:arm, which is not a t:Location": (
             Step("Drive", {**steps[0].arguments, "to": iri("arm")}),

@@ -48,17 +48,28 @@ KINDS = {
     ),
     "no hand": Kind(CLEAN, " ; lib:endsIn lab:Hand-1", "", "state `lab:Arm-1 why:endsIn lab:Hand-1`"),
     "no arm": Kind(CLEAN, " ; lib:carriesArm lab:Arm-1", "", "state `lab:Cart-1 why:carriesArm lab:Arm-1`"),
-    "no force": Kind(CLEAN, " ; lib:force 8", "", "lab:Board-1 has no why:force", "Dock"),
-    "no mass": Kind(PUT, "lib:mass 0.2 ; ", "", "Part-1 has no mass"),
-    "no width": Kind(PUT, " ; lib:width 0.05", "", "Part-1 has no width"),
-    "no opening": Kind(PUT, " ; lib:opening 0.1", "", "Hand-1 has no opening"),
-    "too heavy": Kind(PUT, "lib:mass 0.2", "lib:mass 20", "lab:Part-1.mass is 20; needed: < 5"),
+    "no force": Kind(
+        CLEAN, " ; lib:force 8", "", "lab:Board-1 has no why:force: state `lab:Board-1 why:force NUMBER-IN-N`", "Dock"
+    ),
+    "no mass": Kind(PUT, "lib:mass 0.2 ; ", "", "lab:Part-1 has no why:mass: state `lab:Part-1 why:mass NUMBER-IN-kg`"),
+    "no width": Kind(
+        PUT, " ; lib:width 0.05", "", "lab:Part-1 has no why:width: state `lab:Part-1 why:width NUMBER-IN-m`"
+    ),
+    "no opening": Kind(
+        PUT, " ; lib:opening 0.1", "", "lab:Hand-1 has no why:opening: state `lab:Hand-1 why:opening NUMBER-IN-m`"
+    ),
+    "too heavy": Kind(PUT, "lib:mass 0.2", "lib:mass 20", "lab:Part-1.mass is 20 kg; needed: < 5 kg"),
     "too wide": Kind(
-        PUT, "lib:width 0.05", "lib:width 0.3", "lab:Part-1.width is 0.3; needed: < 0.1, which is lab:Hand-1.opening"
+        PUT,
+        "lib:width 0.05",
+        "lib:width 0.3",
+        "lab:Part-1.width is 0.3 m; needed: < 0.1 m, which is lab:Hand-1.opening",
     ),
     "empty battery": Kind(CLEAN, "lib:charge 80", "lib:charge 5", "lab:Cart-1.charge is 5; needed: > 10", "Door"),
     "arm in fault": Kind(CLEAN, "lib:inFault false", "lib:inFault true", "lab:Arm-1.inFault is true"),
-    "tilted board": Kind(CLEAN, "lib:tilt 0", "lib:tilt 40", "lab:Board-1.tilt is", "full|force"),
+    "tilted board": Kind(
+        CLEAN, "lib:tilt 0", "lib:tilt 0.7", "lab:Board-1.tilt is 40.107 deg; needed: < 5 deg", "full|force|rad"
+    ),
     "place that is taken for good": Kind(
         PUT,
         "lab:Board-1 a",
@@ -95,6 +106,21 @@ KINDS = {
         "lab:Hand-2 a lib:Hand ; lib:opening 0.1 .\nlab:Vase a lib:Fragile ;"
         " lib:mass 1 ; lib:width 0.04 ; lib:lies lab:Rack-1 .\nlab:Board-1 a",
         "lab:Hand-2",
+    ),
+    "two parts for one place": Kind(
+        f"{PUT} and lab:Mop-1 lies lab:Rack-1 and lab:Part-2 lies lab:Slot-1",
+        "lab:Board-1 a",
+        "lab:Part-2 a lib:Part ; lib:mass 1 ; lib:width 0.05 ; lib:lies lab:Shelf-1 .\nlab:Board-1 a",
+        "`lab:Part-2 lies lab:Slot-1` and `lab:Part-1 lies lab:Slot-1` cannot be reached together: once the first is, "
+        "`lab:Part-2 lies lab:Slot-1` holds, and Put does not start while it does",
+        "Rack",
+    ),
+    "two things in one hand": Kind(
+        f"{CLEAN} and lab:Mop-1 lies lab:Hand-1 and lab:Part-1 lies lab:Hand-1",
+        "lib:charge 80",
+        "lib:charge 80",
+        "once the first is, `lab:Mop-1 lies lab:Hand-1` holds, and Take does not start while it does",
+        "isClean",
     ),
     "relation that nothing makes": Kind(
         "lab:Shelf-1 within lab:Hall",

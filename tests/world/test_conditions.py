@@ -145,8 +145,8 @@ WORDS = [
         "`_ contain t:robot` does not hold: nothing has the relation contain to t:robot",
     ),
     (compare("arm", "state", "==", "Fault"), 't:arm.state is "Idle"; needed: "Fault"'),
-    (compare("box", "weight", "<", 2.5), "t:box.weight is 3; needed: < 2.5"),
-    (compare("eraser", "weight", "<", 2.5), "eraser has no weight"),
+    (compare("box", "weight", "<", 2.5), "t:box.weight is 3 kg; needed: < 2.5 kg"),
+    (compare("eraser", "weight", "<", 2.5), "t:eraser has no t:weight"),
     (IsA(i("box"), iri("Eraser")), "t:box is a t:Product; needed: t:Eraser"),
     (some("Board", HasProperty(X, iri("isClean"))), "t:board has no t:isClean"),
 ]
@@ -177,7 +177,7 @@ def test_what_cannot_be_decided_is_an_error_and_neither_true_nor_false(condition
 
 
 def test_a_value_that_is_missing_is_named() -> None:
-    with pytest.raises(EvaluationError, match="eraser has no weight in the world model"):
+    with pytest.raises(EvaluationError, match="t:eraser has no t:weight in the world model"):
         value_of(Arithmetic("+", Literal(1.0), PropertyOf(i("eraser"), iri("weight"))), STATE, {})
     state = STATE.with_changes([assign("eraser", "weight", 0.1)])
     assert value_of(Invoke("heavier", (PropertyOf(i("eraser"), iri("weight")),)), state, {}) == 1.1

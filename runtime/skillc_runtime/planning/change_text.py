@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence, Set
 from typing import assert_never
 
-from skillc_model.conditions import Not
+from skillc_model.conditions import Individual, Not, PropertyOf
 from skillc_model.pddl.domain import (
     ClassMeaning,
     ExclusionMeaning,
@@ -19,8 +19,9 @@ from skillc_model.read_write import terms_read, terms_written
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.formula_text import FormulaFormatter
 from skillc_runtime.planning.nearest_changes import Lack, NearestChange, Reader, find_stated
-from skillc_runtime.world.eval.explain import RelationObstacle, explain, find_obstacle
+from skillc_runtime.world.eval.explain import RelationObstacle, explain, find_missing_property, find_obstacle
 from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.quantities import placeholder
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -100,9 +101,18 @@ class ChangeText:
             if obstacle is not None:
                 self.obstacles.append(obstacle)
                 return str(obstacle)
-            return explain(condition, self._state, bindings, self._state.vocabulary)
+            missing = find_missing_property(condition, self._state, bindings)
+            cure = "" if missing is None else self._describe_statement(missing)
+            return explain(condition, self._state, bindings, self._state.vocabulary) + cure
         except EvaluationError as reason:
             return str(reason)
+
+    def _describe_statement(self, missing: PropertyOf) -> str:
+        """Return what to state of a property that an individual lacks; empty if it is computed."""
+        term = self._state.vocabulary.properties[missing.property]
+        if term.computed_by is not None or not isinstance(missing.of, Individual):
+            return ""
+        return f": state `{self._short(missing.of.iri)} {self._short(term.iri)} {placeholder(term)}`"
 
     def _describe_unused(self, terms: Set[str]) -> Iterator[str]:
         return describe_unused_skills(terms, self._problem, self._library)

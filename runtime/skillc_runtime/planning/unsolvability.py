@@ -12,6 +12,7 @@ from skillc_model.read_write import terms_read
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling, limit_current
 from skillc_runtime.planning.change_text import ChangeText, describe_class, describe_unused_skills
 from skillc_runtime.planning.formula_text import FormulaFormatter
+from skillc_runtime.planning.goal_conflicts import GoalConflict, GoalConflicts
 from skillc_runtime.planning.nearest_changes import NearestChanges
 from skillc_runtime.planning.partial_bindings import PartialBindings, unify
 from skillc_runtime.planning.plan import Step
@@ -96,11 +97,17 @@ class _Explanation:
         parts = conjuncts(goal)
         lost = [part for part in parts if not self._grounding.is_possible(part)]
         yield from (self._explain_part(part, MAX_DEPTH) for part in lost)
-        if not lost and len(parts) > 1:
-            yield "each part of the goal can be reached, but not all of them together"
-        elif not lost:
-            shown = self._formatter.format(goal)
-            yield f"`{shown}` cannot be reached: each step towards it can be done, but not without undoing another"
+        if not lost:
+            conflicts = GoalConflicts(self._posed.problem, self._posed.library, self._state, self._limit)
+            yield self._describe_conflict(conflicts.find(parts))
+
+    def _describe_conflict(self, conflict: GoalConflict) -> str:
+        *others, last = (f"`{self._formatter.format(each)}`" for each in conflict.parts)
+        if not others:
+            return f"{last} cannot be reached: each step towards it can be done, but not without undoing another"
+        once = "the first is" if len(others) == 1 else "the others are"
+        why = f": once {once}, {conflict.why}" if conflict.why else ""
+        return f"{', '.join(others)} and {last} cannot be reached together{why}"
 
     def find_causes(self, condition: Condition) -> tuple[tuple[str, ...], tuple[RelationObstacle, ...]]:
         """Return what a person may change, and what reasoners say, after the goal has been explained."""

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_model.format_type import SI_UNITS
-from skillc_rdf.vocabulary.types import NumberType, PlainType
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.data_sheet import DataSheet
+from skillc_runtime.world.state.quantities import placeholder
 from skillc_runtime.world.state.terms import ARM_SHEET, SKILLC
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -53,10 +52,4 @@ def _placeholder(state: WorldState, predicate: str) -> str:
     if term is None:
         ranges = state.vocabulary.relations[predicate].signatures
         return state.vocabulary.short(ranges[0].range).partition(":")[2].upper() if ranges else "THING"
-    match term.type:
-        case NumberType(dimension):
-            return f"NUMBER-IN-{SI_UNITS[dimension]}" if dimension in SI_UNITS else "NUMBER"
-        case PlainType("Bool"):
-            return "true"
-        case _:
-            return f'"{term.values[0]}"' if term.values else '"TEXT"'
+    return placeholder(term)

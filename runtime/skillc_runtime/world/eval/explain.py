@@ -30,11 +30,18 @@ from skillc_model.conditions import (
     Variable,
 )
 from skillc_model.format_condition import format_relation
-from skillc_rdf.vocabulary.types import Vocabulary, local_name
+from skillc_rdf.vocabulary.types import ValueType, Vocabulary, local_name
 from skillc_runtime.world.eval.conditions import evaluate
-from skillc_runtime.world.eval.expressions import Bindings, compile_expression, describe_missing_value
+from skillc_runtime.world.eval.expressions import (
+    Bindings,
+    compile_expression,
+    describe_missing_value,
+    find_missing_value,
+    type_of,
+)
 from skillc_runtime.world.state.python_calls import EvaluationError
-from skillc_runtime.world.state.values import Value, show
+from skillc_runtime.world.state.quantities import show_quantity
+from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
 LISTED = 4
@@ -67,6 +74,20 @@ def find_obstacle(condition: Condition, state: WorldState, bindings: Bindings) -
                 return None
             reason = state.axioms.computed[relation].obstacle(state, start, end)
             return None if reason is None else RelationObstacle(relation, start, end, reason)
+        case _:
+            return None
+
+
+def find_missing_property(condition: Condition, state: WorldState, bindings: Bindings) -> PropertyOf | None:
+    """Return the property, of an individual, whose missing value makes a condition false; None if that is not why."""
+    match condition:
+        case Compare(left, _, right):
+            lacking = next((each for each in (left, right) if compile_expression(each)(state, bindings) is None), None)
+            found = None if lacking is None else find_missing_value(lacking, state, bindings)
+            return found if isinstance(found, PropertyOf) else None
+        case HasProperty(subject, property_):
+            owner = _iri(subject, bindings)
+            return None if owner is None else PropertyOf(Individual(owner), property_)
         case _:
             return None
 
@@ -122,8 +143,8 @@ class _Explainer:
             case Exists(variable, cls, body):
                 found = self._those(variable, cls, body, bindings)
                 return f"{self.met(body, {**bindings, variable: found[0]})}{_more(found[1:])}"
-            case Compare(_, sign, right):
-                shown = self._reading(right, bindings)
+            case Compare(left, sign, right):
+                shown = self._reading(right, bindings, self._common_type(left, right))
                 wanted = shown if sign == "!=" else f"not {shown}" if sign == "==" else f"not {sign} {shown}"
                 return f"{self._found(condition, bindings)}; needed: {wanted}"
             case IsA(subject, _):
@@ -144,8 +165,8 @@ class _Explainer:
         match condition:
             case Holds(subject, relation, object_):
                 return self._facts(sorted(self._pairs(subject, object_, relation, bindings)), relation)
-            case Compare(left, _, _):
-                return self._reading(left, bindings)
+            case Compare(left, _, right):
+                return self._reading(left, bindings, self._common_type(left, right))
             case _:
                 return self.met(condition, bindings)
 
@@ -175,24 +196,26 @@ class _Explainer:
         for side in (left, right):
             if compile_expression(side)(self._state, bindings) is None:
                 return describe_missing_value(side, self._state, bindings)
-        found = self._reading(left, bindings)
-        needed = self._needed(sign, right) if isinstance(right, Literal) else self._compared(sign, right, bindings)
-        return f"{found}; needed: {needed}"
+        type_ = self._common_type(left, right)
+        found = self._reading(left, bindings, type_)
+        needed = self._compared(sign, right, bindings, type_)
+        return f"{found}; needed: {needed.removeprefix('== ') if isinstance(right, Literal) else needed}"
 
-    def _needed(self, sign: str, literal: Literal) -> str:
-        return show(literal.value) if sign == "==" else f"{sign} {show(literal.value)}"
+    def _common_type(self, left: Expression, right: Expression) -> ValueType | None:
+        """Return the type of two values that are compared; None if neither is known."""
+        return type_of(left, self._state.vocabulary) or type_of(right, self._state.vocabulary)
 
-    def _compared(self, sign: str, right: Expression, bindings: Bindings) -> str:
-        """Return what a value is to be compared with, such as `< 0.1, which is lab:Hand-1.opening`."""
-        value, reading = compile_expression(right)(self._state, bindings), self._reading(right, bindings)
-        shown = "missing" if value is None else self._value(value)
+    def _compared(self, sign: str, right: Expression, bindings: Bindings, type_: ValueType | None) -> str:
+        """Return what a value is to be compared with, such as `< 0.1 m, which is lab:Hand-1.opening`."""
+        value, reading = compile_expression(right)(self._state, bindings), self._reading(right, bindings, type_)
+        shown = "missing" if value is None else self._value(value, type_)
         what = reading.removesuffix(f" is {shown}")
         return f"{sign} {shown}" if what == reading else f"{sign} {shown}, which is {what}"
 
-    def _reading(self, expression: Expression, bindings: Bindings) -> str:
+    def _reading(self, expression: Expression, bindings: Bindings, type_: ValueType | None) -> str:
         """Return an expression with its value, such as `lab:Arm-1.deviceState is "Fault"`."""
         value = compile_expression(expression)(self._state, bindings)
-        shown = "missing" if value is None else self._value(value)
+        shown = "missing" if value is None else self._value(value, type_)
         match expression:
             case PropertyOf(of, property_):
                 owner = compile_expression(of)(self._state, bindings)
@@ -206,8 +229,9 @@ class _Explainer:
             case _:
                 assert_never(expression)
 
-    def _value(self, value: Value) -> str:
-        return self._short(value) if isinstance(value, str) and value in self._state.individuals else show(value)
+    def _value(self, value: Value, type_: ValueType | None) -> str:
+        known = isinstance(value, str) and value in self._state.individuals
+        return self._short(str(value)) if known else show_quantity(value, type_)
 
     def _none(self, variable: str, cls: str, body: Condition, bindings: Bindings) -> str:
         members = sorted(self._state.instances(cls))

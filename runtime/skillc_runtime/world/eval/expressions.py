@@ -18,7 +18,7 @@ from skillc_model.conditions import (
     Variable,
 )
 from skillc_model.format_type import format_type
-from skillc_rdf.vocabulary.types import local_name
+from skillc_rdf.vocabulary.types import ValueType, Vocabulary, local_name
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.world.eval.identity_cache import IdentityCache
 from skillc_runtime.world.state.properties import property_of, value_from_python
@@ -43,22 +43,51 @@ def value_of(expression: Expression, state: WorldState, bindings: Bindings) -> V
 
 def describe_missing_value(expression: Expression, state: WorldState, bindings: Bindings) -> str:
     """Return which property is missing for the value of an expression."""
+    missing, short = find_missing_value(expression, state, bindings), state.vocabulary.short
+    match missing:
+        case PropertyOf(Individual(owner), property_):
+            return f"{short(owner)} has no {short(property_)}"
+        case Invoke(function):
+            return f"{function} gives no value"
+        case _:
+            return f"{missing} has no value"
+
+
+def find_missing_value(expression: Expression, state: WorldState, bindings: Bindings) -> Expression:
+    """Return the part of an expression without a value for which the whole has none; its owner is an individual."""
     match expression:
         case PropertyOf(of, property_):
             owner = compile_expression(of)(state, bindings)
-            if owner is None:
-                return describe_missing_value(of, state, bindings)
-            return f"{local_name(str(owner))} has no {local_name(property_)}"
+            return (
+                find_missing_value(of, state, bindings)
+                if owner is None
+                else PropertyOf(Individual(str(owner)), property_)
+            )
         case Arithmetic(_, left, right):
             lacking = left if compile_expression(left)(state, bindings) is None else right
-            return describe_missing_value(lacking, state, bindings)
-        case Invoke(function, arguments):
-            for argument in arguments:
-                if compile_expression(argument)(state, bindings) is None:
-                    return describe_missing_value(argument, state, bindings)
-            return f"{function} gives no value"
+            return find_missing_value(lacking, state, bindings)
+        case Invoke(_, arguments):
+            lost = (each for each in arguments if compile_expression(each)(state, bindings) is None)
+            first = next(lost, None)
+            return expression if first is None else find_missing_value(first, state, bindings)
         case Literal() | Variable() | Individual():
-            return f"{expression} has no value"
+            return expression
+        case _:
+            assert_never(expression)
+
+
+def type_of(expression: Expression, vocabulary: Vocabulary) -> ValueType | None:
+    """Return the type that the vocabulary gives the value of an expression; None if it is not known."""
+    match expression:
+        case PropertyOf(_, property_):
+            term = vocabulary.properties.get(property_)
+            return None if term is None else term.type
+        case Invoke(function, _):
+            return vocabulary.functions[function].result if function in vocabulary.functions else None
+        case Arithmetic("+" | "-", left, right):
+            return type_of(left, vocabulary) or type_of(right, vocabulary)
+        case Arithmetic() | Literal() | Variable() | Individual():
+            return None
         case _:
             assert_never(expression)
 
