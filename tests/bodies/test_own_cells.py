@@ -148,12 +148,12 @@ TO_BIN = [PICK_A, place("Part-A", "Bin-A")]
         (
             [(BIN_A, BIN_A.replace("0.16", "0.05"))],
             TO_BIN,
-            "40 x 40 mm do not fit into lab:Bin-A, which is 42 x 42 mm, with room for the hand",
+            "40 x 40 mm do not fit into lab:Bin-A, which is 42 x 42 mm: with room for the hand they need",
         ),
         (
             [(BIN_A, BIN_A.replace("0.16", "0.12").replace("SizeZ 0.06", "SizeZ 0.12"))],
             TO_BIN,
-            "40 x 40 mm do not fit into lab:Bin-A, which is 112 x 112 mm, with room for the hand",
+            "40 x 40 mm do not fit into lab:Bin-A, which is 112 x 112 mm: with room for the hand they need",
         ),
         (
             [("PositionX 0.5 ; skiros:PositionY -0.2 ; skiros:PositionZ 0.635",

@@ -23,6 +23,9 @@ PLACE = "skillc:on lab:Table ; skillc:atX -0.05 ; skillc:atY -0.3 ."
 BOX_PLACE = "skillc:on lab:Table ; skillc:atX -0.05 ; skillc:atY 0.15 ."
 BOX = f"skiros:SizeX 0.16 ; skiros:SizeY 0.16 ; skiros:SizeZ 0.06 ;\n    {BOX_PLACE}"
 SHEET = "skillc:hasSheet"
+WALL_MM = 4
+"""The thickness of the walls of a container that states none."""
+
 IDLE = 'skillc:deviceState "Idle" ;'
 GOAL = "lab:Box-1 contain lab:Part-1 and lab:Box-2 contain lab:Part-2"
 IN_CELL = "skiros:contain lab:Pedestal, lab:Table, lab:Box-1, lab:Box-2, lab:Part-1, lab:Part-2 ."
@@ -62,12 +65,24 @@ WAYS = {
     "box with thick walls": Way(BOX, "skillc:wallThickness 0.09 ; " + BOX, "so there is no room inside"),
     "box too small": Way(BOX, BOX.replace("0.16", "0.04"), "50 x 40 mm do not fit into lab:Box-1, which is 32 x 32 mm"),
     "box upside down": Way(BOX_PLACE, BOX_PLACE[:-1] + "; skillc:roll 180 .", "lab:Box-1 is tilted by 180 deg"),
+    "box tilted": Way(
+        BOX_PLACE,
+        BOX_PLACE[:-1] + "; skillc:roll 15 .",
+        "lab:Box-1 is tilted by 15 deg, and no place of 50 x 40 mm on it is clear of lab:Table",
+    ),
+    "box tilted too far": Way(
+        BOX_PLACE,
+        BOX_PLACE[:-1] + "; skillc:roll 25 .",
+        "tilted by 25 deg, and things stand where it is 20 deg at",
+    ),
     "box far away": Way(
         BOX_PLACE,
         "skillc:on lab:Cell ; skillc:atX 0.5 ; skillc:atY 1.5 .",
-        "no free place on lab:Box-1 is within the 0.82 m",
+        "no free place on lab:Box-1 is within the 0.82 m that lab:Arm-1 reaches: the nearest is 1.79 m",
     ),
-    "full box": Way("lab:Part-2 a", BRICK, "lab:Box-1 is full: no place of 50 x 40 mm is free", "failed"),
+    "full box": Way(
+        "lab:Part-2 a", BRICK, "lab:Box-1 is full: no place of 50 x 40 mm is free beside lab:Brick", "failed"
+    ),
     "place without size": Way(
         f"lab:Box-1 a own:Box ;\n    {BOX}",
         f"lab:Box-1 a skiros:Location ;\n    {BOX_PLACE}",
@@ -199,6 +214,20 @@ def test_what_is_wrong_is_said(name: str, place: Path) -> None:
 def test_check_says_the_same(name: str, place: Path) -> None:
     result = invoke(written(place, WAYS[name]), "check", "DIR")
     assert result.exit_code == 1 and WAYS[name].says in result.output
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("height", "more_mm", "fits"), [(0.06, 0, True), (0.06, -2, False), (0.12, 0, True)])
+def test_a_box_of_the_size_that_is_said_fits(height: float, more_mm: int, fits: bool, place: Path) -> None:
+    def said(x_mm: int, y_mm: int) -> str:
+        x, y = (f"skiros:Size{axis} {(mm + 2 * WALL_MM) / 1e3:g}" for axis, mm in (("X", x_mm), ("Y", y_mm)))
+        size = BOX.replace("skiros:SizeX 0.16 ; skiros:SizeY 0.16", f"{x} ; {y}").replace("0.06", f"{height:g}")
+        return invoke(written(place, Way(BOX, size, "")), "check", "DIR").output
+
+    needed = re.search(r"with room for the hand they need (\d+) x (\d+) mm", said(32, 32))
+    assert needed is not None
+    x_mm, y_mm = map(int, needed.groups())
+    assert ("do not fit into" not in said(x_mm + more_mm, y_mm + more_mm)) == fits
 
 
 @pytest.mark.slow

@@ -13,8 +13,8 @@ from skillc_model.traversal import conjuncts
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import moves_with
-from skillc_runtime.world.space.free_places import Lack, PlaceError
 from skillc_runtime.world.space.grip_force import GraspError
+from skillc_runtime.world.space.no_place import Lack, PlaceError
 from skillc_runtime.world.space.occupants import Occupant
 from skillc_runtime.world.space.place_foresight import place_problem
 from skillc_runtime.world.space.placing_poses import find_placing_pose
@@ -43,6 +43,7 @@ CURES: Final[MappingProxyType[Lack, str]] = MappingProxyType(
         "support": "turn it upright",
         "room": "use a larger one, or a smaller thing",
         "free room": "take something out of it, or use a larger one",
+        "clearance": "move it, or what is in the way",
         "headroom": "use a place that is open above",
         "reach": "move it nearer to the arm",
     }
@@ -51,7 +52,7 @@ CURES: Final[MappingProxyType[Lack, str]] = MappingProxyType(
 NAMES: Final[MappingProxyType[Lack, str]] = MappingProxyType({"reach": "out-of-reach", "size": "no-support"})
 """The diagnostics that are not `no-room`."""
 
-UNCERTAIN: Final[tuple[Lack, ...]] = ("free room", "size")
+UNCERTAIN: Final[tuple[Lack, ...]] = ("free room", "clearance", "size")
 """What may have changed when a thing is put down: what is in a container now, or what stands at a place."""
 
 PLACE_POSE: Final = "skillc_runtime.world.handling:place_pose"

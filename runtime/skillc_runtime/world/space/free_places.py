@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
@@ -13,6 +12,7 @@ from skillc_runtime.world.space.frame_tree import frame_tree_of
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.grasp_geometry import APPROACH_M
 from skillc_runtime.world.space.hand_shape import HandShape, read_hand_shape
+from skillc_runtime.world.space.no_place import Neighbour, PlaceError, Room
 from skillc_runtime.world.space.occupants import Occupant, read_occupants
 from skillc_runtime.world.space.oriented_box import CORNERS
 from skillc_runtime.world.space.overhead import HAND_ABOVE_M, roof_problem
@@ -20,7 +20,6 @@ from skillc_runtime.world.space.shapes import solids_of
 from skillc_runtime.world.space.solids import Solid
 from skillc_runtime.world.space.supports import QUARTERS, Support, face_away, find_supports, tilt_problem
 from skillc_runtime.world.state.data_sheet import sheet_of
-from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.terms import HELD_SIDEWAYS
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -43,16 +42,6 @@ NEAR_BASE_M = 0.25
 
 SIDEWAYS = tuple(np.array([[0.0, s, c], [0.0, -c, s], [1.0, 0.0, 0.0]]) for c, s in ((1, 0), (0, 1), (0, -1)))
 """The rotations (3, 3) of a horizontal hand with its x upwards, in the frame of a support: first as its x points."""
-
-Lack: TypeAlias = Literal["size", "support", "room", "free room", "headroom", "reach"]
-
-
-class PlaceError(EvaluationError):
-    """A thing cannot be put down; the message says why, with numbers, and `lack` what there is not."""
-
-    def __init__(self, message: str, lack: Lack = "support") -> None:
-        super().__init__(message)
-        self.lack = lack
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,7 +78,7 @@ def free_hand_pose(state: WorldState, arm: str, gripper: str, thing: str, to: st
     failures = []
     for support in supports:
         neighbours = [
-            corners for each in others if each.individual != support.individual for corners in _in_frame(each, support)
+            solid for each in others if each.individual != support.individual for solid in _in_frame(each, support)
         ]
         found = _roof_problem(state, support, load) or _best(state, arm, support, load, neighbours)
         if isinstance(found, Pose):
@@ -148,36 +137,42 @@ def _room_of_horizontal(hand: HandShape, width_m: float) -> Array:
     return corners
 
 
-def _in_frame(other: Occupant, support: Support) -> Iterator[tuple[Array, Array]]:
-    """Yield the lowest and highest corner (3,) in m of each solid of what takes up room, in the frame of a support."""
+def _in_frame(other: Occupant, support: Support) -> Iterator[Neighbour]:
+    """Yield the solids of what takes up room, in the frame of a support."""
     for box in other.boxes:
         local = (box.corners - support.middle.position) @ support.middle.rotation
-        yield local.min(axis=0), local.max(axis=0)
+        low, high = local.min(axis=0), local.max(axis=0)
+        over = bool((abs((low + high)[:2] / 2.0) < support.half).all())
+        yield Neighbour(other.individual, low, high, other.movable and over)
 
 
-def _best(
-    state: WorldState, arm: str, support: Support, load: Load, neighbours: list[tuple[Array, Array]]
-) -> Pose | PlaceError:
+def _best(state: WorldState, arm: str, support: Support, load: Load, neighbours: list[Neighbour]) -> Pose | PlaceError:
     """Return the free hand pose nearest to the middle of a support, or why there is none."""
-    short, fits, free = state.vocabulary.short, False, False
     sheet, base = sheet_of(state, arm), pose(state, arm)
     reach_m, shoulder = sheet.number("reach"), base.apply(np.array([0.0, 0.0, sheet.number("shoulderHeight")]))
+    blockers: list[Neighbour] = []
+    distances_m: list[float] = []
     for hand in _hands(support, load):
-        fits = True
-        if not _is_free(hand, load, neighbours):
+        blocker = _find_blocker(hand, load, neighbours)
+        if blocker is not None:
+            blockers.append(blocker)
             continue
-        free, found = True, support.middle @ hand
+        found = support.middle @ hand
         away = found.position - base.position
-        if np.linalg.norm(found.position - shoulder) < 0.95 * reach_m and np.hypot(*away[:2]) > NEAR_BASE_M:
+        distances_m.append(float(np.linalg.norm(found.position - shoulder)))
+        if distances_m[-1] < 0.95 * reach_m and np.hypot(*away[:2]) > NEAR_BASE_M:
             return found
-    size = np.ptp(load.corners, axis=0)
-    where, wide = short(support.individual), f"{1e3 * size[0]:.0f} x {1e3 * size[1]:.0f} mm"
-    if not fits:
-        room = f"{2e3 * support.half[0]:.0f} x {2e3 * support.half[1]:.0f} mm"
-        return PlaceError(f"{wide} do not fit into {where}, which is {room}, with room for the hand", "room")
-    if not free:
-        return PlaceError(f"{where} is full: no place of {wide} is free", "free room")
-    return PlaceError(f"no free place on {where} is within the {reach_m:.2f} m that {short(arm)} reaches", "reach")
+    room = Room(state, support, np.ptp(load.corners, axis=0)[:2], _needed(support, load))
+    if distances_m:
+        return room.describe_distance(arm, reach_m, distances_m)
+    return room.describe_blocked(blockers) if blockers else room.describe_misfit()
+
+
+def _needed(support: Support, load: Load) -> Array:
+    """Return the sides (2,) in m of the least support in whose middle the load stands, turned as it fits best."""
+    rooms = [_room(support, load, rotation)[1:] for rotation in load.turns]
+    sides = [2.0 * np.maximum(-low, high) for low, high in rooms]
+    return min(sides, key=lambda each: float(np.maximum(each - 2.0 * support.half, 0.0).sum()))
 
 
 def _hands(support: Support, load: Load) -> Iterator[Pose]:
@@ -248,14 +243,14 @@ def _extent(corners: Array, rotation: Array) -> tuple[Array, Array]:
     return turned.min(axis=0), turned.max(axis=0)
 
 
-def _is_free(hand: Pose, load: Load, neighbours: list[tuple[Array, Array]]) -> bool:
-    """Whether nothing is where the load and the fingers will be, nor above them but for the hand."""
+def _find_blocker(hand: Pose, load: Load, neighbours: list[Neighbour]) -> Neighbour | None:
+    """Return what is where the load and the fingers will be, or above them but for the hand; None if nothing is."""
     for corners, gap_m in ((load.corners, GAP_M), (load.fingers, 0.0)):
         low, high = _extent(corners, hand.rotation)
         low, high = low + hand.position, high + hand.position
-        for other_low, other_high in neighbours:
-            beside = (other_low[:2] >= high[:2] + gap_m).any() or (other_high[:2] <= low[:2] - gap_m).any()
-            above = other_low[2] > hand.position[2] + HAND_ABOVE_M
-            if not beside and not above and other_high[2] > low[2] + 0.001:
-                return False
-    return True
+        for other in neighbours:
+            beside = (other.low[:2] >= high[:2] + gap_m).any() or (other.high[:2] <= low[:2] - gap_m).any()
+            above = other.low[2] > hand.position[2] + HAND_ABOVE_M
+            if not beside and not above and other.high[2] > low[2] + 0.001:
+                return other
+    return None

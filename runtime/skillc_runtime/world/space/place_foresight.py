@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.space.frames import frame_name, pose, relocation_changes
-from skillc_runtime.world.space.free_places import PlaceError, free_hand_pose
+from skillc_runtime.world.space.free_places import free_hand_pose
 from skillc_runtime.world.space.grasp_geometry import is_sideways
 from skillc_runtime.world.space.grasps import find_grasps
+from skillc_runtime.world.space.no_place import PlaceError
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation, SetProperty
 from skillc_runtime.world.state.terms import CONTAIN, HELD_SIDEWAYS
 from skillc_runtime.world.state.world_state import WorldState

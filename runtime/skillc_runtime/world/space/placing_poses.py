@@ -7,8 +7,8 @@ from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.bounding_boxes import TOUCH_M
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose, size
-from skillc_runtime.world.space.free_places import PlaceError
 from skillc_runtime.world.space.hand_shape import overlaps
+from skillc_runtime.world.space.no_place import PlaceError
 from skillc_runtime.world.space.occupants import Occupant, read_occupants
 from skillc_runtime.world.space.oriented_box import OrientedBox
 from skillc_runtime.world.state.terms import HAS_A, IS_TAKEN, PLACING_POSE

@@ -72,10 +72,16 @@ def clearance_m(state: WorldState, to: str) -> float:
 
 def tilt_problem(state: WorldState, support: Support) -> str | None:
     """Return that a support is tilted too far for anything to stand on it; None if it is not."""
-    tilt_deg = np.degrees(np.arccos(np.clip(support.middle.rotation[2, 2], -1.0, 1.0)))
-    if tilt_deg <= GREATEST_TILT_DEG:
+    tilt = tilt_deg(support)
+    if tilt <= GREATEST_TILT_DEG:
         return None
-    return f"{state.vocabulary.short(support.individual)} is tilted by {tilt_deg:.0f} deg, so nothing stands in it"
+    where = state.vocabulary.short(support.individual)
+    return f"{where} is tilted by {tilt:.0f} deg, and things stand where it is {GREATEST_TILT_DEG:.0f} deg at most"
+
+
+def tilt_deg(support: Support) -> float:
+    """Return by how much a support is tilted, in degrees."""
+    return float(np.degrees(np.arccos(np.clip(support.middle.rotation[2, 2], -1.0, 1.0))))
 
 
 def face_away(support: Support, base: Array) -> Support:

@@ -1,0 +1,94 @@
+"""Says why there is no free place on a carrier: how much room there is and is needed, and what is in the way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from skillc_runtime.motion.arrays import np
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.space.supports import Support, tilt_deg
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
+
+Lack: TypeAlias = Literal["size", "support", "room", "free room", "clearance", "headroom", "reach"]
+
+LEVEL_DEG = 1.0
+"""What is tilted less is level."""
+
+MOST_NAMED = 3
+
+
+class PlaceError(EvaluationError):
+    """A thing cannot be put down; the message says why, with numbers, and `lack` what there is not."""
+
+    def __init__(self, message: str, lack: Lack = "support") -> None:
+        super().__init__(message)
+        self.lack = lack
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Neighbour:
+    """A solid of what takes up room: its lowest and highest corner (3,) in m, in the frame of a support.
+
+    lies_there: whether it lies free, with its middle over the support.
+    """
+
+    individual: str
+    low: Array
+    high: Array
+    lies_there: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Room:
+    """What is looked for on a support: room for a thing of a size (2,) in m, which with the hand needs (2,) in m."""
+
+    state: WorldState
+    support: Support
+    size: Array
+    needed: Array
+
+    def describe_misfit(self) -> PlaceError:
+        """Return that the thing is too large for the support."""
+        return PlaceError(
+            f"{_shown(self.size)} do not fit into {self._where}, which is {_shown(2.0 * self.support.half)}: "
+            f"with room for the hand they need {_shown(np.ceil(1e3 * self.needed - 1e-6) / 1e3)}",
+            "room",
+        )
+
+    def describe_blocked(self, blockers: Sequence[Neighbour]) -> PlaceError:
+        """Return what is in the way wherever the thing would be put."""
+        names = sorted({self.state.vocabulary.short(each.individual) for each in blockers})
+        more = f" and {len(names) - MOST_NAMED} more" if names[MOST_NAMED:] else ""
+        listed = " and ".join(names[:MOST_NAMED]) + more
+        wide, tilt = _shown(self.size), tilt_deg(self.support)
+        if any(each.lies_there for each in blockers):
+            room = f"with room for the hand they need {_shown(self.needed)} of {_shown(2.0 * self.support.half)}"
+            return PlaceError(f"{self._where} is full: no place of {wide} is free beside {listed}, {room}", "free room")
+        if tilt > LEVEL_DEG:
+            return PlaceError(
+                f"{self._where} is tilted by {tilt:.0f} deg, and no place of {wide} on it is clear of {listed}"
+            )
+        return PlaceError(f"no place of {wide} on {self._where} is clear of {listed}", "clearance")
+
+    def describe_distance(self, arm: str, reach_m: float, distances_m: Sequence[float]) -> PlaceError:
+        """Return that the free places are too far from the shoulder of an arm, or too near to its base."""
+        short = self.state.vocabulary.short(arm)
+        if min(distances_m) < reach_m:
+            return PlaceError(f"the free places on {self._where} are at the base of {short} or at its limit", "reach")
+        return PlaceError(
+            f"no free place on {self._where} is within the {reach_m:.2f} m that {short} reaches: "
+            f"the nearest is {min(distances_m):.2f} m from its shoulder",
+            "reach",
+        )
+
+    @property
+    def _where(self) -> str:
+        where = self.state.vocabulary.short(self.support.individual)
+        return f"board {self.support.board} of {where}" if self.support.board else where
+
+
+def _shown(sides: Array) -> str:
+    return f"{1e3 * sides[0]:.0f} x {1e3 * sides[1]:.0f} mm"
