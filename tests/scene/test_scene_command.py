@@ -238,6 +238,18 @@ def test_random_edits_keep_comments_and_all_other_statements(cell: Path) -> None
     assert done > 3
 
 
+def test_a_thing_is_in_the_place_of_what_it_stands_on(cell: Path) -> None:
+    size = ("--size", "0.04", "0.04", "0.06")
+    lone = scene("add", str(cell), "Part-C", "Product", *size, "--on", "Table-1")
+    assert "lab:Part-C added; no place contains it, so no skill finds it: say --in PLACE" in lone.stderr
+    on_floor = scene("add", str(cell), "Table-2", "Furniture", *size, "--on", "Here", "--at", "2", "0")
+    assert "lab:Table-2 added, in lab:Here" in on_floor.stderr
+    assert "in lab:Here" in scene("add", str(cell), "Part-D", "Product", *size, "--on", "Table-2").stderr
+    assert cell.read_text("utf-8").count("skiros:contain lab:Table-2, lab:Part-D") == 1
+    robot = change(cell, "add", "Robot-1", "FixedRobot", "--on", "Here")
+    assert not any("contain" in line for line in robot)
+
+
 def test_the_hull_of_points_has_all_of_them_inside() -> None:
     points = np.random.default_rng(4).normal(size=(60, 2))
     hull = convex_hull(points)

@@ -22,9 +22,14 @@ from skillc_runtime.world.state.terms import (
     BASE_FRAME_ID,
     BOARD,
     CONTAIN,
+    CONTAINER,
     FACE,
+    FIXTURE,
     FRAME_ID,
+    FURNITURE,
     HAS_A,
+    LOCATION,
+    MANIPULATABLE,
     OFFSET,
     ON,
     ORIENTATION,
@@ -37,6 +42,9 @@ from skillc_runtime.world.state.terms import (
 from skillc_runtime.world.state.world_state import WorldState
 
 LABEL = "http://www.w3.org/2000/01/rdf-schema#label"
+CONTAINED = (MANIPULATABLE, CONTAINER, FURNITURE, FIXTURE, LOCATION)
+"""Classes of what skills find by the place that contains it."""
+
 Number: TypeAlias = str
 """A number as it was typed, so that 0.20 is written as 0.20."""
 
@@ -87,9 +95,10 @@ class ThingRequest:
 
 
 def add_thing(scene: Path, state: WorldState, thing: ThingRequest, pose: PoseRequest) -> str:
-    """Add a thing to a scene file and return its short name. ServiceError, and the file unchanged, if it has errors.
+    """Add a thing to a scene file and return what was added. ServiceError, and the file unchanged, if it has errors.
 
-    A thing with a size of which nothing says where it is stands on the floor of the only workstation.
+    A thing with a size of which nothing says where it is stands on the floor of the only workstation. The place that
+    contains what it stands on contains it, unless another is named.
     """
     file = SceneFile(scene, state)
     if (thing.size or pose.at) and not (thing.inside or pose.on or pose.position):
@@ -104,8 +113,9 @@ def add_thing(scene: Path, state: WorldState, thing: ThingRequest, pose: PoseReq
         body.append((WEIGHT, _number(thing.weight)))
     if thing.shape is not None:
         body.append((SHAPE, ox.Literal(thing.shape)))
-    if thing.inside is not None:
-        file.editor.add(file.find_thing(thing.inside), CONTAIN, ox.NamedNode(iri))
+    place = file.find_thing(thing.inside) if thing.inside else _find_place(file, state, cls, pose.on)
+    if place is not None:
+        file.editor.add(place, CONTAIN, ox.NamedNode(iri))
     slots = make_slots(iri, cls, thing.size, thing.slots, state) if thing.slots else ()
     rack: Pairs = [(FRAME_ID, ox.Literal(frame_of(iri))), *((HAS_A, ox.NamedNode(each.iri)) for each in slots)]
     placed = [*_place(file, pose), *_turn(pose, in_frame=bool(pose.position))]
@@ -113,7 +123,19 @@ def add_thing(scene: Path, state: WorldState, thing: ThingRequest, pose: PoseReq
     for each in slots:
         file.append(each.iri, each.rows)
     file.write()
-    return state.vocabulary.short(iri)
+    short = state.vocabulary.short
+    if place is not None:
+        return f"{short(iri)} added, in {short(place)}"
+    lost = any(state.vocabulary.is_a(cls, each) for each in CONTAINED)
+    return f"{short(iri)} added" + ("; no place contains it, so no skill finds it: say --in PLACE" if lost else "")
+
+
+def _find_place(file: SceneFile, state: WorldState, cls: str, on: str | None) -> str | None:
+    """Return the place in which a thing of a class is that stands on another; None if there is none."""
+    if on is None or not any(state.vocabulary.is_a(cls, each) for each in CONTAINED):
+        return None
+    carrier = file.find_thing(on)
+    return carrier if state.is_a(carrier, WORKSTATION) else min(state.subjects(CONTAIN, carrier), default=None)
 
 
 def _find_floor(state: WorldState) -> str:

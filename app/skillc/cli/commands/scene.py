@@ -140,7 +140,7 @@ def new(scene: Path, arm: str | None) -> None:
 @click.option("--weight", type=NUMBER, metavar="KG", help="The mass in kg.")
 @click.option("--shape", metavar="SHAPE", help="The shape within its size, such as cylinder; else that of its class.")
 @click.option("--label", metavar="TEXT", help="A text for people.")
-@click.option("--in", "inside", metavar="PLACE", help="The place that contains the thing.")
+@click.option("--in", "inside", metavar="PLACE", help="The place that contains it; else that of what it is on.")
 @click.option("--slots", nargs=2, type=int, metavar="NX NY", help="Slots for parts in a rack, along its x and y.")
 @pose_options
 @LIBRARY
@@ -163,7 +163,7 @@ def add(scene: Path, name: str, cls: str, library: Path | None, **given: Any) ->
         given["slots"] or (),
     )
     with _opened(scene, library) as (path, state):
-        print_remark(f"{scene}: {add_thing(path, state, thing, _pose(given))} added")
+        print_remark(f"{scene}: {add_thing(path, state, thing, _pose(given))}")
 
 
 @command.command(cls=Command)
