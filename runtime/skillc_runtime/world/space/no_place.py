@@ -65,8 +65,10 @@ class Room:
         listed = " and ".join(names[:MOST_NAMED]) + more
         wide, tilt = _shown(self.size), tilt_deg(self.support)
         if any(each.lies_there for each in blockers):
-            room = f"with room for the hand they need {_shown(self.needed)} of {_shown(2.0 * self.support.half)}"
-            return PlaceError(f"{self._where} is full: no place of {wide} is free beside {listed}, {room}", "free room")
+            room = f"with the hand it takes {_shown(self.needed)} of {_shown(2.0 * self.support.half)}"
+            return PlaceError(
+                f"{self._where} is full: no place of {wide} is free beside {listed}, and {room}", "free room"
+            )
         if tilt > LEVEL_DEG:
             return PlaceError(
                 f"{self._where} is tilted by {tilt:.0f} deg, and no place of {wide} on it is clear of {listed}"
@@ -77,7 +79,11 @@ class Room:
         """Return that the free places are too far from the shoulder of an arm, or too near to its base."""
         short = self.state.vocabulary.short(arm)
         if min(distances_m) < reach_m:
-            return PlaceError(f"the free places on {self._where} are at the base of {short} or at its limit", "reach")
+            return PlaceError(
+                f"every free place on {self._where} is too near to the base of {short}, or less than 5 % within the "
+                f"{reach_m:.2f} m that it reaches",
+                "reach",
+            )
         return PlaceError(
             f"no free place on {self._where} is within the {reach_m:.2f} m that {short} reaches: "
             f"the nearest is {min(distances_m):.2f} m from its shoulder",
