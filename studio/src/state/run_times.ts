@@ -1,4 +1,4 @@
-// When operations were submitted, as their ids say.
+// When operations were submitted, began and ended.
 import type { OperationStatus } from "../api/types";
 import { ENDS } from "./studio";
 import { formatTime } from "./text";
@@ -8,13 +8,6 @@ export function startOf(operation: OperationStatus): string {
   return /\d{8}T\d{6}Z/.exec(operation.id)?.[0] ?? "";
 }
 
-/** The times of an operation, as a server gives them; null or nothing if they are not known. */
-interface Times {
-  submitted_at?: string | null;
-  started_at?: string | null;
-  ended_at?: string | null;
-}
-
 /** Order operations: what goes on or waits first, then the last one that was submitted. */
 export function newestFirst(one: OperationStatus, other: OperationStatus): number {
   const [ended, otherEnded] = [one, other].map((each) => ENDS.includes(each.state));
@@ -22,11 +15,11 @@ export function newestFirst(one: OperationStatus, other: OperationStatus): numbe
   return submittedOf(other).localeCompare(submittedOf(one));
 }
 
-const submittedOf = (operation: OperationStatus & Times): string =>
+const submittedOf = (operation: OperationStatus): string =>
   `${startOf(operation)} ${operation.submitted_at ?? ""}`;
 
 /** Return how long an operation took, or nothing if it goes on or that is not known. */
-export function formatDuration({ started_at: from, ended_at: to }: OperationStatus & Times): string {
+export function formatDuration({ started_at: from, ended_at: to }: OperationStatus): string {
   if (typeof from !== "string" || typeof to !== "string") return "";
   return formatTime((Date.parse(to) - Date.parse(from)) / 1000);
 }
@@ -40,4 +33,15 @@ export function formatStart(operation: OperationStatus): string {
     dateStyle: "short",
     timeStyle: "medium",
   });
+}
+
+/** Return when an operation was submitted, began and ended by the clock of this machine, and how long it took. */
+export function describeTimes(operation: OperationStatus): string {
+  const { submitted_at: submitted, started_at: started, ended_at: ended } = operation;
+  const clock = (at: string): string => new Date(at).toLocaleTimeString(undefined, { timeStyle: "medium" });
+  const said = Object.entries({ submitted, started, ended }).flatMap(([name, at]) =>
+    typeof at === "string" ? [`${name} ${clock(at)}`] : [],
+  );
+  const took = formatDuration(operation);
+  return said.join(", ") + (took === "" ? "" : `: ${took}`);
 }

@@ -1,13 +1,17 @@
 // Signals over time in a ring, for plots: columns of equal length with a common time.
 import type { Sample } from "../api/types";
+import { localName } from "./text";
 
-/** A line of a plot: `unit` decides the axis. */
+/** A line of a plot: `unit` decides the axis; lines of the same `pair`, by default its name, have one colour. */
 export interface Line {
   name: string;
   unit: string;
+  pair?: string;
+  isDashed?: boolean;
 }
 
-export type Kind = "force" | "contact" | "speed" | "commanded speed";
+const KINDS = ["force", "contact", "speed", "commanded speed"] as const;
+export type Kind = (typeof KINDS)[number];
 
 /** A line that can be chosen by its kind, and by what it is of: an arm or a tool. */
 export interface SignalLine extends Line {
@@ -18,7 +22,15 @@ export interface SignalLine extends Line {
 /** Return the line of a kind of signal of a device, called alike live and in recordings. */
 export function makeLine(kind: Kind, of: string): SignalLine {
   const unit = kind === "force" || kind === "contact" ? "N" : "m/s";
-  return { name: `${kind} ${kind === "force" ? "at" : "of"} ${of}`, unit, kind, of };
+  const isDashed = kind === "commanded speed";
+  const pair = `${isDashed ? "speed" : kind} ${of}`;
+  return { name: `${kind} ${kind === "force" ? "at" : "of"} ${of}`, unit, pair, isDashed, kind, of };
+}
+
+/** Return the number of the colour of each line, from 0: those of a pair have the same one. */
+export function colourLines(lines: readonly Line[]): number[] {
+  const pairs = [...new Set(lines.map((each) => each.pair ?? each.name))];
+  return lines.map((each) => pairs.indexOf(each.pair ?? each.name));
 }
 
 /** How far apart samples may be in s of the cell: after more, what was between was missed, and is a gap. */
@@ -79,10 +91,32 @@ export function norm(vector: readonly number[]): number {
   return Math.hypot(...vector);
 }
 
-/** Return what is plotted of an arm live: the force at its wrist in N, the speeds of its tool and of its reference in m/s. */
-export function measureArm(sample: Sample, arm: string): [force: number, speed: number, commanded: number] {
-  const now = sample.arms[arm];
-  const length = (vector: readonly number[] | null | undefined): number =>
-    vector == null ? NaN : norm(vector.slice(0, 3));
-  return [length(now?.wrench), length(now?.velocity), length(now?.commanded)];
+/** Return what is plotted of an arm live: the force at its wrist in N if it has a sensor, the speeds of its tool and of its reference in m/s. */
+export function measureArm({ arms }: Sample, arm: string): number[] {
+  const { wrench, velocity, commanded } = arms[arm] ?? {};
+  const vectors = [...(wrench == null ? [] : [wrench]), velocity, commanded];
+  return vectors.map((each) => (each === undefined ? NaN : norm(each.slice(0, 3))));
+}
+
+/** Return the lines of what `measureArm` measures of an arm. */
+export function armLines({ arms }: Sample, arm: string): SignalLine[] {
+  const kinds: Kind[] = [
+    ...(arms[arm]?.wrench == null ? [] : (["force"] as const)),
+    "speed",
+    "commanded speed",
+  ];
+  return kinds.map((each) => makeLine(each, localName(arm)));
+}
+
+/** Return the numbers of lines in the order in which they are shown: by device, each from what it feels to how it moves. */
+export function byDevice(lines: readonly SignalLine[]): number[] {
+  const devices = [...new Set(lines.map((each) => each.of))];
+  const rank = ({ of, kind }: SignalLine): number => devices.indexOf(of) * KINDS.length + KINDS.indexOf(kind);
+  const ranked = lines.map((each, index) => ({ index, rank: rank(each) }));
+  return ranked.sort((one, other) => one.rank - other.rank).map((each) => each.index);
+}
+
+/** Return what lines are called beside each other: a device is named once. */
+export function shortNames(lines: readonly SignalLine[]): string[] {
+  return lines.map(({ of, kind }, at) => (lines[at - 1]?.of === of ? kind : `${of} ${kind}`));
 }

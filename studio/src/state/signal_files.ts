@@ -1,4 +1,5 @@
 // Signals as files: a table, and a drawing of what is plotted.
+import { colourLines, type Line } from "./series";
 import type { Plotted } from "./signals";
 
 /** Return a plot as a table with a row for each time; what is not known is empty. */
@@ -10,18 +11,32 @@ export function writeCsv({ lines, columns }: Plotted): string {
 }
 
 const [WIDTH, HEIGHT, LEFT, TOP, LABEL] = [960, 180, 64, 28, 18];
-const COLOURS = ["#0b62c4", "#b3541e", "#1a7f4b", "#8a3fb0", "#a3112b", "#5b6570"];
+const COLOURS = ["#00687d", "#944406", "#6d3fb0", "#3f7a12", "#a3266d", "#6b5b00", "#2457c5", "#4d5560"];
+/** How many names stand beside each other, and how wide each is. */
+const [NAMES, NAME] = [4, 220];
 
 /** Return a plot as a drawing, a field for each unit, between two times in s. */
 export function drawSvg({ lines, columns }: Plotted, [from, to]: readonly [number, number]): string {
   const units = [...new Set(lines.map((each) => each.unit))];
-  const fields = units.map((unit, index) => {
+  const colours = colourLines(lines);
+  let height = 0;
+  const fields = units.map((unit) => {
     const chosen = lines.flatMap((line, at) =>
-      line.unit === unit ? [{ line, values: columns[at + 1] ?? [] }] : [],
+      line.unit === unit
+        ? [
+            {
+              line,
+              values: columns[at + 1] ?? [],
+              colour: COLOURS[(colours[at] ?? 0) % COLOURS.length] ?? "",
+            },
+          ]
+        : [],
     );
-    return drawField(unit, chosen, columns[0] ?? [], [from, to], index * (HEIGHT + 3 * LABEL));
+    const top = height + LABEL * (Math.ceil(chosen.length / NAMES) - 1);
+    height = top + HEIGHT + 3 * LABEL;
+    return drawField(unit, chosen, columns[0] ?? [], [from, to], top);
   });
-  const height = units.length * (HEIGHT + 3 * LABEL) + TOP;
+  height += TOP;
   return (
     `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${WIDTH} ${height}" font-family="sans-serif" font-size="12">` +
     `<rect width="${WIDTH}" height="${height}" fill="white"/>${fields.join("")}</svg>\n`
@@ -29,8 +44,9 @@ export function drawSvg({ lines, columns }: Plotted, [from, to]: readonly [numbe
 }
 
 interface Drawn {
-  line: { name: string };
+  line: Line;
   values: readonly (number | null)[];
+  colour: string;
 }
 
 function drawField(
@@ -52,10 +68,15 @@ function drawField(
       `<text x="${LEFT - 6}" y="${y(share * most) + 4}" text-anchor="end">${format(share * most)} ${unit}</text>` +
       `<text x="${x(from + share * (to - from))}" y="${top + TOP + HEIGHT + LABEL}" text-anchor="middle">${format(from + share * (to - from))} s</text>`,
   );
-  const paths = drawn.map(({ line, values }, index) => {
-    const colour = COLOURS[index % COLOURS.length] ?? "black";
-    const name = `<text x="${LEFT + index * 220}" y="${top + TOP - 10}" fill="${colour}">${escape(line.name)}</text>`;
-    return `${name}<path fill="none" stroke="${colour}" d="${trace(times, values, isShown, x, y)}"/>`;
+  const rows = Math.ceil(drawn.length / NAMES);
+  const paths = drawn.map(({ line, values, colour }, index) => {
+    const at = [
+      LEFT + (index % NAMES) * NAME,
+      top + TOP - 10 - LABEL * (rows - 1 - Math.floor(index / NAMES)),
+    ];
+    const name = `<text x="${at[0]}" y="${at[1]}" fill="${colour}">${escape(line.name)}</text>`;
+    const dash = line.isDashed === true ? ' stroke-dasharray="5 3"' : "";
+    return `${name}<path fill="none" stroke="${colour}"${dash} d="${trace(times, values, isShown, x, y)}"/>`;
   });
   return labels.join("") + paths.join("");
 }

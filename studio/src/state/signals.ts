@@ -2,9 +2,8 @@
 import { computed, effect, signal } from "@preact/signals";
 import { api, ApiError } from "../api/client";
 import { PlotColumns } from "../recording/plot_columns";
-import { GAP_S, makeLine, measureArm, Series, type SignalLine } from "./series";
+import { armLines, byDevice, GAP_S, measureArm, Series, type SignalLine } from "./series";
 import { isOngoing, live, operationId, replay, sample, status } from "./studio";
-import { localName } from "./text";
 
 const CAPACITY = 6000;
 /** How far apart points of a plot are at least, in s, and how often the recording fills gaps, in ms. */
@@ -18,12 +17,7 @@ export interface Plotted {
   columns: readonly (number | null)[][];
 }
 
-interface Measuring {
-  arms: readonly string[];
-  series: Series;
-}
-
-let measuring: Measuring | null = null;
+let measuring: Series | null = null;
 let lastTimeS = -Infinity;
 const revision = signal(0);
 const liveLines = signal<readonly SignalLine[]>([]);
@@ -38,7 +32,7 @@ export const isReadingStored = signal(false);
 const liveColumns = computed((): (number | null)[][] => {
   if (revision.value === 0) return [];
   const { task, ended } = live.value;
-  const columns = measuring?.series.columns() ?? [];
+  const columns = measuring?.columns() ?? [];
   if (task !== null) return between(columns, task.time, ended?.time ?? Infinity);
   return operationId.value === null ? columns : [];
 });
@@ -55,12 +49,10 @@ export const allLines = computed(() => plotted.value.lines);
 export const chosenDevice = signal("");
 export const chosenKind = signal("");
 const shownIndices = computed(() =>
-  allLines.value.flatMap(({ of, kind }, index) =>
-    (chosenDevice.value === "" || chosenDevice.value === of) &&
-    (chosenKind.value === "" || chosenKind.value === kind)
-      ? [index]
-      : [],
-  ),
+  byDevice(allLines.value).filter((index) => {
+    const { of = "", kind = "" } = allLines.value[index] ?? {};
+    return [chosenDevice.value || of, chosenKind.value || kind].join() === [of, kind].join();
+  }),
 );
 export const plotLines = computed(() => shownIndices.value.flatMap((index) => allLines.value[index] ?? []));
 
@@ -115,27 +107,20 @@ function takeSample(): void {
   if (now.time_s < lastTimeS) measuring = null; // The cell was reset, and its clock with it.
   lastTimeS = now.time_s;
   const arms = Object.keys(now.arms).sort();
-  if (measuring?.arms.join() !== arms.join()) begin(arms);
-  measuring?.series.add(
+  begin(arms.flatMap((arm) => armLines(now, arm)));
+  measuring?.add(
     now.time_s,
     arms.flatMap((arm) => measureArm(now, arm)),
   );
   revision.value = revision.peek() + 1;
 }
 
-function begin(arms: readonly string[]): void {
-  const lines = armLines(arms.map(localName));
-  measuring = { arms, series: new Series(lines, CAPACITY) };
+/** Measure these lines from now on, if they are others than before. */
+function begin(lines: readonly SignalLine[]): void {
+  const names = (all: readonly SignalLine[]): string => all.map((each) => each.name).join();
+  if (measuring !== null && names(measuring.lines) === names(lines)) return;
+  measuring = new Series(lines, CAPACITY);
   liveLines.value = lines;
-}
-
-/** Return the lines of what `measureArm` measures of arms. */
-export function armLines(arms: readonly string[]): SignalLine[] {
-  return arms.flatMap((arm) => [
-    makeLine("force", arm),
-    makeLine("speed", arm),
-    makeLine("commanded speed", arm),
-  ]);
 }
 
 /** Fill from the recording of the operation that is shown what the page missed of it, until it has ended and all is read. */

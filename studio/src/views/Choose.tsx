@@ -140,7 +140,7 @@ function Chosen({ wish, onChange, onDone }: ChosenProps) {
         ‹ all tasks
       </button>
       <h3>{wish.kind === "task" ? wish.task.name : "Goal"}</h3>
-      {wish.kind === "task" && <p class="muted">{wish.task.doc}</p>}
+      {wish.kind === "task" && wish.task.doc !== "" && <p class="muted">{wish.task.doc}</p>}
       {wish.kind === "goal" && (
         <GoalInput value={wish.goal} onChange={(goal) => onChange({ kind: "goal", goal })} />
       )}
@@ -194,12 +194,7 @@ function ParameterInput({ parameter, value, onChange }: ParameterInputProps) {
           {parameter.direction === "opt" ? ", optional" : ""}
         </span>
       </span>
-      <GoalInput
-        value={value}
-        onChange={onChange}
-        label={parameter.name}
-        placeholder={parameter.doc || parameter.type}
-      />
+      <GoalInput value={value} onChange={onChange} label={parameter.name} placeholder={parameter.doc} />
     </label>
   );
 }
@@ -250,7 +245,7 @@ function PlanAndStart({ request, isPlanned, onFix, onDone }: PlanAndStartProps) 
       )}
       {preview !== null && <Preview preview={preview} />}
       <RunOptions value={options.value} onChange={(value) => (options.value = value)} />
-      <div class="row">
+      <div class="row run-foot">
         <button
           class="primary grow"
           disabled={!mayCommand() || busy || preview?.status === "unsolvable" || problem !== ""}

@@ -53,7 +53,7 @@ function OverlaidPlot({ name, first, second }: { name: string; first: Plotted; s
     let isOver = false;
     const lines = [
       { name: "A", unit },
-      { name: "B", unit },
+      { name: "B", unit, isDashed: true },
     ];
     void drawPlot(
       element,

@@ -85,8 +85,8 @@ function Origins({ id, number, parameters }: { id: string; number: string; param
     void attempt(() => ask(id));
   };
   return (
-    <p class="small dim">
-      Where from:{" "}
+    <p class="row wrap small origins">
+      <span class="muted">Where does the value come from?</span>
       {parameters.map((each) => (
         <button
           key={each}

@@ -17,13 +17,11 @@ export function Preview({ preview }: { preview: PlanPreview }) {
         {preview.plan.map((each, index) => (
           <li key={index} class="preview-step">
             <span class="muted small mono">{index + 1}</span>
-            <span class="plan-text">
-              <span>{each.skill}</span>
-              <span class="muted small truncate" title={argumentsOf(each.arguments)}>
-                {argumentsOf(each.arguments)}
-              </span>
-            </span>
+            <span>{each.skill}</span>
             <Source text={each.source} />
+            <span class="plan-arguments muted small truncate" title={argumentsOf(each.arguments)}>
+              {argumentsOf(each.arguments)}
+            </span>
           </li>
         ))}
       </ol>

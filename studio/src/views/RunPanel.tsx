@@ -19,6 +19,7 @@ import { Choose } from "./Choose";
 import { Icon } from "./icons";
 import { choosing } from "./layout";
 import { NothingToDo } from "./NothingToDo";
+import { OperationData, OperationTimes } from "./OperationData";
 import { Planning } from "./Planning";
 import { FalseClaims, NodeMark, RunBadge } from "./status";
 
@@ -46,6 +47,7 @@ function Progress() {
           </h3>
           {current.state !== null && <RunBadge {...current} state={current.state} />}
         </div>
+        <OperationTimes />
         {current.reason !== "" && current.failure === null && (
           <p class="small wrap-anywhere">{current.reason}</p>
         )}
@@ -57,9 +59,12 @@ function Progress() {
       <Continue />
       <Plan />
       {current.state === "planning" && replay.value === null && <Planning />}
-      <button class={isOngoing.value ? "plain" : "primary"} onClick={() => (choosing.value = true)}>
-        {isOngoing.value ? "Submit another one" : "Run something else"}
-      </button>
+      <OperationData />
+      <div class="row run-foot">
+        <button class={isOngoing.value ? "grow" : "primary grow"} onClick={() => (choosing.value = true)}>
+          {isOngoing.value ? "Submit another one" : "Run something else"}
+        </button>
+      </div>
     </div>
   );
 }
@@ -179,13 +184,11 @@ function Plan() {
                     onClick={() => key !== null && select({ kind: "node", key })}
                   >
                     <NodeMark status={node?.status ?? "pending"} />
-                    <span class="plan-text">
-                      <span>{step.skill}</span>
-                      <Arguments values={Object.values(step.arguments).map(formatValue).join(", ")} />
-                    </span>
+                    <span>{step.skill}</span>
                     <span class="mono small muted">
                       {node === undefined ? "" : formatTime((node.endedAt ?? time) - node.startedAt)}
                     </span>
+                    <Arguments values={Object.values(step.arguments).map(formatValue).join(", ")} />
                     <Span
                       from={node?.startedAt}
                       to={node?.endedAt ?? time}
@@ -234,7 +237,7 @@ function Span({ from, to, whole, status }: SpanProps) {
 /** The arguments of a step; all of them where they do not fit. */
 function Arguments({ values }: { values: string }) {
   return (
-    <span class="muted small truncate" title={values}>
+    <span class="plan-arguments muted small truncate" title={values}>
       {values}
     </span>
   );

@@ -2,6 +2,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import { effect, signal, type Signal } from "@preact/signals";
 import type uPlot from "uplot";
+import { shortNames } from "../state/series";
 import { drawSvg, writeCsv } from "../state/signal_files";
 import {
   allLines,
@@ -138,9 +139,10 @@ function Plots() {
     let plot: uPlot | null = null;
     let isOver = false;
     let end = (): void => undefined;
+    const names = shortNames(lines);
     void drawPlot(
       element,
-      lines,
+      lines.map((each, at) => ({ ...each, name: names[at] ?? each.name })),
       (time) => select({ kind: "time", time }),
       () => span.peek(),
     ).then((made) => {

@@ -1,8 +1,10 @@
 // A plot of lines over time with uPlot, in the colours of the theme; the selected span is shaded.
 import type uPlot from "uplot";
-import type { Line } from "../state/series";
+import { colourLines, type Line } from "../state/series";
 
 const FONT = "11px system-ui";
+/** How many colours of lines a theme has. */
+const COLOURS = 8;
 
 /** Return a colour of the theme as the browser resolves it; canvas knows no variables. */
 export function themeColour(name: string): string {
@@ -25,6 +27,12 @@ export async function drawPlot(
   const { default: UPlot } = await import("uplot");
   const [ink, line, accent] = [themeColour("muted"), themeColour("line"), themeColour("accent")];
   const units = [...new Set(lines.map((each) => each.unit))];
+  const colours = colourLines(lines).map((each) => themeColour(`line${(each % COLOURS) + 1}`));
+  // The marks of whole lines are full, those of dashed lines empty; the first series is the time.
+  const fills = [
+    "",
+    ...lines.map((each, index) => (each.isDashed === true ? "transparent" : colours[index])),
+  ];
   const axis = {
     stroke: ink,
     grid: { stroke: line, width: 1 },
@@ -34,7 +42,7 @@ export async function drawPlot(
   const options: uPlot.Options = {
     width: element.clientWidth,
     height: Math.max(80, element.clientHeight - 24),
-    legend: { live: true },
+    legend: { live: true, markers: { width: 2, dash: markStyle, fill: (_, index) => fills[index] ?? "" } },
     cursor: { drag: { x: true, y: false, setScale: true }, points: { size: 5 } },
     scales: {
       x: { time: false },
@@ -57,10 +65,10 @@ export async function drawPlot(
       ...lines.map((each, index) => ({
         label: each.name,
         scale: each.unit,
-        stroke: themeColour(`line${(index % 4) + 1}`),
+        stroke: colours[index] ?? ink,
         width: 1.5,
         spanGaps,
-        ...(index % 2 === 1 ? { dash: [5, 3] } : {}),
+        ...(each.isDashed === true ? { dash: [5, 3] } : {}),
         value: (_: uPlot, value: number | null) => format(value, each.unit),
       })),
     ],
@@ -68,6 +76,9 @@ export async function drawPlot(
   };
   return new UPlot(options, [[], ...lines.map(() => [])] as uPlot.AlignedData, element);
 }
+
+const markStyle = (plot: uPlot, index: number): string =>
+  plot.series[index]?.dash === undefined ? "solid" : "dashed";
 
 /** The least height of an axis: noise around zero is not blown up. */
 const LEAST = 0.1;
