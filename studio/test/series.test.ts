@@ -1,5 +1,13 @@
 import { expect, test } from "vitest";
-import { makeLine, measureArm, Series } from "../src/state/series";
+import {
+  armLines,
+  byDevice,
+  colourLines,
+  makeLine,
+  measureArm,
+  Series,
+  shortNames,
+} from "../src/state/series";
 import { drawSvg, writeCsv } from "../src/state/signal_files";
 import { continuePlot, hasGaps } from "../src/state/signals";
 import type { Sample } from "../src/api/types";
@@ -73,7 +81,36 @@ test("the speed of a tool is not that of a reference that changes", () => {
   });
   expect(measureArm(at(1, 0), "a")).toEqual([5, 0.1, 0.12]);
   expect(measureArm(at(1.02, 0.2), "a")).toEqual([5, 0.1, 0.12]);
-  expect(measureArm(at(2, 0.1), "b")).toEqual([NaN, NaN, NaN]);
+  expect(armLines(at(1, 0), "lab#a").map((each) => each.kind)).toEqual(["speed", "commanded speed"]);
+  expect(armLines(at(1, 0), "a").map((each) => each.name)).toEqual([
+    "force at a",
+    "speed of a",
+    "commanded speed of a",
+  ]);
+});
+
+test("lines stand by device, which is named once, and what is commanded has the colour of what is measured", () => {
+  const lines = [
+    makeLine("commanded speed", "Arm"),
+    makeLine("contact", "Eraser"),
+    makeLine("force", "Arm"),
+    makeLine("speed", "Arm"),
+  ];
+  const order = byDevice(lines);
+  expect(order).toEqual([2, 3, 0, 1]);
+  const shown = order.flatMap((each) => lines[each] ?? []);
+  expect(shortNames(shown)).toEqual(["Arm force", "speed", "commanded speed", "Eraser contact"]);
+  expect(colourLines(shown)).toEqual([0, 1, 1, 2]);
+  expect(shown.map((each) => each.isDashed)).toEqual([false, false, true, false]);
+});
+
+test("the names of many lines do not leave the drawing", () => {
+  const lines = ["A", "B", "C", "D", "E"].map((each) => makeLine("force", each));
+  const drawing = drawSvg({ lines, columns: [[0, 1], ...lines.map(() => [1, 2])] }, [0, 1]);
+  const names = [...drawing.matchAll(/<text x="(\d+)" y="(\d+)" fill/g)];
+  expect(names).toHaveLength(5);
+  expect(Math.max(...names.map((each) => Number(each[1])))).toBeLessThan(800);
+  expect(names.every((each) => Number(each[2]) > 0)).toBe(true);
 });
 
 test("signals are written as a table and as a drawing with their gaps", () => {
@@ -87,7 +124,9 @@ test("signals are written as a table and as a drawing with their gaps", () => {
   };
   expect(writeCsv(plotted)).toBe("time [s],force at Arm [N],speed of Arm [m/s]\n0,5,0\n1,,0\n2,7,0\n3,8,1\n");
   const drawing = drawSvg(plotted, [0, 3]);
-  const paths = [...drawing.matchAll(/stroke="#0b62c4" d="([^"]*)"/g)].map((each) => each[1] ?? "");
+  const paths = [...drawing.matchAll(/fill="none" stroke="#[0-9a-f]+" d="([^"]*)"/g)].map(
+    (each) => each[1] ?? "",
+  );
   expect(paths.map((each) => each.split("M").length - 1)).toEqual([2, 1]);
   expect(drawing).toContain("force at Arm");
 });

@@ -195,6 +195,6 @@ def walk_viewer(page: Page, cells: RunningServer, look: Look) -> None:
     look("viewer")
     page.keyboard.press("r")
     page.get_by_role("button", name="carry_all").click()
-    page.locator(".plan").first.wait_for()
+    page.locator(".run .plan").wait_for()
     look("plan of a viewer")
     cells.client.post("/cells/yard/stop")

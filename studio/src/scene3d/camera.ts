@@ -4,6 +4,8 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { CameraPreset } from "./types";
 
 const GLIDE_MS = 350;
+/** What has moved less far than this, in m, is not gone after. */
+const LEFT_M = 0.3;
 const DIRECTIONS: Record<"front" | "side" | "top" | "fit", three.Vector3> = {
   front: new three.Vector3(0, -1, 0.12),
   side: new three.Vector3(1, 0, 0.12),
@@ -21,6 +23,8 @@ export class SceneCamera {
   readonly camera = new three.PerspectiveCamera(36, 1, 0.02, 100);
   readonly controls: OrbitControls;
   follows = false;
+  /** The preset that nobody has turned away from, and the sphere it shows. */
+  private kept: { preset: CameraPreset; sphere: three.Sphere } | null = null;
   private glide: Glide | null = null;
   /** The share of the height that nothing covers. */
   private free = 1;
@@ -34,7 +38,7 @@ export class SceneCamera {
     this.controls.zoomToCursor = true;
     this.controls.listenToKeyEvents(canvas);
     this.controls.addEventListener("change", changed);
-    this.controls.addEventListener("start", () => (this.glide = null));
+    this.controls.addEventListener("start", () => (this.glide = this.kept = null));
   }
 
   /** Set the size of the picture in pixels, `covered` of which are covered on top: its middle is that of the rest. */
@@ -46,7 +50,9 @@ export class SceneCamera {
   /** Look at a sphere from a preset direction; at once, or gliding there. */
   look(preset: CameraPreset, sphere: three.Sphere, now: number): void {
     this.follows = preset === "follow";
+    this.kept = null;
     if (preset === "follow") return;
+    this.kept = { preset, sphere: sphere.clone() };
     const half = (this.camera.fov / 2) * (Math.PI / 180);
     const narrow = Math.atan(Math.tan(half) * Math.min(this.free, this.camera.aspect));
     const away = DIRECTIONS[preset].clone().normalize();
@@ -57,6 +63,13 @@ export class SceneCamera {
       start: now,
     };
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) this.glide.start = -Infinity;
+  }
+
+  /** Go after what has left the picture, unless a person has chosen what is in it; `sphere` is around it. */
+  goAfter(sphere: three.Sphere, now: number): void {
+    const { kept } = this;
+    if (kept === null || this.glide !== null) return;
+    if (kept.sphere.center.distanceTo(sphere.center) > LEFT_M) this.look(kept.preset, sphere, now);
   }
 
   /** Be there at once. */

@@ -1,8 +1,9 @@
 // What is in the picture, and where a point of the world is in it.
 import * as three from "three";
 import type { SceneBodies } from "./bodies";
+import { poseOf } from "./kinematics";
 import type { Box } from "./labels";
-import type { CellModel, PoseNumbers } from "./types";
+import type { CellModel, PoseNumbers, SceneSources } from "./types";
 
 const LEAST_M = 0.15;
 
@@ -42,6 +43,19 @@ export function frameThese(
   const sphere = box.getBoundingSphere(new three.Sphere());
   sphere.radius = Math.max(LEAST_M, sphere.radius);
   return sphere;
+}
+
+/** Whether a robot has driven out of the picture of a camera; where something is selected, that is looked at. */
+export function hasRobotLeft(
+  { model: { value: model }, selected }: Pick<SceneSources, "model" | "selected">,
+  poses: readonly PoseNumbers[],
+  camera: three.Camera,
+): boolean {
+  if (model === null || selected.value.length > 0) return false;
+  return Object.entries(model.individuals).some(([individual, { kind }]) => {
+    const pose = kind === "arm" || kind === "base" ? poseOf(model, poses, individual) : null;
+    return pose !== null && projectTo(camera, 1, 1, new three.Vector3(pose[0], pose[1], pose[2])) === null;
+  });
 }
 
 /** Return how much of a picture of a height is covered at its top, in pixels: by what ends in its upper half. */

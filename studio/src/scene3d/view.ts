@@ -6,7 +6,7 @@ import { findMisbeliefs, shiftsOf, type Misbelief } from "./belief";
 import { SceneBodies } from "./bodies";
 import { SceneCamera } from "./camera";
 import { CoverageLayer } from "./coverage";
-import { frameThese, projectTo, topCover } from "./framing";
+import { frameThese, hasRobotLeft, projectTo, topCover } from "./framing";
 import { findForces, ForceArrows, type DrawnForce } from "./forces";
 import { placeBodies, poseOf } from "./kinematics";
 import { LabelLayer, type Box } from "./labels";
@@ -206,6 +206,7 @@ export class SceneView implements SceneHandle {
     const began = performance.now();
     if (this.isStale) this.update();
     this.isStale = false;
+    if (hasRobotLeft(this.sources, this.poses, this.camera.camera)) this.camera.goAfter(this.framed(), now);
     const tool = Object.values(this.sources.sample.value?.arms ?? {})[0]?.tool;
     if (this.camera.advance(now, tool === undefined ? null : new three.Vector3(tool[0], tool[1], tool[2])))
       this.request();

@@ -155,8 +155,7 @@ function PlanCell({
     <td>
       {of.plan.steps.length} steps, about {formatTime(of.plan.cost)}
       <span class="muted">
-        {" "}
-        {of.plan.quality || of.plan.optimal} {of.plan.planner}
+        {[of.plan.quality || of.plan.optimal, of.plan.planner].map((each) => each && `, ${each}`)}
       </span>
       {of.reason !== "" && <div class="is-waiting">planned again: {of.reason}</div>}
     </td>

@@ -225,13 +225,15 @@ function Choice({ choice }: { choice: ImplementationChosen }) {
           </p>
         ))}
       </Section>
-      <Section title="Values">
-        <dl class="values">
-          {Object.entries(choice.bindings).map(([name, value]) => (
-            <Parameter key={name} name={name} choice={choice} value={<Value value={value} />} />
-          ))}
-        </dl>
-      </Section>
+      {Object.keys(choice.bindings).length > 0 && (
+        <Section title="Values">
+          <dl class="values">
+            {Object.entries(choice.bindings).map(([name, value]) => (
+              <Parameter key={name} name={name} choice={choice} value={<Value value={value} />} />
+            ))}
+          </dl>
+        </Section>
+      )}
     </>
   );
 }

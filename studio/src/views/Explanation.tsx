@@ -10,14 +10,22 @@ import { LinkedLine } from "./LinkedLine";
 
 const QUESTIONS = "2, 2.1, Pick, gripper, 2.gripper";
 
-const explanation = signal<{ id: string; events: number; found: RunExplanation } | null>(null);
+interface Asked {
+  id: string;
+  events: number;
+  question: string;
+  found: RunExplanation;
+}
+
+const explanation = signal<Asked | null>(null);
 const question = signal("");
 
 /** Ask about the operation that is shown; without a question, for the overview. */
 async function ask(id: string): Promise<void> {
   const events = operation.peek().lastEvent;
-  const found = await api.why(id, question.peek().trim());
-  if (operationId.peek() === id) explanation.value = { id, events, found };
+  const asked = question.peek().trim();
+  const found = await api.why(id, asked);
+  if (operationId.peek() === id) explanation.value = { id, events, question: asked, found };
 }
 
 /** A field for questions with the answer, below what is said of the operation. */
@@ -73,11 +81,14 @@ export function CallExplanation({ node }: { node: TreeNode }) {
       <h3>{`Call ${call.number}`}</h3>
       <Lines lines={call.lines} known={known.found} />
       <Origins id={id} number={call.number} parameters={call.parameters ?? []} />
+      {(call.parameters ?? []).some((each) => known.question === `${call.number}.${each}`) && (
+        <Lines lines={known.found.answer} known={known.found} />
+      )}
     </section>
   );
 }
 
-/** Asks where the value of a parameter comes from, through every call; the answer is below the field for questions. */
+/** Asks where the value of a parameter comes from, through every call. */
 function Origins({ id, number, parameters }: { id: string; number: string; parameters: readonly string[] }) {
   if (parameters.length === 0) return null;
   const trace = (parameter: string): void => {

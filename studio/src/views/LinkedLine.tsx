@@ -19,7 +19,9 @@ interface LinkedLineProps {
 }
 
 export function LinkedLine({ line, calls, onCall }: LinkedLineProps) {
-  const parts = linkLine(line, new Set(things.value.keys()), calls);
+  // Lines have columns for terminals; here each is a line of its own.
+  const text = line.replace(/(?<=\S) {3,}/g, "  ");
+  const parts = linkLine(text, new Set(things.value.keys()), calls);
   return (
     <div class="explained-line">
       {parts.map((each, index) => {

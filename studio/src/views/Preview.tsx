@@ -56,14 +56,18 @@ function summary(preview: PlanPreview): string {
     .join(", ");
 }
 
+/** Return how many of each kind were left out, for whatever reason. */
+function countLeftOut(all: PlanPreview["left_out"]): string {
+  const counts = new Map<string, number>();
+  for (const { kind, what } of all) counts.set(kind, (counts.get(kind) ?? 0) + what.length);
+  return [...counts].map(([kind, count]) => `${count} ${kind}`).join(", ");
+}
+
 function LeftOut({ preview }: { preview: PlanPreview }) {
   if (preview.left_out.length === 0) return null;
   return (
     <details class="small">
-      <summary>
-        left out of the search:{" "}
-        {preview.left_out.map((each) => `${each.what.length} ${each.kind}`).join(", ")}
-      </summary>
+      <summary>left out of the search: {countLeftOut(preview.left_out)}</summary>
       {preview.left_out.map((each, index) => (
         <div key={index} class="stack left-out">
           <p>
