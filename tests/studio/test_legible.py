@@ -155,7 +155,7 @@ def walk_world(page: Page, cells: RunningServer, look: Look) -> None:
     page.get_by_role("button", name="Several facts").click()
     look("several facts")
     page.get_by_role("button", name="Cancel").click()
-    for view in ("graph", "who changed what", "between two times"):
+    for view in ("graph", "who changed what", "between two times", "what robots can do"):
         page.get_by_label("What to show").select_option(label=view)
         page.wait_for_timeout(500)
         look(view)
@@ -185,7 +185,7 @@ def walk_viewer(page: Page, cells: RunningServer, look: Look) -> None:
     cells.client.put("/cells/yard/pace", json={"factor": 1.0})
     cells.client.put("/cells/yard/lease", json={})
     cells.submit(task="rest")
-    page.get_by_role("button", name="admin").click()
+    page.get_by_role("button", name="admin", exact=True).click()
     page.get_by_label("Token").fill(made["token"])
     page.keyboard.press("Enter")
     page.locator(".workspace").wait_for()

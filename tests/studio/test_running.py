@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from playwright.sync_api import Page, expect
 
 from server.running import RunningServer
@@ -22,6 +24,7 @@ def test_three_clicks_run_a_task(page: Page) -> None:
     press_start(page)
     wait_for_state(page, FINISHED)
     expect(page.locator(".plan-step .is-good")).to_have_count(12)
+    expect(page.locator(".run")).to_contain_text(re.compile(r"submitted .*, started .*, ended .*: \d"))
     lefts = page.locator(".plan-step .span-bar").evaluate_all("all => all.map((each) => parseFloat(each.style.left))")
     assert lefts == sorted(lefts) and lefts[0] < 30, "bars begin where the operation began, however old the cell is"
     page.get_by_role("button", name="Enlarge Tree").click()
@@ -42,6 +45,9 @@ def test_a_step_is_one_selection_in_all_views(page: Page) -> None:
     expect(details).to_contain_text("Unload[by_hand]")
     expect(details).to_contain_text("Why by_hand")
     expect(details.get_by_role("button", name="yard.skill:").first).to_be_visible()
+    details.get_by_role("button", name="Explain in sentences").click()
+    details.locator(".origins").get_by_role("button", name="crate", exact=True).click()
+    expect(details.locator(".explained")).to_have_count(2)
     details.get_by_role("button", name="lab:Cart-1").first.click()
     expect(details).to_contain_text("lab:Cart-1 is lab:Cart")
     page.keyboard.press("f")

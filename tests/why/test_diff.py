@@ -19,6 +19,8 @@ from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import load_task
 from skillc_model.conditions import And, Compare, Holds, Individual, Literal, Not, PropertyOf
+from skillc_model.tree import Call
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.disturbances import Push
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import (
@@ -119,6 +121,13 @@ def test_goals_are_shown_in_the_syntax_of_the_language(tmp_path: Path) -> None:
     found = find_differences(tmp_path, change(TaskStarted, goal=goal))
     assert found[0]["what"] == "objective"
     assert found[0]["second"] == "Box contain Cup and (not Cup.isSealed == true)"
+
+
+def test_calls_are_shown_as_an_author_writes_them(tmp_path: Path) -> None:
+    body = Call("Ask", "by_operator", {"limit": Literal(3.0)}, None, Position("ask.skill", 1, 1))
+    found = find_differences(tmp_path, change(TaskStarted, goal=None, body=body))
+    assert found[0]["what"] == "objective"
+    assert found[0]["second"].startswith("Ask[by_operator](limit: 3")
 
 
 def test_a_run_differs_in_nothing_from_itself(tmp_path: Path) -> None:

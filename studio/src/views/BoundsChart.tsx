@@ -7,10 +7,9 @@ const [WIDTH, HEIGHT, FOOT] = [260, 72, 14];
 export function BoundsChart({ points }: { points: readonly BoundPoint[] }) {
   const last = points.at(-1);
   const most = Math.max(...points.map((each) => Math.max(each.best ?? 0, each.least)));
-  // A first plan that is proved at once says nothing over time.
-  const found = new Set(points.flatMap(({ best }) => (best === null ? [] : [best])));
-  const isDecided = found.size < 2 && last?.best === last?.least;
-  if (last === undefined || isDecided || points.length < 2 || most === 0) return null;
+  // A plan that is proved as soon as it is found says nothing over time.
+  const compared = points.filter(({ best }) => best !== null).length;
+  if (last === undefined || compared < 2 || most === 0) return null;
   const end = Math.max(last.at, 0.1);
   const x = (at: number): number => (at / end) * WIDTH;
   const y = (seconds: number): number => HEIGHT - (seconds / most) * (HEIGHT - 6);

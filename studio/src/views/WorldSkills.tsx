@@ -48,7 +48,7 @@ export function WorldSkills({ search }: { search: string }) {
         {shown.map((each) => (
           <tr key={each.name}>
             <td>{each.name}</td>
-            <td class="mono wrap-anywhere">
+            <td class="mono">
               {each.changes.map((text) => (
                 <div key={text}>{text}</div>
               ))}

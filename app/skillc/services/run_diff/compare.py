@@ -20,7 +20,8 @@ from skillc.services.run_diff.calls import (
 from skillc.services.run_diff.difference import compare_mappings, find_difference
 from skillc.services.run_diff.recorded import RecordedRunData
 from skillc.services.run_diff.signals import compare_signals
-from skillc_model.format_condition import format_condition
+from skillc_model.format_condition import format_condition, format_expression
+from skillc_model.tree import Call
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.recording.events import Disturbed, Requested, TaskStarted
@@ -81,10 +82,19 @@ def _about_run(start: TaskStarted) -> dict[str, Leaf]:
 
 
 def _describe_objective(start: TaskStarted) -> str:
-    """Return the goal in the syntax of the language, or the body as JSON; by local names: no prefixes are recorded."""
-    body = msgspec.json.encode(start.body).decode()
-    text = body if start.goal is None else format_condition(start.goal, Vocabulary())
+    """Return a goal or a call as an author writes it, another body as JSON; with local names: prefixes are not kept."""
+    if start.goal is not None:
+        text = format_condition(start.goal, Vocabulary())
+    elif isinstance(start.body, Call):
+        text = _describe_call(start.body)
+    else:
+        text = msgspec.json.encode(start.body).decode()
     return re.sub(r"(?<![a-z])[a-z]+://[^\"\s]*[#/]", "", text)
+
+
+def _describe_call(call: Call) -> str:
+    given = ", ".join(f"{name}: {format_expression(each, Vocabulary())}" for name, each in call.arguments.items())
+    return f"{call.skill}{f'[{call.implementation}]' if call.implementation else ''}({given})"
 
 
 def _list_requests(run: RecordedRunData) -> list[str]:
