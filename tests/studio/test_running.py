@@ -20,7 +20,7 @@ def test_three_clicks_run_a_task(page: Page) -> None:
     page.keyboard.press("r")
     page.get_by_role("button", name="carry_all").click()
     expect(page.locator(".preview-step")).to_have_count(12)
-    planned = page.locator(".preview-step .> span:nth-child(2)").all_inner_texts()
+    planned = page.locator(".preview-step > span:nth-child(2)").all_inner_texts()
     press_start(page)
     wait_for_state(page, FINISHED)
     expect(page.locator(".plan-step .is-good")).to_have_count(12)

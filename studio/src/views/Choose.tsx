@@ -255,8 +255,8 @@ function PlanAndStart({ request, isPlanned, onFix, onDone }: PlanAndStartProps) 
           Start
         </button>
         <Rehearse request={request} />
+        {!mayCommand() && <p class="small is-waiting refusal">{refusalOf("operate")}</p>}
       </div>
-      {!mayCommand() && <p class="small is-waiting refusal">{refusalOf("operate")}</p>}
     </>
   );
 }
