@@ -36,12 +36,6 @@ def test_full() -> None:
     assert full.render([PROBLEM], {"a.skill": SOURCE}) == EXPECTED
 
 
-def test_help_that_the_fix_repeats_is_said_once() -> None:
-    fix = Fix(Span("a.skill", 2, 5, 2, 8), "arm: Arm", "write `arm: Arm`")
-    problem = Diagnostic("syntax", Span("a.skill", 2, 5, 2, 8), "no", "write `arm: Arm`", fix=fix)
-    assert full.render([problem], {"a.skill": SOURCE}).count("write `arm: Arm`") == 1
-
-
 def test_colour_adds_nothing_but_colour() -> None:
     coloured = full.render([PROBLEM], {"a.skill": SOURCE}, colour=True)
     assert "\x1b[1;31m" in coloured

@@ -17,7 +17,7 @@ PROBLEM = Diagnostic(
     LONG,
     LONG,
     labels=(Label(Span("a.skill", 1, 7, 1, 11), LONG), Label(Span("a.skill", 2, 168, 2, 171), LONG)),
-    fix=Fix(Span("a.skill", 2, 9, 2, 9), " ", f"now {LONG}"),
+    fix=Fix(Span("a.skill", 2, 9, 2, 9), " ", LONG),
 )
 CHARACTERS = st.sampled_from("abc \té你好🙂\u0301\x1b")
 

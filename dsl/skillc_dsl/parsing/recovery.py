@@ -78,7 +78,8 @@ class Recovery:
         if self._leave_unclosed_call(index):
             return index - 1
         fault = Fault(self._parser.states, self.tokens, index, self.path)
-        foreign = report_foreign_form(fault, self._lines)
+        second = report_second_step(before, self._parser.values, self.tokens, index, self.path)
+        foreign = report_foreign_form(fault, self._lines) if second is None else None
         found = repair(fault) if foreign is None else None
         if found is not None:
             self._report(found.problem)
@@ -86,7 +87,7 @@ class Recovery:
             self.tokens[index : index + 1] = found.tokens
             self._since = 0
             return index
-        misfit = foreign or self._misfit(before, index)
+        misfit = second or foreign or self._misfit(before, index)
         if misfit.span.line not in self.reported:
             self._report(misfit)
         position = self._resume(index)
@@ -167,9 +168,6 @@ class Recovery:
         span = token_span(token, self.path)
         if token.type == "RBRACE" and END in expected:
             return Diagnostic("unopened-brace", span, "this `}` closes nothing", "delete it, or add the `{` before it")
-        second = report_second_step(before, self._parser.values, self.tokens, index, self.path)
-        if second is not None:
-            return second
         found = f"{describe_token(token)} does not fit here"
         if index and not expected & {"RBRACE", END} and begins_line(self.tokens, index):
             last = self.tokens[index - 1]

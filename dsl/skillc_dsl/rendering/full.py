@@ -40,7 +40,7 @@ def _lines(diagnostic: Diagnostic, sources: Mapping[str, Source], paint: Paint, 
     for number, path in enumerate(dict.fromkeys(mark.span.path for mark in marks)):
         own = [mark for mark in marks if mark.span.path == path]
         yield from render_excerpt(sources.get(path), own, ":::" if number else "-->", page)
-    if diagnostic.help and (diagnostic.fix is None or diagnostic.fix.message != diagnostic.help):
+    if diagnostic.help:
         yield from _note("help", diagnostic.help, page)
     if diagnostic.fix:
         yield from _fix(diagnostic, diagnostic.fix, sources, page)
