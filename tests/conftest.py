@@ -46,6 +46,16 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker("slow")
 
 
+def pytest_runtest_teardown(item: pytest.Item) -> None:
+    """Fail a test that has limited the memory of this process: in later ones, threads may never start."""
+    if sys.platform != "win32":
+        import resource
+
+        limit, hard = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
+        assert limit == hard, f"{item.nodeid} limited the memory of the process of tests"
+
+
 def pytest_collection_finish() -> None:
     """Spare what was imported for the tests, which stays to the end, from being looked through for garbage."""
     exempt_from_gc()

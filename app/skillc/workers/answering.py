@@ -53,7 +53,6 @@ from skillc.workers.trying import check_trials, record_trial, run_trial
 from skillc.workers.world_text import write_world
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.trials.trial import Trial
-from skillc_runtime.platforms.memory import limit_memory
 from skillc_runtime.scene.load import load_documents, sheet_documents
 from skillc_runtime.scene.query import QueryError
 from skillc_runtime.world.space.frame_tree import FrameError
@@ -63,8 +62,6 @@ from skillc_runtime.world.state.facts import ClassFact, Fact, PropertyFact, Rela
 from skillc_runtime.world.state.labelling import label_change, label_fact
 from skillc_runtime.world.state.names import NoSuchName, resolve_individual
 
-MEMORY_BYTES = 4 * 2**30
-"""The largest address space of a worker."""
 MAX_ROWS = 10_000
 """How many rows of the answer to a query are returned."""
 
@@ -86,7 +83,6 @@ JobAnswer: TypeAlias = (
 
 def answer_job(request: tuple[Job, bytes] | None) -> bytes | JobRefused:
     """Return the answer to a job for an encoded snapshot, as JSON, or why there is none; None asks if it is ready."""
-    limit_memory(MEMORY_BYTES)
     if request is None:
         return b""
     job, snapshot = request

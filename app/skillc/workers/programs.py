@@ -7,20 +7,26 @@ from typing import Any, TypeAlias
 
 from skillc.contract.jobs import Job, JobRefused
 from skillc.contract.run_jobs import RunJob
+from skillc_runtime.platforms.memory import limit_memory
 
 Program: TypeAlias = Callable[[Any], bytes | JobRefused]
 """Answers a job for an encoded snapshot, as JSON; for None it answers that it is ready."""
 
+MEMORY_BYTES = 4 * 2**30
+"""The largest address space of a worker."""
+
 
 def do_job(request: tuple[Job, bytes] | None) -> bytes | JobRefused:
-    """Answer a job."""
+    """Answer a job in this process, whose memory is limited from now on."""
     from skillc.workers.answering import answer_job
 
+    limit_memory(MEMORY_BYTES)
     return answer_job(request)
 
 
 def read_run(request: tuple[RunJob, bytes] | None) -> bytes | JobRefused:
-    """Answer a job that reads a recorded run."""
+    """Answer a job that reads a recorded run in this process, whose memory is limited from now on."""
     from skillc.workers.run_reading import answer_run_job
 
+    limit_memory(MEMORY_BYTES)
     return answer_run_job(request)

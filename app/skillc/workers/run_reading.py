@@ -25,7 +25,6 @@ from skillc.services.run_diff.recorded import RecordedRunData, make_run_data, re
 from skillc.services.story_text import explain_call, format_answer, overview_lines
 from skillc_model.codec import LibraryError, loads
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.platforms.memory import limit_memory
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.history import RecordedCall
 from skillc_runtime.recording.history_builder import read_history
@@ -33,8 +32,6 @@ from skillc_runtime.recording.mcap.contents import LIBRARY
 from skillc_runtime.recording.mcap.reader import RecordedFile, read_recording
 from skillc_runtime.recording.reader import TraceError
 
-MEMORY_BYTES = 4 * 2**30
-"""The largest address space of a worker."""
 MAX_ROWS = 5000
 """How many rows of signals are returned."""
 MAX_VALUES = 200_000
@@ -45,7 +42,6 @@ RunAnswer: TypeAlias = OperationTree | RunExplanation | SignalRows | RunDiff
 
 def answer_run_job(request: tuple[RunJob, bytes] | None) -> bytes | JobRefused:
     """Return the answer to a job as JSON, or why there is none; None asks if it is ready. A snapshot is not needed."""
-    limit_memory(MEMORY_BYTES)
     if request is None:
         return b""
     try:
