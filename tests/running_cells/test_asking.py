@@ -39,7 +39,7 @@ def asking(folder: Path, default: str = "", takes_ms: int = 10) -> Iterator[Cell
 
 
 def status(host: CellHost) -> OperationStatus:
-    return host._operations["asking"].describe("yard")
+    return host._operations["asking"].describe("yard", 0)
 
 
 def events(host: CellHost) -> list[Event]:
@@ -118,7 +118,7 @@ def test_who_is_asked_keeps_nobody_from_working(tmp_path: Path) -> None:
             assert host.tick() or not host.loop.wait(0.01)
         states = {each.id: each.state for each in host.loop.runs}
         assert states == {"asking": "running", "working": "running", "asked later": "running"}
-        assert host._operations["working"].describe("yard").devices is None
+        assert host._operations["working"].describe("yard", 0).devices is None
         host.stop("asked later", "not needed")
         host.request("asking", Answer("yes"))
         ended = {each.id: each.state for each in run_all(host)}
