@@ -47,9 +47,9 @@ def test_a_cell_is_saved_and_restored_and_that_is_refused_while_something_goes_o
 ) -> None:
     menu = open_menu(page)
     menu.get_by_role("textbox", name="Name of the checkpoint").fill("..")
-    expect(menu.get_by_role("button", name="Save")).to_be_disabled()
+    expect(menu.get_by_role("button", name="Save", exact=True)).to_be_disabled()
     menu.get_by_role("textbox", name="Name of the checkpoint").fill("fresh")
-    menu.get_by_role("button", name="Save").click()
+    menu.get_by_role("button", name="Save", exact=True).click()
     checkpoint = menu.get_by_role("list", name="Checkpoints").get_by_role("listitem").filter(has_text="fresh")
     expect(checkpoint).to_contain_text("admin")
     with client_of(server, "ada", "operate") as ada:

@@ -73,7 +73,7 @@ def test_a_text_is_formatted_and_saved(source: Page, own_server: RunningServer) 
     formatted = source.locator(".source-editor .cm-line", has_text="skill Load {")
     expect(formatted).to_have_js_property("textContent", "skill Load {")
     source.keyboard.press("Control+s")
-    expect(source.get_by_role("button", name="Save")).to_be_disabled()
+    expect(source.get_by_role("button", name="Save", exact=True)).to_be_disabled()
     saved = wait_until(lambda: read(own_server), lambda text: text != before)
     assert "\nskill Load {" in saved and "# carries" in saved
 
@@ -102,7 +102,7 @@ def test_a_problem_is_shown_still_after_the_file_is_saved_and_another_view_was_s
     problem = source.locator(".cm-lintRange-error").first
     expect(problem).to_be_visible()
     source.keyboard.press("Control+s")
-    expect(source.get_by_role("button", name="Save")).to_be_disabled()
+    expect(source.get_by_role("button", name="Save", exact=True)).to_be_disabled()
     expect(problem).to_be_visible()
     source.keyboard.insert_text("a")
     expect(source.locator(".cm-line", has_text="cratecrtea")).to_be_visible()
@@ -139,7 +139,7 @@ def test_a_file_that_was_changed_meanwhile_is_shown_side_by_side(
     file = own_server.folder / "yard.skill"
     theirs = read(own_server).replace("# Crates are carried", "# All crates are carried")
     file.write_text(theirs, "utf-8")
-    source.get_by_role("button", name="Save").click()
+    source.get_by_role("button", name="Save", exact=True).click()
     conflict = source.get_by_role("main", name="yard.skill has changed on disk")
     expect(conflict.get_by_label("yard.skill on disk")).to_contain_text("# All crates are carried")
     expect(conflict.get_by_label("Your yard.skill")).to_contain_text("# mine")
