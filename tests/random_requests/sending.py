@@ -16,7 +16,8 @@ import msgspec
 from server.running import RunningServer
 
 CHECKS = Path(__file__).parent / "checks.toml"
-LIMITED = "got `429 Too Many Requests`"
+LIMITED = ("got `429 Too Many Requests`", "Got 429 when missing required 'Authorization' header")
+"""How the checks say that requests without a token came too fast, which they do not know."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,5 +85,5 @@ def _find_faults(scenario: dict[str, Any]) -> Iterator[str]:
         for each in checks:
             if each["status"] == "failure":
                 failure = each["failure_info"]["failure"]
-                if not (each["name"] == "ignored_auth" and LIMITED in failure["message"]):
+                if not any(limited in failure["message"] for limited in LIMITED):
                     yield f"{scenario['label']}: {failure['title']}: {failure['message']}"

@@ -14,7 +14,6 @@ from skillc.services.fact_places import FactPlaces
 from skillc.services.files import inspect_path
 from skillc.services.reporting import Reporter
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.summary import summarise_recording
 from skillc_runtime.evaluation.report.write import RESULT
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.failure_text import describe_failure
@@ -99,6 +98,8 @@ def read_result(path: Path, events: Sequence[Envelope]) -> TaskResult:
 
 def make_result(events: Sequence[Envelope], name: str) -> TaskResult:
     """Return the result that the events of a run tell. ServiceError with its name if its task has not begun."""
+    from skillc_runtime.evaluation.report.summary import summarise_recording  # it needs what measures
+
     history = _require_history(read_history(each.event for each in events), name)
     if not history.status:
         history = msgspec.structs.replace(history, status="interrupted")
