@@ -27,4 +27,4 @@ def test_recordings_are_explained_as_the_page_says(tmp_path: Path, monkeypatch: 
     monkeypatch.chdir(tmp_path)
     reader = Reader(monkeypatch, everything=True)
     reader.follow(PAGE)
-    assert reader.done == sum(block.text.count("\n") for block in blocks(PAGE) if block.language == "sh") == 6
+    assert reader.done == sum(block.text.count("\n") for block in blocks(PAGE) if block.language == "sh") == 7
