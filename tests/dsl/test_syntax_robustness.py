@@ -12,6 +12,7 @@ from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.encoding import decode
 from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.parsing.parser import parse
+from skillc_dsl.parsing.tables import load_tables
 from skillc_dsl.source import Source
 
 WORDS = [(t.start_pos or 0, t.end_pos or 0) for t in tokenize(Source("", WHOLE)).value]
@@ -60,6 +61,14 @@ def test_truncated_files(text: str) -> None:
             assert not outcome.ok
             beginnings += 1
     assert beginnings > 50
+
+
+@pytest.mark.parametrize("before", ["", "skill ", "impl x of ", "skill X {\n    ", "impl x of X {\n    do "])
+def test_a_file_that_ends_after_any_word(before: str) -> None:
+    words = load_tables().words
+    assert len(words) > 50
+    for word in words:
+        check(parse(Source("", before + word)), before + word)
 
 
 def test_a_broken_member_costs_only_itself() -> None:

@@ -28,13 +28,14 @@ _NAMED = MappingProxyType(
         "FOR": "variable",
     }
 )
+"""What a word after a token is the name of."""
 _LABELLED = MappingProxyType(
     {
         **dict.fromkeys(("IN", "OPT", "INFER", "ANY", "OUT"), "parameter"),
         **dict.fromkeys(("EXISTS", "FORALL"), "variable"),
     }
 )
-"""What is named after a token, and what a name with its `:` is the name of."""
+"""What a label after a token is the name of."""
 _VALUES = frozenset(("parameter", "variable", "value", "function"))
 
 
@@ -73,8 +74,8 @@ def _find(tokens: Sequence[Token]) -> Iterator[tuple[int, str, str]]:
             word = token[:-1]
         else:
             kind, word = _NAMED.get(before), token.value
-        if before == "IMPL" and tokens[index + 1].type != "OF":
-            kind = None
+        if before == "IMPL" and [each.type for each in tokens[index + 1 : index + 2]] != ["OF"]:
+            kind = None  # its name is what is missing
         if kind is not None and terminals.get(word) in reserved[kind]:
             yield index, kind, word
         before = token.type
@@ -87,11 +88,11 @@ def _reserved() -> MappingProxyType[str, frozenset[str]]:
     words = frozenset(load_tables().words.values())
     values = list_following_terminals("IMPL NAME OF NAME LBRACE LET NAME EQUAL") & name_terminals()
     names = dict.fromkeys((*_NAMED.values(), *_LABELLED.values()), words - name_terminals())
-    skills = frozenset(each for each in words if not _is_callee(each))
-    return MappingProxyType({**names, **dict.fromkeys(_VALUES, words - values), "skill": skills})
+    never_called = frozenset(each for each in words if not _can_be_called(each))
+    return MappingProxyType({**names, **dict.fromkeys(_VALUES, words - values), "skill": never_called})
 
 
-def _is_callee(terminal: str) -> bool:
-    """Whether a skill can be called by a word."""
+def _can_be_called(terminal: str) -> bool:
+    """Whether a step can call a skill of this name."""
     body, call = "IMPL NAME OF NAME LBRACE DO", "LSQB NAME RSQB LPAR"
     return can_continue([load_tables().start], *body.split(), terminal, *call.split())
