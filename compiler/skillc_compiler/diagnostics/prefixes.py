@@ -14,10 +14,11 @@ from skillc_rdf.vocabulary.types import local_name
 def with_prefix(problem: Diagnostic, program: Program) -> Diagnostic:
     """Return the problem with the qualified name as its fix, if there is one relation of that name, else unchanged.
 
-    The terms of a library have no prefix in a file that declares none; then the help says which line to add.
+    The terms of a library have no prefix in a file that declares none; then the help says which line to add. Where the
+    relation is declared, no prefix helps.
     """
     unit = next((unit for unit in program.files if unit.file.path == problem.span.path), None)
-    if problem.name != NAME or unit is None:
+    if problem.name != NAME or unit is None or _names_declaration(problem, unit):
         return problem
     word = _text_at(unit, problem)
     found = [iri for iri in program.vocabulary.relations if local_name(iri) == word]
@@ -28,6 +29,10 @@ def with_prefix(problem: Diagnostic, program: Program) -> Diagnostic:
     if prefix:
         return replace(problem, help="", fix=Fix(problem.span, f"{prefix}:{word}", f"write `{prefix}:{word}`"))
     return replace(problem, help=f"add `prefix own: <{base}>` at the top of the file and write `own:{word}`")
+
+
+def _names_declaration(problem: Diagnostic, unit: ParsedFile) -> bool:
+    return any(each.name.span == problem.span for each in unit.file.declarations)
 
 
 def _prefix_of(base: str, file: s.File, program: Program) -> str | None:
