@@ -45,7 +45,7 @@ class UnprovedPrecondition(msgspec.Struct, frozen=True):
     """A precondition or hold of a called skill that is not known to hold at its start; `false` if known not to hold.
 
     `always` if it is false whenever the call begins and nothing catches that, so that what comes after it never runs.
-    `condition` is what is needed in the terms of the caller.
+    `condition` is what is needed in the terms of the caller; `incurable` if no precondition of the caller is enough.
     """
 
     call: Call
@@ -55,6 +55,7 @@ class UnprovedPrecondition(msgspec.Struct, frozen=True):
     always: bool = False
     condition: Condition | None = None
     remedy: Remedy | None = None
+    incurable: bool = False
 
 
 class BrokenHold(msgspec.Struct, frozen=True):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from itertools import combinations
 from typing import TypeAlias
 
@@ -28,61 +29,102 @@ from skillc_model.rewriting import substitute
 from skillc_model.traversal import conjuncts, free_variables
 from skillc_rdf.vocabulary.types import THING
 
-MOST_TRIED = 8
-"""The number of findings in a body for which a remedy is looked for."""
-_MOST_PAIRS = 15
-_NONE = Remedy()
+MOST_STEPS = 200
+"""The number of steps of a body that are explored again, whatever is found in it."""
 
 Explored: TypeAlias = tuple[Exploration, EndStates]
 Assume: TypeAlias = Callable[[Remedy], Explored]
 """Explores a body again as if a remedy had been added to its skill."""
 
 
+@dataclass
+class _Trials:
+    """Explorations with remedies: the last one took so many `steps`, and so many are `left` for others."""
+
+    assume: Assume
+    steps: int
+    left: int
+
+    def may_make(self, count: int) -> bool:
+        """Whether that many explorations are few enough."""
+        return count * self.steps <= self.left
+
+    def explore(self, remedy: Remedy) -> Explored:
+        """Explore the body with a remedy."""
+        run, ends = self.assume(remedy)
+        self.steps = run.steps
+        self.left -= run.steps
+        return run, ends
+
+    def helps(self, remedy: Remedy, one: UnprovedPost | UnprovedPrecondition) -> bool:
+        """Whether a finding goes away with a remedy."""
+        run, ends = self.explore(remedy)
+        if isinstance(one, UnprovedPost):
+            meaning = one.post.condition.meaning
+            return bool(ends.success) and all(evaluate(run.types, state, meaning) for state in ends.success)
+        left = (each for each in run.unproved_preconditions() if isinstance(each, UnprovedPrecondition))
+        return not any(each.call is one.call and each.requirement is one.requirement for each in left)
+
+
 def add_remedies(
     run: Exploration, implementation: Implementation, found: Iterable[Finding], assume: Assume
 ) -> Iterator[Finding]:
     """Yield the findings, with a remedy where one is known to help."""
-    left = MOST_TRIED
+    trials = _Trials(assume, run.steps, MOST_STEPS)
     for one in found:
-        if left and isinstance(one, UnprovedPost | UnprovedPrecondition) and not one.false:
-            left -= 1
-            yield structs.replace(one, remedy=_find(run, implementation, one, assume))
-        elif isinstance(one, UndeclaredEffect) and not one.missing and one.condition is not None:
-            yield structs.replace(one, remedy=_declare(run, implementation, one, one.condition, assume))
-        else:
-            yield one
+        match one:
+            case UnprovedPost(false=False):
+                yield structs.replace(one, remedy=_keep_apart(implementation, one, trials))
+            case UnprovedPrecondition(condition=condition) if condition is not None:
+                yield _require(run, implementation, one, condition, trials)
+            case UndeclaredEffect(missing="", condition=condition) if condition is not None and trials.may_make(1):
+                yield structs.replace(one, remedy=_declare(run, implementation, one, condition, trials))
+            case _:
+                yield one
 
 
-def _find(
-    run: Exploration, implementation: Implementation, one: UnprovedPost | UnprovedPrecondition, assume: Assume
-) -> Remedy | None:
-    """Return the precondition, or the names that have to differ, without which the finding stays."""
-    first = _NONE
-    if isinstance(one, UnprovedPrecondition):
-        named = _name(run, implementation, one.condition, is_post=False) if one.condition is not None else None
-        if named is None:
-            return None
-        first = named
-        if _helps(assume(first), one):
-            return first
-    apart = list(_pairs(implementation))
-    if len(apart) > _MOST_PAIRS or not _helps(assume(_with(first, apart)), one):
+def _keep_apart(implementation: Implementation, one: UnprovedPost, trials: _Trials) -> Remedy | None:
+    """Return which parameters have to differ so that a postcondition holds."""
+    apart = tuple(_pairs(implementation))
+    return _with_fewest_apart(Remedy(apart=apart), one, trials) if apart and trials.may_make(1 + len(apart)) else None
+
+
+def _require(
+    run: Exploration, implementation: Implementation, one: UnprovedPrecondition, condition: Condition, trials: _Trials
+) -> UnprovedPrecondition:
+    """Return the finding with a precondition that is enough; incurable if none is, whatever differs."""
+    required = _name(run, implementation, condition, is_post=False)
+    if required is None or not trials.may_make(1):
+        return one
+    if trials.helps(required, one):
+        return structs.replace(one, remedy=required)
+    apart = tuple(_pairs(implementation))
+    if apart and not trials.may_make(1 + len(apart)):
+        return one
+    remedy = _with_fewest_apart(structs.replace(required, apart=apart), one, trials) if apart else None
+    return structs.replace(one, remedy=remedy, incurable=remedy is None)
+
+
+def _with_fewest_apart(remedy: Remedy, one: UnprovedPost | UnprovedPrecondition, trials: _Trials) -> Remedy | None:
+    """Return a remedy with as few parameters that differ as are enough; None if it does not help."""
+    if not trials.helps(remedy, one):
         return None
-    for each in tuple(apart):
-        fewer = [other for other in apart if other is not each]
-        if _helps(assume(_with(first, fewer)), one):
-            apart = fewer
-    return _with(first, apart)
+    fewest = remedy
+    for each in remedy.apart:
+        fewer = structs.replace(fewest, apart=tuple(other for other in fewest.apart if other is not each))
+        if trials.helps(fewer, one):
+            fewest = fewer
+    return fewest
 
 
 def _declare(
-    run: Exploration, implementation: Implementation, one: UndeclaredEffect, effect: Condition, assume: Assume
+    run: Exploration, implementation: Implementation, one: UndeclaredEffect, effect: Condition, trials: _Trials
 ) -> Remedy | None:
     """Return what declares an effect; what the call finds by itself is passed if nothing else could be meant then."""
     named = _name(run, implementation, effect, is_post=True)
     if named is None:
         return None
-    again, ends = assume(named)
+    again, ends = trials.explore(named)
     if ends.success and all(evaluate(again.types, state, each) for state in ends.success for each in named.after):
         return named
     fresh = {name.rstrip("'"): _parameter_name(name) for name in free_variables(effect) if "@" in name}
@@ -93,25 +135,11 @@ def _declare(
     return structs.replace(named, before=tuple(before), passed=tuple(fresh.values()))
 
 
-def _with(remedy: Remedy, apart: Sequence[Condition]) -> Remedy:
-    return structs.replace(remedy, apart=tuple(apart))
-
-
 def _pairs(implementation: Implementation) -> Iterator[Condition]:
     """Yield that two parameters are different individuals, for each two that may be the same."""
     things = [each.name for each in implementation.parameters if isinstance(each.type, Thing)]
     for left, right in combinations(things, 2):
         yield Not(Same(Variable(left), Variable(right)))
-
-
-def _helps(explored: Explored, one: UnprovedPost | UnprovedPrecondition) -> bool:
-    run, ends = explored
-    if isinstance(one, UnprovedPost):
-        return bool(ends.success) and all(
-            evaluate(run.types, state, one.post.condition.meaning) for state in ends.success
-        )
-    left = (each for each in run.unproved_preconditions() if isinstance(each, UnprovedPrecondition))
-    return not any(each.call is one.call and each.requirement is one.requirement for each in left)
 
 
 def _name(run: Exploration, implementation: Implementation, condition: Condition, is_post: bool) -> Remedy | None:

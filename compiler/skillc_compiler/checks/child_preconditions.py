@@ -48,9 +48,6 @@ def _help(one: UnprovedPrecondition, proof: Proof) -> tuple[str, Fix | None]:
         lines = remedy_lines(one.remedy, proof.vocabulary)
         added = " and ".join(f"`{line}`" for line in lines)
         return f"add {added} to `{proof.of.skill.name}`, or establish it before", add_lines(lines, proof.of.skill)
-    if one.path is None:
-        return "establish it before, or test it: `check(..)`", None
-    return (
-        "no `pre` is enough, as steps before may change it: establish it here, or test it: `check(..)`",
-        None,
-    )
+    if one.incurable:
+        return "no `pre` is enough, as steps before may change it: establish it here, or test it: `check(..)`", None
+    return "establish it before, or test it: `check(..)`", None
