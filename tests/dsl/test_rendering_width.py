@@ -17,7 +17,7 @@ PROBLEM = Diagnostic(
     LONG,
     LONG,
     labels=(Label(Span("a.skill", 1, 7, 1, 11), LONG), Label(Span("a.skill", 2, 168, 2, 171), LONG)),
-    fix=Fix(Span("a.skill", 2, 9, 2, 9), " ", LONG),
+    fix=Fix(Span("a.skill", 2, 9, 2, 9), " ", f"do it: {LONG}"),
 )
 CHARACTERS = st.sampled_from("abc \té你好🙂\u0301\x1b")
 
@@ -82,3 +82,12 @@ def test_edges_are_where_the_terminal_puts_characters(text: str) -> None:
     assert [line.edge(column) for column in range(1, len(text) + 1)] == [
         count_cells("".join(line.pieces[:index])) for index in range(len(text))
     ]
+
+
+def test_help_that_the_fix_repeats_is_said_once() -> None:
+    fix = Fix(Span("a.skill", 1, 1, 1, 6), "scene", "write `scene`")
+    shown, other = (
+        full.render([Diagnostic("two", Span("a.skill", 1, 1, 1, 6), "", help_, fix=fix)], {"a.skill": SOURCE})
+        for help_ in ("write `scene`", "write `scene` or `goal`")
+    )
+    assert (shown.count("write `scene`"), other.count("write `scene`")) == (1, 2)

@@ -40,7 +40,8 @@ def _lines(diagnostic: Diagnostic, sources: Mapping[str, Source], paint: Paint, 
     for number, path in enumerate(dict.fromkeys(mark.span.path for mark in marks)):
         own = [mark for mark in marks if mark.span.path == path]
         yield from render_excerpt(sources.get(path), own, ":::" if number else "-->", page)
-    if diagnostic.help:
+    said_by_fix = (diagnostic.fix.message,) if diagnostic.fix else ()
+    if diagnostic.help and diagnostic.help not in said_by_fix:
         yield from _note("help", diagnostic.help, page)
     if diagnostic.fix:
         yield from _fix(diagnostic, diagnostic.fix, sources, page)
