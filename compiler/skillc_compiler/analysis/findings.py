@@ -9,22 +9,27 @@ import msgspec
 from skillc_compiler.analysis.paths import Path
 from skillc_compiler.program.typed import Call, Implementation, Parameter, Property, Requirement, TypedNode
 from skillc_dsl.source import Span
-from skillc_model.conditions import Condition
+from skillc_model.conditions import Condition, Not, Same, Variable
 
 
 class Remedy(msgspec.Struct, frozen=True):
     """What a skill would have to say so that a finding goes away.
 
     `parameters` are to be inferred, each with the IRI of its class, through the preconditions `before`; `apart` are
-    preconditions that parameters differ; `after` are postconditions. `passed` are parameters that the call has to be
-    given, as it may find something else by itself.
+    pairs of parameters that have to differ; `after` are postconditions. `passed` are parameters that the call has to
+    be given, as it may find something else by itself.
     """
 
     parameters: tuple[tuple[str, str], ...] = ()
     before: tuple[Condition, ...] = ()
-    apart: tuple[Condition, ...] = ()
+    apart: tuple[tuple[str, str], ...] = ()
     after: tuple[Condition, ...] = ()
     passed: tuple[str, ...] = ()
+
+    @property
+    def required(self) -> tuple[Condition, ...]:
+        """All preconditions."""
+        return (*self.before, *(Not(Same(Variable(left), Variable(right))) for left, right in self.apart))
 
 
 class UnprovedPost(msgspec.Struct, frozen=True):

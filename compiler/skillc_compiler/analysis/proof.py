@@ -205,7 +205,7 @@ class Prover:
         run = self.new_exploration(implementation, body)
         run.types.classes.update(remedy.parameters)
         start = initial_state(run.types, implementation)
-        for condition in (*remedy.before, *remedy.apart):
+        for condition in remedy.required:
             start = assume(run.types, start, condition) or start
         return run, explore(run, body, {start: None}, EvalContext())
 

@@ -24,7 +24,7 @@ from skillc_compiler.analysis.paths import EndStates
 from skillc_compiler.program.typed import Call, Implementation, TypedNode
 from skillc_compiler.program.types import Thing
 from skillc_compiler.program.walk import calls_in
-from skillc_model.conditions import Condition, Expression, Holds, Not, Same, Variable
+from skillc_model.conditions import Condition, Expression, Holds, Variable
 from skillc_model.rewriting import substitute
 from skillc_model.traversal import conjuncts, free_variables
 from skillc_rdf.vocabulary.types import THING
@@ -85,7 +85,7 @@ def add_remedies(
 
 def _keep_apart(implementation: Implementation, one: UnprovedPost, trials: _Trials) -> Remedy | None:
     """Return which parameters have to differ so that a postcondition holds."""
-    apart = tuple(_pairs(implementation))
+    apart = _pairs(implementation)
     return _with_fewest_apart(Remedy(apart=apart), one, trials) if apart and trials.may_make(1 + len(apart)) else None
 
 
@@ -98,7 +98,7 @@ def _require(
         return one
     if trials.helps(required, one):
         return structs.replace(one, remedy=required)
-    apart = tuple(_pairs(implementation))
+    apart = _pairs(implementation)
     if apart and not trials.may_make(1 + len(apart)):
         return one
     remedy = _with_fewest_apart(structs.replace(required, apart=apart), one, trials) if apart else None
@@ -135,11 +135,9 @@ def _declare(
     return structs.replace(named, before=tuple(before), passed=tuple(fresh.values()))
 
 
-def _pairs(implementation: Implementation) -> Iterator[Condition]:
-    """Yield that two parameters are different individuals, for each two that may be the same."""
-    things = [each.name for each in implementation.parameters if isinstance(each.type, Thing)]
-    for left, right in combinations(things, 2):
-        yield Not(Same(Variable(left), Variable(right)))
+def _pairs(implementation: Implementation) -> tuple[tuple[str, str], ...]:
+    """Return each two parameters that may be the same individual."""
+    return tuple(combinations((each.name for each in implementation.parameters if isinstance(each.type, Thing)), 2))
 
 
 def _name(run: Exploration, implementation: Implementation, condition: Condition, is_post: bool) -> Remedy | None:

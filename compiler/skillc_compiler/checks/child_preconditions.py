@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from skillc_compiler.analysis.findings import UnprovedPrecondition
 from skillc_compiler.analysis.paths import path_labels
 from skillc_compiler.analysis.proof import Proof, Proofs
-from skillc_compiler.analysis.remedy_lines import add_lines, remedy_lines
+from skillc_compiler.analysis.remedy_lines import add_lines, quote_all, remedy_lines
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Implementation
@@ -46,8 +46,8 @@ def _help(one: UnprovedPrecondition, proof: Proof) -> tuple[str, Fix | None]:
         return "call it where its precondition holds, or establish it before", None
     if isinstance(proof.of, Implementation) and one.remedy is not None:
         lines = remedy_lines(one.remedy, proof.vocabulary)
-        added = " and ".join(f"`{line}`" for line in lines)
-        return f"add {added} to `{proof.of.skill.name}`, or establish it before", add_lines(lines, proof.of.skill)
+        help_ = f"add {quote_all(lines)} to `{proof.of.skill.name}`, or establish it before"
+        return help_, add_lines(lines, proof.of.skill)
     if one.incurable:
         return "no `pre` is enough, as steps before may change it: establish it here, or test it: `check(..)`", None
     return "establish it before, or test it: `check(..)`", None

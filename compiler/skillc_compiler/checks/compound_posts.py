@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from skillc_compiler.analysis.findings import Finding, UnprovedPost, UnprovedPrecondition
 from skillc_compiler.analysis.paths import path_labels
 from skillc_compiler.analysis.proof import Proofs, findings_of
-from skillc_compiler.analysis.remedy_lines import add_lines, describe_same, remedy_lines
+from skillc_compiler.analysis.remedy_lines import add_lines, quote_all, remedy_lines
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import TypedNode
@@ -26,15 +26,16 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
         one = several[0]
         vocabulary = proofs[one.implementation.key].vocabulary
         verb = "makes it false" if one.false else "does not establish it"
-        texts = " and ".join(f"`{each.post.text}`" for each in several)
+        texts = quote_all(each.post.text for each in several)
         apart = one.remedy.apart if one.remedy is not None else ()
-        same = f" if {describe_same(apart, vocabulary)}" if apart else ""
+        same = " or ".join(f"`{left}` and `{right}` are the same" for left, right in apart)
+        verb += f" if {same}" if same else ""
         lines = remedy_lines(one.remedy, vocabulary) if one.remedy is not None else ()
         yield Diagnostic(
             "post-not-established",
             one.implementation.name_span,
-            f"`{one.implementation.name}` can succeed in a way that {verb}{same}: {texts}",
-            help=f"say that they differ: {' and '.join(f'`{line}`' for line in lines)}" if lines else _help(one),
+            f"`{one.implementation.name}` can succeed in a way that {verb}: {texts}",
+            help=f"say that they differ: {quote_all(lines)}" if lines else _help(one),
             severity="warning" if one.beyond else "error",
             labels=(*(Label(each.post.span, "promised here") for each in several), *path_labels(one.path)),
             fix=add_lines(lines, one.implementation.skill) if lines else None,

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 
-from skillc_compiler.analysis.findings import UndeclaredEffect
+from skillc_compiler.analysis.findings import Remedy, UndeclaredEffect
 from skillc_compiler.analysis.paths import path_labels
 from skillc_compiler.analysis.proof import Proofs, findings_of
-from skillc_compiler.analysis.remedy_lines import add_lines, remedy_lines
+from skillc_compiler.analysis.remedy_lines import add_lines, quote_all, remedy_lines
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -24,36 +24,44 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
     groups: dict[str, list[UndeclaredEffect]] = defaultdict(list)
     for one in findings_of(proofs, UndeclaredEffect):
         groups[one.implementation.key].append(one)
-    for key, (one, *others) in groups.items():
-        skill = one.implementation.skill
-        lines = _lines([one, *others], proofs[key].vocabulary)
-        added = " and ".join(f"`{line}`" for line in lines)
-        calls = " and ".join(dict.fromkeys(f"`{each.call.written.skill.text}`" for each in (one, *others)))
-        effects = " and ".join(dict.fromkeys(f"`{each.post.text}`" for each in (one, *others)))
-        passed = dict.fromkeys(name for each in (one, *others) if each.remedy for name in each.remedy.passed)
-        then = f", and pass {' and '.join(f'`{name}`' for name in passed)} to {calls}" if passed else ""
-        verb, what = "cause" if " and " in calls else "causes", added or "a `post` that declares it"
-        yield Diagnostic(
-            "undeclared-effect",
-            one.call.written.skill.span,
-            f"{calls} {verb} {effects}, which `{skill.name}` does not declare",
-            help=f"add {what} to `{skill.name}` or to this implementation{then}, or undo it",
-            labels=(
-                Label(one.post.span, "the effect"),
-                Label(skill.name_span, "whose posts do not declare it"),
-                *(Label(other.call.written.skill.span, f"causes `{other.post.text}`") for other in others),
-                *path_labels(one.path),
-            ),
-            fix=add_lines(lines, skill) if lines and not passed else None,
-        )
+    for key, effects in groups.items():
+        yield _report(effects, proofs[key].vocabulary)
+
+
+def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diagnostic:
+    (one, *others), skill = effects, effects[0].implementation.skill
+    lines = _lines(effects, vocabulary)
+    what = quote_all(lines) if lines else "a `post` that declares it"
+    calls = dict.fromkeys(each.call.written.skill.text for each in effects)
+    verb = "causes" if len(calls) == 1 else "cause"
+    passing = [each for each in effects if each.remedy is not None and each.remedy.passed]
+    passed = quote_all(name for each in passing if each.remedy is not None for name in each.remedy.passed)
+    then = f", and pass {passed} to {quote_all(each.call.written.skill.text for each in passing)}" if passed else ""
+    return Diagnostic(
+        "undeclared-effect",
+        one.call.written.skill.span,
+        f"{quote_all(calls)} {verb} {quote_all(each.post.text for each in effects)}, "
+        f"which `{skill.name}` does not declare",
+        help=f"add {what} to `{skill.name}` or to this implementation{then}, or undo it",
+        labels=(
+            Label(one.post.span, "the effect"),
+            Label(skill.name_span, "whose posts do not declare it"),
+            *(Label(other.call.written.skill.span, f"causes `{other.post.text}`") for other in others),
+            *path_labels(one.path),
+        ),
+        fix=add_lines(lines, skill) if lines and not passed else None,
+    )
 
 
 def _lines(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> tuple[str, ...]:
     """Return the lines that declare all effects, parameters first; none if one of them cannot be declared."""
-    remedies = [each.remedy for each in effects if not each.missing]
-    if None in remedies:
+    remedies = [each.remedy for each in effects if each.remedy is not None]
+    if any(not each.missing and each.remedy is None for each in effects):
         return ()
-    said = [line for each in remedies if each is not None for line in remedy_lines(each, vocabulary)]
-    said += [f"post {each.missing}" for each in effects if each.missing]
-    order = ("infer", "pre", "post")
-    return tuple(sorted(dict.fromkeys(said), key=lambda line: order.index(line.partition(" ")[0])))
+    all_ = Remedy(
+        parameters=tuple(part for each in remedies for part in each.parameters),
+        before=tuple(part for each in remedies for part in each.before),
+        after=tuple(part for each in remedies for part in each.after),
+    )
+    missing = (f"post {each.missing}" for each in effects if each.missing)
+    return tuple(dict.fromkeys((*remedy_lines(all_, vocabulary), *missing)))
