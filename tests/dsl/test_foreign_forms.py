@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
+from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.edits import apply_fixes
+from skillc_dsl.parsing.foreign import matching
+from skillc_dsl.parsing.foreign.form import Form
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
@@ -16,7 +21,7 @@ PLACES = {
     "declaration": "use skiros\n@\n",
     "task": 'task t {\n    scene "a.ttl"\n    @\n}\n',
 }
-FORMS = (
+EXAMPLES = (
     ("step", "try { Go() } catch { Turn() }", "sel { seq { Go() } seq { Turn() } }"),
     ("step", "try { Go() } else { Turn() }", "sel { seq { Go() } seq { Turn() } }"),
     ("step", "retry 3 times { Go() }", "retry 3 { Go() }"),
@@ -129,10 +134,72 @@ FORMS = (
     ("task", "run Go(a: lab:A)", "do Go(a: lab:A)"),
     ("task", "goal: lab:A hasA lab:B", "goal lab:A hasA lab:B"),
     ("task", "goal lab:A hasA lab:B, lab:A hasA lab:C", "goal lab:A hasA lab:B and lab:A hasA lab:C"),
+    ("step", "if a.x == B { Go() } otherwise { Turn() }", "if a.x == B { Go() } else { Turn() }"),
+    ("step", "try { Go() } finally { Turn() }", None),
+    ("step", "repeat { Go() } until a.x == B", None),
+    ("step", "loop { Go() }", None),
+    ("step", "do { Go() } while a.x == B", None),
+    ("step", "when a.x == B { Go() }", "if a.x == B { Go() }"),
+    ("step", "seq (Go() Turn())", "seq {Go() Turn()}"),
+    ("step", "if a.x == B:\n            Go()", None),
+    ("step", "else {\n            Go()\n        }", None),
+    ("step", "with Hold() as h { Go() }", "with Hold() { Go() }"),
+    ("step", 'throw Error("x")', None),
+    ("step", "assert(a.x == B)", "check(a.x == B)"),
+    ("step", 'print("x")', ""),
+    ("step", "sleep(1)", "wait 1 s"),
+    ("step", "wait for 3 s", "wait 3 s"),
+    ("step", "wait for a.x == B", "wait until a.x == B"),
+    ("step", "wait_until a.x == B", "wait until a.x == B"),
+    ("step", "within 3 s { Go() }", "timeout 3 s { Go() }"),
+    ("step", "inverter { Go() }", "invert { Go() }"),
+    ("step", "do Go()", "Go()"),
+    ("step", "begin", None),
+    ("step", "a.Go(b)", "Go(a, b)"),
+    ("step", "Go", "Go()"),
+    ("member", "invariant a hasA b", "hold a hasA b"),
+    ("member", "output b: Box", "out b: Box"),
+    ("member", "optional m: Mass = 1 kg", "opt m: Mass = 1 kg"),
+    ("member", "cost 3 s", "duration 3 s"),
+    ("member", 'description "x"', None),
+    ("member", "Box b", "in b: Box"),
+    ("member", "opt m: Mass default 1 kg", "opt m: Mass = 1 kg"),
+    ("member", "opt m: Mass = 1 kg in 1 kg .. 2 kg", "opt m: Mass = 1 kg range 1 kg .. 2 kg"),
+    ("member", 'in b: "Box"', "in b: Box"),
+    ("member", "in b: Box[]", "in b: [Box]"),
+    ("member", "pre a hasA no b", "pre not a hasA b"),
+    ("member", "pre 1 kg < a.m and < 5 kg", "pre 1 kg < a.m and a.m < 5 kg"),
+    ("member", "pre a.x in [B, C]", "pre (a.x == B or a.x == C)"),
+    ("member", "pre Go(a: b)", None),
+    ("member", "pre has(a, m)", "pre a has m"),
+    ("member", "pre a.m exists", "pre a has m"),
+    ("member", "pre a->x == B", "pre a.x == B"),
+    ("member", "pre a->b(c)", "pre a b c"),
+    ("member", "pre there exists b: Box (a hasA b)", "pre exists b: Box (a hasA b)"),
+    ("member", "pre [a hasA b]", "pre a hasA b"),
+    ("head", "impl a(X) {", "impl a of X {"),
+    ("head", "impl X[a] {", "impl a of X {"),
+    ("head", "impl a of skill X {", "impl a of X {"),
+    ("head", "impl a of X() {", "impl a of X {"),
+    ("head", 'impl "a" of X {', "impl a of X {"),
+    ("head", "impl a-b of X {", "impl a_b of X {"),
+    ("head", "implementation X {", None),
+    ("declaration", "skill X extends Y {\n    noplan\n}", None),
+    ("declaration", "def X { noplan }", "skill X { noplan }"),
+    ("declaration", "def X(a) { noplan }", None),
+    ("declaration", "enum Color { Red }", None),
+    ("declaration", "namespace lab", None),
+    ("declaration", "class Blue < Box { }", "class Blue < Box"),
+    ("declaration", "relation near(a: Box, b: Box)", "relation near(Box, Box)"),
+    ("declaration", "relation near Box, Box", "relation near(Box, Box)"),
+    ("declaration", "property Box.p: Mass", "property p(Box): Mass"),
+    ("declaration", 'function f(a: Mass): Mass = python "a:b"', 'function f(a: Mass) -> Mass = python "a:b"'),
+    ("declaration", 'include "motion.skill"', 'import "motion.skill"'),
+    ("declaration", "prefix lab = <http://a.b/c#>", "prefix lab: <http://a.b/c#>"),
 )  # fmt: skip
 
 
-@pytest.mark.parametrize(("place", "written", "meant"), FORMS, ids=[written.split("\n")[0] for _, written, _ in FORMS])
+@pytest.mark.parametrize(("place", "written", "meant"), EXAMPLES, ids=[each[1].split("\n")[0] for each in EXAMPLES])
 def test_form(place: str, written: str, meant: str | None) -> None:
     text = PLACES[place].replace("@", written)
     [problem] = parse(Source("own.skill", text)).diagnostics
@@ -144,3 +211,24 @@ def test_form(place: str, written: str, meant: str | None) -> None:
     assert fixed.replace("{  ", "{ ") == PLACES[place].replace("@", meant)
     again = parse(Source("own.skill", fixed)).diagnostics
     assert again == ()
+
+
+def test_each_form_has_an_example(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = set[Form]()
+
+    def report(form: Form, *place: Any) -> Diagnostic:
+        found.add(form)
+        return make(form, *place)
+
+    make = matching._problem
+    monkeypatch.setattr(matching, "_problem", report)
+    for place, written, _ in EXAMPLES:
+        parse(Source("own.skill", PLACES[place].replace("@", written)))
+    assert [form.pattern.pattern for form in matching.FORMS if form not in found] == []
+
+
+def test_a_part_of_a_product_is_not_repeated_alone() -> None:
+    text = PLACES["member"].replace("@", "pre 2 * a.m >= 1 kg and <= 2 kg")
+    [problem] = parse(Source("own.skill", text)).diagnostics
+    assert "a.m" not in problem.help
+    assert problem.fix is None or "a.m" not in problem.fix.text

@@ -5,7 +5,10 @@ from __future__ import annotations
 from skillc_dsl.parsing.foreign.form import inner
 
 _NAME = r"[^\W\d]\w*(?::[^\W\d][\w-]*)?"
-_PATH = r"[^\W\d][\w:.-]*"
+_PATH = r"(?<![\w.:])(?<!\d )[^\W\d](?:[\w:.-]*\w)?"
+"""A name with its prefix or properties, but not the unit of a quantity."""
+_WHOLE = rf"(?<![-+*/] ){_PATH}"
+"""A path that is not the last part of a sum or product, which would have to be repeated with it."""
 _VALUE = rf"(?:\d[\d.]*(?:\s?(?!and\b|or\b)[A-Za-z][\w/]*)?|{_PATH})"
 _LESS = r"(?:<=?|>=?|==)"
 _NOT_WORDS = r"(?!(?:and|or|not|implies|pre|hold|post|goal|if|while|until|verify|never)\b)"
@@ -22,27 +25,27 @@ FORMS = (
         r"\g<a> \g<b> \g<c> and \g<c> \g<d> \g<e>",
     ),
     inner(
-        rf"(?P<a>(?P<d>{_PATH})\s*(?:{_LESS}|!=)\s*{_VALUE})\s+(?P<b>and|or)\s+(?=[<>=!])",
+        rf"(?P<a>(?P<d>{_WHOLE})\s*(?:{_LESS}|!=)\s*{_VALUE})\s+(?P<b>and|or)\s+(?=[<>=!])",
         r"\g<a> \g<b> \g<d> ",
     ),
-    inner(rf"(?P<a>{_PATH})\s+(?P<b>and|or)\s+(?=[<>=!])", r"\g<a> \g<b> \g<a> "),
+    inner(rf"(?P<a>{_WHOLE})\s+(?P<b>and|or)\s+(?=[<>=!])", r"\g<a> \g<b> \g<a> "),
     inner(rf"(?P<a>{_SUBJECT})\s+has\s+(?P<b>{_NAME})\s*(?={_LESS})", r"\g<a>.\g<b> "),
     inner(rf"(?P<a>{_SUBJECT}\s+{_NAME}\s+{_NAME})\s*={{1,2}}\s*true\b", r"\g<a>"),
     inner(rf"(?P<a>{_SUBJECT}\s+{_NAME}\s+{_NAME})\s*={{1,2}}\s*false\b", r"not \g<a>"),
     inner(
-        rf"(?P<a>{_PATH})\s+(?:between\s+(?P<b>{_VALUE})\s+and|in\s+(?P<d>{_VALUE})\s*\.\.)\s*(?P<c>{_VALUE})",
+        rf"(?P<a>{_WHOLE})\s+(?:between\s+(?P<b>{_VALUE})\s+and|in\s+(?P<d>{_VALUE})\s*\.\.)\s*(?P<c>{_VALUE})",
         r"\g<a> >= \g<b>\g<d> and \g<a> <= \g<c>",
     ),
     inner(
-        rf"(?P<a>{_PATH})\s+in\s+\[(?P<b>{_VALUE}),\s*(?P<c>{_VALUE})\]",
+        rf"(?P<a>{_WHOLE})\s+in\s+\[(?P<b>{_VALUE}),\s*(?P<c>{_VALUE})\]",
         r"(\g<a> == \g<b> or \g<a> == \g<c>)",
     ),
     inner(rf"\b(?P<a>{_NAME})\((?=\w+:\s)", None, r"a skill is not a condition: `do \g<a>(..)` runs it", "TRUE"),
     inner(rf"\bhas\s*\(\s*(?P<a>{_NAME})\s*,\s*(?P<b>{_NAME})\s*\)", r"\g<a> has \g<b>"),
     inner(rf"\bexists\s*\(\s*(?P<a>{_NAME})\.(?P<b>{_NAME})\s*\)", r"\g<a> has \g<b>"),
     inner(rf"(?P<a>{_NAME})\.(?P<b>{_NAME})\s+exists\b", r"\g<a> has \g<b>"),
-    inner(rf"(?P<a>{_NAME})\.(?P<b>{_NAME})\(\s*(?P<c>{_NAME})\s*\)", r"\g<a> \g<b> \g<c>"),
-    inner(rf"(?P<a>{_NAME})->(?P<b>{_NAME})", r"\g<a> \g<b>"),
+    inner(rf"(?P<a>{_NAME})(?:\.|->)(?P<b>{_NAME})\(\s*(?P<c>{_NAME})\s*\)", r"\g<a> \g<b> \g<c>"),
+    inner(rf"(?P<a>{_NAME})->(?P<b>{_NAME})", r"\g<a>.\g<b>"),
     inner(r"\bfor\s+all\b", "forall"),
     inner(r"\bthere\s+(?:exists|is)\b", "exists"),
     inner(

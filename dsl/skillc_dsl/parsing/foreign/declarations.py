@@ -77,6 +77,5 @@ FORMS = (
     leading(r"(?P<a>\w+)\s*=", r"let \g<a> =", where="LET"),
     inner(r":=", "=", where="EQUAL"),
     leading(rf"goal\s+(?P<a>{_NAME})\(", r"do \g<a>(", r"a skill is not a condition: write `do \g<a>(`"),
-    leading(rf"(?:run|call|execute|start)\s+(?={_NAME}\s*\()", "do ", where="DO"),
-    leading(rf"(?={_NAME}\s*\()", "do ", where="DO"),
+    leading(rf"(?:(?:run|call|execute|start)\s+)?(?={_NAME}\s*\()", "do ", where="DO"),
 )

@@ -13,7 +13,7 @@ from skillc_dsl.parsing.lexer import token_span
 from skillc_dsl.parsing.repairs import Fault
 from skillc_dsl.source import Span
 
-_FORMS = (*declarations.FORMS, *steps.FORMS, *conditions.FORMS)
+FORMS = (*declarations.FORMS, *steps.FORMS, *conditions.FORMS)
 _LONGEST = 200
 """The maximum length of a line in which forms are looked for, which bounds the time."""
 
@@ -21,7 +21,7 @@ _LONGEST = 200
 def report_foreign_form(fault: Fault, lines: Sequence[str]) -> Diagnostic | None:
     """Return the problem if the line of the fault, or the one before it that is not complete, has such a form."""
     places = [*_places(fault)]
-    for form in _FORMS:
+    for form in FORMS:
         if form.where and not can_continue(fault.states, form.where):
             continue
         for place in places:
@@ -48,7 +48,7 @@ def _find(form: Form, line: str, place: Span) -> re.Match[str] | None:
     """Return a match that touches a place in the line."""
     if len(line) > _LONGEST:
         return None
-    found = form.pattern.finditer(line.partition(" #")[0])
+    found = form.pattern.finditer(line.partition(" #")[0].rstrip())
     start, end = place.column - 1, place.end_column - 1
     return next((each for each in found if each.start("form") <= end and each.end("form") >= start), None)
 

@@ -6,6 +6,8 @@ from skillc_dsl.parsing.foreign.form import inner, leading
 
 _CALL = r"[A-Z]\w*\s*\(.*\)"
 _BLOCK = r"seq|sel|try|once|invert|par\s+\w+|(?:retry|repeat)\s+\d+|timeout\s+[\d.]+\s?\w+"
+_KIND = r"(?:var|const|val|auto|int|float|double|bool|string|def|set)"
+_VALUE = r"values are named before the steps: `let \g<a> = \g<b>` above `do`"
 _LOOP = "write `repeat 3 { .. }`, or `while C max 10 { .. }`"
 
 FORMS = (
@@ -70,21 +72,13 @@ FORMS = (
     leading(r"(?:assert|check|expect)\s+(?P<a>[^({].*\S)", r"check(\g<a>)"),
     leading(r"(?:print|log|echo)\b.*", "", "delete it: what happens in a run is recorded"),
     leading(r"(?:let|var|const|val|auto)?\s*\b(?P<a>\w+)\s*:?=\s*(?P<b>[A-Z]\w*\(.*\))", r"\g<b> -> \g<a>"),
-    *(
-        leading(pattern, None, r"values are named before the steps: `let \g<a> = \g<b>` above `do`", where)
-        for pattern, where in (
-            (r"let\s+(?P<a>\w+)\s*:?=\s*(?P<b>[^=\s].*)", "SEQ"),
-            (
-                r"(?:(?:var|const|val|auto|int|float|double|bool|string|def|set)\s+)?(?P<a>\w+)\s*:?=\s*(?P<b>.*\S)",
-                "LSQB",
-            ),
-        )
-    ),
+    leading(r"let\s+(?P<a>\w+)\s*:?=\s*(?P<b>[^=\s].*)", None, _VALUE, "SEQ"),
+    leading(rf"(?:{_KIND}\s+)?(?P<a>\w+)\s*:?=\s*(?P<b>.*\S)", None, _VALUE, "LSQB"),
     leading(r"(?:sleep|delay|wait)\s*\(?\s*(?P<a>\d[\d.]*)\s*\)?\s*$", r"wait \g<a> s"),
     leading(r"(?:sleep|delay)\s*\(?\s*(?P<a>\d[\d.]*\s?\w+)\s*\)?", r"wait \g<a>"),
-    leading(r"wait\s+for\b", "wait"),
     leading(r"wait_until\b", "wait until"),
-    leading(r"wait\s+(?!until\b)(?P<a>[^{}]*[=<>].*\S)", r"wait until \g<a>"),
+    leading(r"wait\s+(?!until\b)(?:for\s+)?(?P<a>[^{}]*[=<>].*\S)", r"wait until \g<a>"),
+    leading(r"wait\s+for\b", "wait"),
     leading(r"within\b", "timeout"),
     leading(r"(?:[Pp]arallel\b|par(?=\s*\{))", "par all", "write `par all`, `par any`, `par race` or `par lead`"),
     leading(r"(?:[Ss]equence|Seq)\b", "seq"),
