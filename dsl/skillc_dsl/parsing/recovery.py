@@ -7,8 +7,8 @@ from collections.abc import Collection, Sequence
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label, Misfit
 from skillc_dsl.parsing.automaton import MisfitError, Parser
+from skillc_dsl.parsing.constructs import show_construct
 from skillc_dsl.parsing.expectations import describe_terminals, describe_token, explain_where_it_belongs
-from skillc_dsl.parsing.foreign.constructs import show_construct
 from skillc_dsl.parsing.foreign.matching import report_foreign_form
 from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line, can_continue, list_fitting_terminals
 from skillc_dsl.parsing.lexer import empty_token_after, token_span
