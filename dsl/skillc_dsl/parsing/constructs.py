@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from skillc_dsl.parsing.tokens import Token, Tree
 
-_WRITTEN = MappingProxyType(
+WRITTEN = MappingProxyType(
     {
         "USE": "use NAME, NAME",
         "PREFIX": "prefix lab: <http://example.org/lab#>",
@@ -51,6 +51,6 @@ def show_construct(values: Sequence[Token | Tree]) -> str:
         kind = value.type if isinstance(value, Token) else ""
         if kind in ("LBRACE", "RBRACE") or (isinstance(value, Tree) and value.data.endswith("_star")):
             return ""
-        if kind in _WRITTEN:
-            return f"write `{_WRITTEN[kind]}`"
+        if kind in WRITTEN:
+            return f"write `{WRITTEN[kind]}`"
     return ""

@@ -33,9 +33,8 @@ def repair_prefix(tokens: Sequence[Token], index: int, count: int, path: str) ->
         name, problem = name_prefix(tokens, index, path)
         return Token("LABEL", f"{name}:", first.start_pos, *_place(first)), problem
     is_text = first.type == "STRING" and count == 1
-    address = (
-        f"<{first[1:-1]}>" if is_text else f"<{''.join(tokens[index : index + count])}#>"
-    )  # `#..` is a comment here
+    iri = first[1:-1] if is_text else f"{''.join(tokens[index : index + count])}#"  # a `#` begins a comment here
+    address = f"<{iri}>"
     fix = Fix(span, address, f"write `{address}`") if is_text else None
     message = "the address of a prefix stands between `<` and `>`"
     return Token("IRI", address, first.start_pos, *_place(first)), Diagnostic("syntax", span, message, _FORM, fix=fix)
