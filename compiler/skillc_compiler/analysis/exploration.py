@@ -96,6 +96,19 @@ class PreconditionStats:
     open_way: Path = None
     open_condition: Condition | None = None
 
+    def count_false(self, caught: bool, path: Path) -> None:
+        """Count that it is false; `caught` if the failure is."""
+        if not self.false or path_length(path) < path_length(self.false_way):
+            self.false_way = path
+        self.false += 1
+        self.caught |= caught
+
+    def count_open(self, condition: Condition, path: Path) -> None:
+        """Count that it is open, and what is needed in the caller's terms."""
+        if not self.open_ or path_length(path) < path_length(self.open_way):
+            self.open_way, self.open_condition = path, condition
+        self.open_ += 1
+
 
 class CallEffect(msgspec.Struct, frozen=True):
     """An effect that a call had, in the caller's terms."""
@@ -191,17 +204,11 @@ class Exploration:
         count = self.precondition_stats.setdefault(key, PreconditionStats(call, requirement))
         count.seen += 1
         if known is False:
-            count.caught |= excused
-            count.false_way = (
-                path if not count.false or path_length(path) < path_length(count.false_way) else count.false_way
-            )
-            count.false += 1
+            count.count_false(excused, path)
         elif known is None and excused:
             count.excused += 1
         elif known is None:
-            if not count.open_ or path_length(path) < path_length(count.open_way):
-                count.open_way, count.open_condition = path, condition
-            count.open_ += 1
+            count.count_open(condition, path)
 
     def unproved_preconditions(self) -> Iterable[Finding]:
         """Yield the preconditions that are false or open on some path; if failure is caught, false on all."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from typing import TypeAlias, assert_never
 
@@ -63,14 +63,15 @@ def _havoc_relation(types: AliasTypes, state: State, write: RelationWrite) -> St
     kin = types.axioms.affected.get(relation, frozenset({relation}))
     adds = _may_become_true(types, (subject, relation, object_)) if write.value is not False else ()
     takes = _may_become_untrue(types, (subject, relation, object_), write.value)
-    state = _havoc_computed(types, state, frozenset(touched for _, touched, _ in (*adds, *takes)))
+    changed = (*adds, *takes)
+    state = _havoc_computed(types, state, frozenset(touched for _, touched, _ in changed))
     facts = {
         fact: true
         for fact, true in state.facts.items()
         if not (
             _is_affected(types, state, fact, true, adds, takes)
             if isinstance(fact, Holds)
-            else _reads(types, fact, kin) and _is_whole_affected(types, state, fact, (*adds, *takes))
+            else _reads(types, fact, kin) and _depends_on(types, state, fact, changed)
         )
     }
     alone = {side: _add_possible(types, state, side, others, adds) for side, others in state.possible.items()}
@@ -91,21 +92,26 @@ def _may_become_true(types: AliasTypes, fact: Pattern) -> tuple[Pattern, ...]:
 
 def _may_become_untrue(types: AliasTypes, fact: Pattern, value: bool | None) -> tuple[Pattern, ...]:
     """Return the facts that an assertion, by replacing others, or a retraction may make untrue."""
-    axioms, (subject, relation, object_) = types.axioms, fact
+    subject, relation, object_ = fact
     lost: list[Pattern] = []
     if value is not True:
         lost += [
             (object_, source, subject) if turned else (subject, source, object_)
-            for source, turned in axioms.sources.get(relation, ((relation, False),))
+            for source, turned in types.axioms.sources.get(relation, ((relation, False),))
         ]
     if value is not False:
-        for start, above, end in _may_become_true(types, fact):
-            for source, turned in axioms.sources.get(above, ((above, False),)):
-                if above in axioms.single_object:
-                    lost.append((Anything(), source, start) if turned else (start, source, Anything()))
-                if above in axioms.single_subject:
-                    lost.append((end, source, Anything()) if turned else (Anything(), source, end))
+        lost += [each for true in _may_become_true(types, fact) for each in _replaced_by(types, true)]
     return tuple(dict.fromkeys(pattern for each in lost for pattern in _may_become_true(types, each)))
+
+
+def _replaced_by(types: AliasTypes, fact: Pattern) -> Iterator[Pattern]:
+    """Yield the facts that end when this one begins, as its relation has one object or one subject."""
+    axioms, (subject, relation, object_) = types.axioms, fact
+    for source, turned in axioms.sources.get(relation, ((relation, False),)):
+        if relation in axioms.single_object:
+            yield (Anything(), source, subject) if turned else (subject, source, Anything())
+        if relation in axioms.single_subject:
+            yield (object_, source, Anything()) if turned else (Anything(), source, object_)
 
 
 def _widen_chain(types: AliasTypes, pattern: Pattern) -> Pattern:
@@ -119,7 +125,7 @@ def _is_affected(
     return any(_matches(types, state, fact, pattern) for pattern in (takes if true else adds))
 
 
-def _is_whole_affected(types: AliasTypes, state: State, fact: Condition, changed: tuple[Pattern, ...]) -> bool:
+def _depends_on(types: AliasTypes, state: State, fact: Condition, changed: tuple[Pattern, ...]) -> bool:
     """Whether a condition that is more than one relation depends on what changes."""
     if _reads(types, fact, frozenset()):
         return True

@@ -42,7 +42,10 @@ def initial_state(types: AliasTypes, implementation: Implementation) -> State:
 
 
 def _kept_apart(types: AliasTypes, implementation: Implementation) -> Iterable[Condition]:
-    """Yield that names differ which a post relates by what nothing can have to itself: else it asks the impossible."""
+    """Yield that two names differ, for each two that a post relates by an irreflexive relation.
+
+    If they were the same, the post could never hold.
+    """
     for post in requirements_of(implementation, "post"):
         for fact in conjuncts(post.condition.meaning):
             match fact:
