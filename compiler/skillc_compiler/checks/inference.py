@@ -7,11 +7,12 @@ from collections.abc import Iterator
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Skill, TypedCondition
-from skillc_compiler.program.types import Thing, describe_type
+from skillc_compiler.program.types import Thing
 from skillc_compiler.program.walk import conditions_in, values_in
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import And, Compare, Exists, HasProperty, Holds, IsA, Or, Same, Variable
 from skillc_model.traversal import free_variables
+from skillc_rdf.vocabulary.types import local_name
 
 NAMES = ("unlinked-inference",)
 NEEDS = Need.DECLARATION
@@ -33,9 +34,8 @@ def check(program: Program) -> Iterator[Diagnostic]:
 def _problem(skill: Skill, name: str, linked: set[str]) -> Diagnostic:
     parameter = next(p for p in skill.parameters if p.name == name)
     known = next((p.name for p in skill.parameters if p.direction == "in" or p.name in linked), "..")
-    is_classified = isinstance(parameter.type, Thing) and parameter.type.cls is not None
-    kind = describe_type(parameter.type).split()[-1]
-    only = f"write `pre {name} is {kind}` if there is one only; " if is_classified else ""
+    cls = parameter.type.cls if isinstance(parameter.type, Thing) else None
+    only = f"write `pre {name} is {local_name(cls)}` if there is only one; " if cls else ""
     return Diagnostic(
         "unlinked-inference",
         parameter.span,

@@ -73,8 +73,9 @@ class UnknownName(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def help(self) -> str:
         """What to write instead."""
-        is_own = self.line or (self.kind == "prefix" and not self.close)  # a prefix is mostly one's own
-        return self.otherwise if is_own else did_you_mean(self.written.text, self.candidates) or self.otherwise
+        if self.line or (self.kind == "prefix" and not self.close):  # authors choose prefixes: others are no help
+            return self.otherwise
+        return did_you_mean(self.written.text, self.candidates) or self.otherwise
 
 
 def limit_candidates(names: Iterable[UnknownName]) -> Iterator[UnknownName]:

@@ -34,7 +34,7 @@ def report_compared_by_is(context: FileContext, subject: s.Value, cls: s.Name) -
         return False
     fix = Fix(subject.span.after.to(cls.span), f" == {cls.text}", f"write `== {cls.text}`", safe=False)
     message = "`is` asks for the class of an individual, not for the value of a property"
-    help_ = f"write `.. == {cls.text}`; that it has no value is `not a has {subject.property.text}`"
+    help_ = f"write `.. == {cls.text}`, or `not a has {subject.property.text}` if it has no value"
     context.names.problems.append(Diagnostic("unknown-class", cls.span, message, help_, fix=fix))
     return True
 

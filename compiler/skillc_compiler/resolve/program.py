@@ -51,8 +51,8 @@ def resolve_program(
     """Return the program of the files; unresolved names are reported and left unknown.
 
     `scenes` holds the individuals that tasks may name, by task. `importable` are the files that could be imported, by
-    the text that does it. `memo` has the declarations of the analysis before,
-    whose meanings are reused if nothing has changed that was read for them.
+    the text that does it. `memo` has the declarations of the analysis before, whose meanings are reused if nothing has
+    changed that was read for them.
     """
     memo = memo or ResolveMemo()
     memo.begin()

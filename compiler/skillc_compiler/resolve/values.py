@@ -109,7 +109,7 @@ def _unknown_name(context: FileContext, scope: Scope, written: s.NameReference, 
     fitting = [n for n, v in scope.variables.items() if fits(context.vocabulary, v.type, wanted.type)]
     otherwise = "an individual is written with its prefix: `lab:Board-1`"
     if name in _NOTHING:
-        fitting, otherwise = [], "that there is none is written `not a has property` or `not a REL _`"
+        fitting, otherwise = [], "a missing value is written `not a has property`, a missing individual `not a REL _`"
     elif context.names.is_term("class", name):
         fitting, otherwise = [], f"`{name}` is a class: write `a is {name}`"
     elif name == "any":
