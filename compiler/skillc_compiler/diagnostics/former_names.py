@@ -15,7 +15,7 @@ from skillc_dsl.diagnostics import Diagnostic, Fix
 _FORMER = re.compile(r"^[ \t]*# former (\w+): (\S.*)$", re.MULTILINE)
 _RENAMED = re.compile(r"write `(\w+)`")
 FormerNames = Mapping[tuple[str, str], str]
-"""What to do by the skill, or LIBRARY for the names of skills and functions, and the name."""
+"""The advice for each name, by its skill and the name; skills and functions belong to LIBRARY."""
 NONE: FormerNames = MappingProxyType({})
 
 

@@ -21,7 +21,6 @@ _INSERTED = (
 )
 _SPACED = ("EQUAL", "DOTS", "LBRACE", "ARROW")
 _WORDS = ("OF", "PYTHON", "STEPS", "KEEP")
-_NAMELESS = ("the implementation has no name", "write `impl NAME of SKILL`")
 _SWAPPED = {"EQUAL": "EQUALS", "EQUALS": "EQUAL"}
 _BLOCKS = ("SEQ", "SEL", "PAR", "REACTIVE")
 _KEPT = DECLARATIONS | {"NAME", "QNAME", "LABEL", "LBRACE", "RBRACE", "LESS", END}
@@ -75,7 +74,17 @@ class Fault(msgspec.Struct, frozen=True):
 def repair(fault: Fault) -> Repair | None:
     """Return the first change of one token that lets the parser continue, or None."""
     attempts: tuple[Callable[[Fault], Iterator[Repair]], ...]
-    attempts = (_repeated, _nameless_prefix, _label, _swapped, _keyword, _body, _missing, _superfluous)
+    attempts = (
+        _repeated,
+        _nameless_prefix,
+        _nameless_implementation,
+        _label,
+        _swapped,
+        _keyword,
+        _body,
+        _missing,
+        _superfluous,
+    )
     return next((found for attempt in attempts for found in attempt(fault)), None)
 
 
@@ -91,6 +100,15 @@ def _nameless_prefix(fault: Fault) -> Iterator[Repair]:
         name, problem = name_prefix(fault.tokens, fault.index, fault.path)
         before = fault.tokens[fault.index - 1]
         yield Repair(problem, (join_tokens("LABEL", before, before, f"{name}:"), fault.token))
+
+
+def _nameless_implementation(fault: Fault) -> Iterator[Repair]:
+    """`impl of SKILL`, whose `of` is read as a name."""
+    before = fault.tokens[fault.index - 1]
+    if before == "of" and fault.mended_by("OF", skip=0):
+        span = token_span(before, fault.path)
+        problem = Diagnostic("syntax", span, "the implementation has no name", "write `impl NAME of SKILL`")
+        yield Repair(problem, (_inserted("OF", fault.gap), fault.token))
 
 
 def _label(fault: Fault) -> Iterator[Repair]:
@@ -142,8 +160,7 @@ def _body(fault: Fault) -> Iterator[Repair]:
         problem = Diagnostic(
             "syntax", fault.span, f"`do` is missing before `{fault.token}`", fix=Fix(start, "do ", "insert `do`")
         )
-        place = (None, start.line, start.column, start.line, start.column, None)
-        yield Repair(problem, (Token("DO", "do", *place), fault.token))
+        yield Repair(problem, (_inserted("DO", start), fault.token))
 
 
 def _missing(fault: Fault) -> Iterator[Repair]:
@@ -162,12 +179,13 @@ def _missing(fault: Fault) -> Iterator[Repair]:
             before = fault.tokens[fault.index - 1]
             padded = f" {text}" if text.isalpha() or terminal in _SPACED else text
             fix = Fix(gap, padded, f"insert `{text}`")
-            if terminal == "OF" and before == "of":
-                problem = Diagnostic("syntax", token_span(before, fault.path), *_NAMELESS)
-            else:
-                problem = Diagnostic("syntax", span, f"`{text}` is missing after `{before}`", fix=fix)
-            place = (None, gap.line, gap.column, gap.line, gap.column, None)
-            yield Repair(problem, (Token(terminal, text, *place), fault.token))
+            problem = Diagnostic("syntax", span, f"`{text}` is missing after `{before}`", fix=fix)
+            yield Repair(problem, (_inserted(terminal, gap), fault.token))
+
+
+def _inserted(terminal: str, gap: Span) -> Token:
+    """Return a token that the text lacks."""
+    return Token(terminal, fixed_texts()[terminal], None, gap.line, gap.column, gap.line, gap.column, None)
 
 
 def _has_unopened(fault: Fault) -> bool:
