@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Literal, TypeAlias
 
 import msgspec
@@ -28,8 +28,8 @@ class ValueOrigin(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True)
 
     `call` is the number of the call of whose parameter or body it is a name, empty in a task. `how` is `passed` by the
     caller, `planned`, a `default`, `inferred`, a `let`, an item of a `loop`, the `output` of the call `by`, or `given`
-    to the task. `text` and `source` are the expression, `conditions` are those by which it was found in the world among
-    `others`, which it could have been.
+    to the task. `text` and `source` are the expression. A value that was inferred fulfils the `conditions`; `others`
+    are the individuals that `infer any` could have chosen as well.
     """
 
     name: str
@@ -45,30 +45,37 @@ class ValueOrigin(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True)
     names: tuple[ValueOrigin, ...] = ()
 
 
-def trace_value(story: RunHistory, call: RecordedCall, parameter: str, find_place: FindPlace) -> ValueOrigin:
-    """Return where the value of a bound parameter of a call comes from."""
-    return _Tracing({each.number: each for each in story.calls}, find_place).trace(call, parameter)
+def trace_values(
+    story: RunHistory, calls: Iterable[RecordedCall], parameter: str, find_place: FindPlace
+) -> tuple[ValueOrigin, ...]:
+    """Return where the value of a parameter comes from, for each of these calls in which it is bound."""
+    tracing = _Tracing(story, find_place)
+    return tuple(tracing.trace(each, parameter) for each in calls if parameter in each.bindings)
 
 
 class _Tracing:
-    """Follows values from call to call; `calls` has the calls by their numbers."""
+    """Follows values from call to call."""
 
-    def __init__(self, calls: dict[str, RecordedCall], find_place: FindPlace) -> None:
-        self._calls = calls
+    def __init__(self, story: RunHistory, find_place: FindPlace) -> None:
+        self._calls = {each.number: each for each in story.calls}
         self._find_place = find_place
+        self._outputs: dict[tuple[str, str], list[RecordedCall]] = {}  # the calls of a body that give a name its value
+        for each in self._calls.values():
+            if each.out:
+                self._outputs.setdefault((_number_around(each), each.out), []).append(each)
 
     def trace(self, call: RecordedCall, parameter: str) -> ValueOrigin:
         """Return where the value of a parameter comes from."""
         reason = next((each for each in call.determined if each.parameter == parameter), None)
-        how = "passed" if reason is None else reason.how
+        how, conditions = ("passed", ()) if reason is None else (reason.how, reason.conditions)
         origin = ValueOrigin(
             name=parameter,
             call=call.number,
             how="planned" if call.planned and how == "passed" else how,
             value=call.bindings.get(parameter),
-            conditions=reason.conditions if reason is not None else (),
+            conditions=conditions,
             others=reason.others if reason is not None else (),
-            facts=tuple(self._locate(fact, call) for fact in _deciding(reason.conditions if reason else ())),
+            facts=tuple(self._locate(fact, call) for fact in _deciding(conditions)),
         )
         written = call.expressions.get(parameter)
         return origin if written is None or origin.how == "planned" else self._add_expression(origin, written, call)
@@ -85,29 +92,29 @@ class _Tracing:
 
     def _trace_name(self, name: NameInExpression, call: RecordedCall) -> ValueOrigin:
         """Return where the value of a name in the body around a call comes from."""
-        around = self._calls.get(call.number.rpartition(".")[0])
-        number = around.number if around is not None else ""
+        number = _number_around(call)
+        around = self._calls.get(number)
         if name.how in ("let", "loop") and name.expression is not None:
             origin = ValueOrigin(name=name.name, call=number, how="let" if name.how == "let" else "loop")
             return self._add_expression(origin, name.expression, call)
         if name.how == "parameter" and around is not None:
             return self.trace(around, name.name)
-        before = [each for each in self._beside(call) if each.out == name.name and _ended_before(each, call)]
+        before = [each for each in self._outputs.get((number, name.name), ()) if _ended_before(each, call)]
         if before:
             last = before[-1]
             return ValueOrigin(name=name.name, call=number, how="output", by=last.number, source=last.source)
         return ValueOrigin(name=name.name, call=number, how="given")
-
-    def _beside(self, call: RecordedCall) -> Iterator[RecordedCall]:
-        """Yield the calls of the same body."""
-        around = call.number.rpartition(".")[0]
-        return (each for each in self._calls.values() if each.number.rpartition(".")[0] == around)
 
     def _locate(self, fact: LabelledFact, call: RecordedCall) -> LocatedFact:
         written = next((each for each in call.written if each.fact == fact), None)
         if written is not None:
             return LocatedFact(known=written)
         return LocatedFact(known=RecordedFact(fact=fact), place=self._find_place(fact))
+
+
+def _number_around(call: RecordedCall) -> str:
+    """Return the number of the call in whose body a call stands; empty in a task."""
+    return call.number.rpartition(".")[0]
 
 
 def _deciding(conditions: tuple[DecidingCondition, ...]) -> Iterator[LabelledFact]:

@@ -9,7 +9,7 @@ from difflib import get_close_matches
 import msgspec
 
 from skillc_runtime.recording.history import RecordedCall, RunHistory
-from skillc_runtime.recording.origins import FindPlace, ValueOrigin, trace_value
+from skillc_runtime.recording.origins import FindPlace, ValueOrigin, trace_values
 
 _NUMBER = re.compile(r"\d+(\.\d+)*")
 
@@ -44,7 +44,7 @@ def select_calls(story: RunHistory, question: str, find_place: FindPlace = lambd
     found = _with_parameter(_find_calls(calls, owner) if owner else calls, parameter)
     if found:
         name = _exact_name(found[0], parameter)
-        origins = tuple(trace_value(story, each, name, find_place) for each in found if name in each.bindings)
+        origins = trace_values(story, found, name, find_place)
         return CallSelection(question=question, parameter=name, calls=found, origins=origins)
     raise QuestionError(_describe_unknown(calls, text))
 
