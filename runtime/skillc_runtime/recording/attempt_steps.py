@@ -18,17 +18,15 @@ def collect_steps(body: AttemptRecord, before: int, wanted: Iterable[Call] = ())
     """Return the steps of an attempt in order of time, numbered from `before` + 1; those that never started come last.
 
     A step of a plan is matched with the first call of its skill with its arguments; without one it was skipped or not
-    started. Of the calls that are `wanted`, those of a body, none was started whose place is not that of a call.
+    started. `wanted` are calls of a body; each at whose place no call was made is a step that was not started.
     """
     calls = [call for root in body.roots for call in ((root,) if root.is_call else root.calls)]
     places = {call.start.source for call in calls}
     missing = [PlanStep(skill=each.skill, arguments={}, source=each.source) for each in wanted]
     unstarted = [_unstarted_call(each, "not started") for each in missing if each.source not in places]
-    found = [
-        *_match_plan(body, calls),
-        *((call.start.time, call) for call in calls),
-        *((inf, each) for each in unstarted),
-    ]
+    found = _match_plan(body, calls)
+    found += ((call.start.time, call) for call in calls)
+    found += ((inf, each) for each in unstarted)
     found.sort(key=lambda each: each[0])
     numbered = tuple(_number_step(each, str(number)) for number, (_, each) in enumerate(found, start=before + 1))
     return _add_parallel_steps(tuple(structs.replace(each, planned=body.plan is not None) for each in numbered))
@@ -57,13 +55,13 @@ def failure_chain(nodes: Sequence[NodeRecord]) -> tuple[FailedNode, ...]:
     failed = [node for node in nodes if node.status == "failure"]
     if not failed:
         return ()
-    last = max(failed, key=lambda node: node.end.time if node.end is not None else 0.0)
+    last = max(failed, key=lambda node: node.ended or 0.0)
     below = failure_chain(last.latest)
     return (_make_failed_node(last), *below) if last.is_call or not below else below
 
 
 def _make_failed_node(node: NodeRecord) -> FailedNode:
-    failure = node.end.failure if node.end is not None else None
+    failure = node.failure
     name = node.end.name if node.end is not None else node.start.name
     source = failure.source if failure is not None and failure.source is not None and not node.is_call else None
     message = failure.message if failure is not None else ""
@@ -85,8 +83,7 @@ def _skill_of(call: NodeRecord) -> str:
 def _bindings(call: NodeRecord) -> dict[str, LabelledValue]:
     if call.choice is not None:
         return call.choice.bindings
-    context = call.end.failed_call if call.end is not None else None
-    return context.arguments if context is not None else {}
+    return call.failed_call.arguments if call.failed_call is not None else {}
 
 
 def _unstarted_call(step: PlanStep, status: str) -> RecordedCall:
@@ -98,10 +95,7 @@ def _number_step(found: NodeRecord | RecordedCall, number: str) -> RecordedCall:
 
 
 def _make_call(call: NodeRecord, number: str) -> RecordedCall:
-    choice, end = call.choice, call.end
-    context = end.failed_call if end is not None else None
-    rejected = context.rejected if context is not None else choice.rejected if choice is not None else ()
-    bindings = _bindings(call)
+    choice, context, bindings = call.choice, call.failed_call, _bindings(call)
     inner = enumerate(call.calls, start=1)
     return RecordedCall(
         number=number,
@@ -113,15 +107,15 @@ def _make_call(call: NodeRecord, number: str) -> RecordedCall:
         implementation_source=choice.source if choice is not None else None,
         rounds=call.loop_rounds,
         started=call.start.time,
-        ended=end.time if end is not None else None,
+        ended=call.ended,
         until=call.scope_end,
         bindings=bindings,
         determined=choice.determined if choice is not None else (),
         unset=tuple(name for name in context.unset if name not in bindings) if context is not None else (),
         fixed=choice.fixed if choice is not None else False,
         untried=choice.untried if choice is not None else (),
-        rejected=rejected,
-        failure=end.failure if end is not None else None,
+        rejected=call.rejected,
+        failure=call.failure,
         chain=failure_chain([call]),
         facts=call.facts,
         expressions=choice.expressions if choice is not None else {},

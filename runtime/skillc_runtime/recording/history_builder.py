@@ -1,8 +1,8 @@
-"""Builds the history of a run from its events, in one pass: all that is told of a run is told from it."""
+"""Builds the history of a run from its events, in one pass; results, reports and explanations use it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Set
 from typing import assert_never
 
 import msgspec
@@ -116,8 +116,8 @@ class HistoryBuilder:
 
     def _make_attempts(self) -> list[Attempt]:
         attempts, count = list[Attempt](), 0
-        for body in self._attempts:
-            attempts.append(_make_attempt(body, count, self._body_to_do))
+        for record in self._attempts:
+            attempts.append(_make_attempt(record, count, self._body_to_do))
             count += len(attempts[-1].steps)
         return attempts
 
@@ -167,8 +167,8 @@ class HistoryBuilder:
         return written if written is not None and written.fact == fact else None
 
 
-def _find_wanted(node: msgspec.Struct, decided: Sequence[Position]) -> Iterator[tree.Call]:
-    """Yield the calls of a body in the order of the text, without those in branches that have been decided."""
+def _find_wanted(node: msgspec.Struct, decided: Set[Position]) -> Iterator[tree.Call]:
+    """Yield the calls of a body in the order of the text, without those below an `if` at a place in `decided`."""
     if isinstance(node, tree.Call):
         yield node
     elif not (isinstance(node, tree.If) and node.source in decided):
@@ -191,7 +191,10 @@ def _without_value(fact: LabelledFact) -> LabelledFact:
 
 
 def _make_attempt(record: AttemptRecord, before: int, body: tree.Node | None) -> Attempt:
-    """Return an attempt whose steps are numbered from `before` + 1; `body` is what was to be done without a plan."""
+    """Return an attempt whose steps are numbered from `before` + 1.
+
+    The calls of `body` that were not made are steps that were not started; None if none of them is missed.
+    """
     calls = () if body is None or not record.roots else tuple(_find_wanted(body, record.decided))
     plan = record.plan
     return Attempt(

@@ -7,7 +7,9 @@ from dataclasses import dataclass, field
 
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.events import ImplementationChosen, NodeEnded, NodeStarted, PlanMade
+from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.history import LoopRound, RecordedFact
+from skillc_runtime.recording.reasons import FailedCallContext
 
 LOOPS = ("retry", "repeat", "while", "for")
 """The kinds of nodes of which each start of the child is a round."""
@@ -44,6 +46,27 @@ class NodeRecord:
         return self.end.status if self.end is not None else "running"
 
     @property
+    def ended(self) -> float | None:
+        """When the node ended, in s; None while it runs."""
+        return self.end.time if self.end is not None else None
+
+    @property
+    def failure(self) -> Failure | None:
+        """Why the node failed or was halted."""
+        return self.end.failure if self.end is not None else None
+
+    @property
+    def failed_call(self) -> FailedCallContext | None:
+        """The context of a call that failed."""
+        return self.end.failed_call if self.end is not None else None
+
+    @property
+    def rejected(self) -> tuple[Rejection, ...]:
+        """The implementations that a call could not use."""
+        told = self.failed_call or self.choice
+        return told.rejected if told is not None else ()
+
+    @property
     def calls(self) -> Iterator[NodeRecord]:
         """The outermost calls below this node, in order of time."""
         for child in self.children:
@@ -77,14 +100,15 @@ class NodeRecord:
 class AttemptRecord:
     """One attempt: its plan, if any, why it replaces the previous one, its root nodes and the steps it skipped.
 
-    `decided` are the places of branches outside of calls that have succeeded: what they did not call was not wanted.
+    `decided` are the places of each `if` outside of calls that has succeeded: the branch that it did not take is not
+    missed.
     """
 
     plan: PlanMade | None = None
     replaces: str = ""
     roots: list[NodeRecord] = field(default_factory=list)
     skipped: list[NodeEnded] = field(default_factory=list)
-    decided: list[Position] = field(default_factory=list)
+    decided: set[Position] = field(default_factory=set)
 
 
 class NodeRecords:
@@ -123,7 +147,7 @@ class NodeRecords:
             return
         record.end, record.facts = event, facts
         if record.start.kind == "if" and event.status == "success" and _is_outside_calls(record):
-            self._body.decided.append(event.source)
+            self._body.decided.add(event.source)
             if not any(record.calls):
                 self._body.skipped.append(event)
 

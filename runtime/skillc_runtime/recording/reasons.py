@@ -53,9 +53,10 @@ class WrittenExpression(msgspec.Struct, frozen=True, kw_only=True, omit_defaults
 
 
 class NameInExpression(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """A name of the enclosing body in an expression, and what gives it its value.
+    """A name of the enclosing body in an expression, and how it gets its value.
 
-    That is the call of the body, the `expression` of a `let`, that of the items of a loop, or the `output` of a call.
+    It is a `parameter` of the body, a `let` with its `expression`, an item of a `loop` over the `expression`, or the
+    `output` of a call.
     """
 
     name: str

@@ -25,8 +25,6 @@ def draw_attempt(record: AttemptRecord, attempt: Attempt, history: RunHistory) -
 
 
 def _draw(record: NodeRecord) -> NodeOutcome:
-    end, context = record.end, record.end.failed_call if record.end is not None else None
-    rejected = context.rejected if context is not None else record.choice.rejected if record.choice is not None else ()
     return NodeOutcome(
         id=record.start.node,
         name=_name(record),
@@ -34,9 +32,9 @@ def _draw(record: NodeRecord) -> NodeOutcome:
         status=record.status,
         source=record.start.source,
         started=record.start.time,
-        ended=end.time if end is not None else None,
-        failure=end.failure if end is not None else None,
-        rejected=rejected,
+        ended=record.ended,
+        failure=record.failure,
+        rejected=record.rejected,
         children=tuple(map(_draw, record.children)),
     )
 
