@@ -19,7 +19,8 @@ from skillc_model.read_write import terms_read, terms_written
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.formula_text import FormulaFormatter
 from skillc_runtime.planning.nearest_changes import Lack, NearestChange, Reader, find_stated
-from skillc_runtime.world.eval.explain import RelationObstacle, explain, find_missing_property, find_obstacle
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.obstacles import RelationObstacle, find_missing_property, find_obstacle
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.quantities import placeholder
 from skillc_runtime.world.state.world_state import WorldState

@@ -15,7 +15,7 @@ from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
 from skillc_runtime.planning.problem.pose import GoalError, already_holds, pose_problem
 from skillc_runtime.planning.search.grounding import Grounding
 from skillc_runtime.planning.unsolvability import EXPLANATION_S, explain_unsolvable, pose_to_explain
-from skillc_runtime.world.eval.explain import RelationObstacle
+from skillc_runtime.world.eval.obstacles import RelationObstacle
 from skillc_runtime.world.state.world_state import WorldState
 
 REACHABILITY_S = 10.0

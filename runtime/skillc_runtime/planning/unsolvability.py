@@ -19,7 +19,8 @@ from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
 from skillc_runtime.planning.search.grounding import Grounding
-from skillc_runtime.world.eval.explain import RelationObstacle, explain
+from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.obstacles import RelationObstacle
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 

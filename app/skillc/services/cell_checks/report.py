@@ -19,7 +19,7 @@ from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.violation import SceneViolation
-from skillc_runtime.world.eval.explain import RelationObstacle
+from skillc_runtime.world.eval.obstacles import RelationObstacle
 from skillc_runtime.world.state.world_state import WorldState
 
 CellJudge: TypeAlias = Callable[[Scene, Sequence[Condition]], Iterable[SceneViolation]]

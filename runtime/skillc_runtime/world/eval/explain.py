@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import assert_never
 
 from skillc_model.conditions import (
@@ -32,16 +31,9 @@ from skillc_model.conditions import (
 from skillc_model.format_condition import format_relation
 from skillc_rdf.vocabulary.types import ValueType, Vocabulary, local_name
 from skillc_runtime.world.eval.conditions import evaluate
-from skillc_runtime.world.eval.expressions import (
-    Bindings,
-    compile_expression,
-    describe_missing_value,
-    find_missing_value,
-    type_of,
-)
+from skillc_runtime.world.eval.expressions import Bindings, compile_expression, describe_missing_value, type_of
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.quantities import show_quantity
-from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
 LISTED = 4
@@ -50,46 +42,6 @@ LISTED = 4
 def explain(condition: Condition, state: WorldState, bindings: Bindings, vocabulary: Vocabulary) -> str:
     """Return what holds instead of a false condition: the facts found and what is needed."""
     return _Explainer(state, vocabulary).unmet(condition, bindings)
-
-
-@dataclass(frozen=True, slots=True)
-class RelationObstacle:
-    """What the reasoner of a computed relation says against it, for two individuals."""
-
-    relation: str
-    subject: str
-    object: str
-    reason: str
-
-    def __str__(self) -> str:
-        return self.reason
-
-
-def find_obstacle(condition: Condition, state: WorldState, bindings: Bindings) -> RelationObstacle | None:
-    """Return what the reasoner of a computed relation says against it; None for any other condition, or if it holds."""
-    match condition:
-        case Holds(subject, relation, object_) if relation in state.axioms.computed:
-            start, end = _iri(subject, bindings), _iri(object_, bindings)
-            if start is None or end is None:
-                return None
-            reason = state.axioms.computed[relation].obstacle(state, start, end)
-            return None if reason is None else RelationObstacle(relation, start, end, reason)
-        case _:
-            return None
-
-
-def find_missing_property(condition: Condition, state: WorldState, bindings: Bindings) -> PropertyOf | None:
-    """Return the property, of an individual, whose missing value makes a condition false; None if that is not why."""
-    match condition:
-        case Compare(left, _, right):
-            lacking = next((each for each in (left, right) if compile_expression(each)(state, bindings) is None), None)
-            found = None if lacking is None else find_missing_value(lacking, state, bindings)
-            return found if isinstance(found, PropertyOf) else None
-        case HasProperty(subject, property_):
-            owner = _iri(subject, bindings)
-            return None if owner is None else PropertyOf(Individual(owner), property_)
-        case _:
-            return None
 
 
 class _Explainer:
@@ -197,39 +149,41 @@ class _Explainer:
             if compile_expression(side)(self._state, bindings) is None:
                 return describe_missing_value(side, self._state, bindings)
         type_ = self._common_type(left, right)
-        found = self._reading(left, bindings, type_)
-        needed = self._compared(sign, right, bindings, type_)
-        return f"{found}; needed: {needed.removeprefix('== ') if isinstance(right, Literal) else needed}"
+        needed = self._shown(right, bindings, type_)
+        if not (sign == "==" and isinstance(right, Literal)):
+            needed = f"{sign} {needed}"
+        origin = self._origin(right, bindings)
+        which = f", which is {origin}" if origin else ""
+        return f"{self._reading(left, bindings, type_)}; needed: {needed}{which}"
 
     def _common_type(self, left: Expression, right: Expression) -> ValueType | None:
         """Return the type of two values that are compared; None if neither is known."""
         return type_of(left, self._state.vocabulary) or type_of(right, self._state.vocabulary)
 
-    def _compared(self, sign: str, right: Expression, bindings: Bindings, type_: ValueType | None) -> str:
-        """Return what a value is to be compared with, such as `< 0.1 m, which is lab:Hand-1.opening`."""
-        value, reading = compile_expression(right)(self._state, bindings), self._reading(right, bindings, type_)
-        shown = "missing" if value is None else self._value(value, type_)
-        what = reading.removesuffix(f" is {shown}")
-        return f"{sign} {shown}" if what == reading else f"{sign} {shown}, which is {what}"
-
     def _reading(self, expression: Expression, bindings: Bindings, type_: ValueType | None) -> str:
         """Return an expression with its value, such as `lab:Arm-1.deviceState is "Fault"`."""
-        value = compile_expression(expression)(self._state, bindings)
-        shown = "missing" if value is None else self._value(value, type_)
+        origin, shown = self._origin(expression, bindings), self._shown(expression, bindings, type_)
+        return f"{origin} is {shown}" if origin else shown
+
+    def _origin(self, expression: Expression, bindings: Bindings) -> str:
+        """Return what has the value of an expression, such as `lab:Arm-1.deviceState`; empty for a mere value."""
         match expression:
             case PropertyOf(of, property_):
                 owner = compile_expression(of)(self._state, bindings)
-                return f"{self._short(str(owner))}.{local_name(property_)} is {shown}"
+                return f"{self._short(str(owner))}.{local_name(property_)}"
             case Variable(name):
-                return f"{name} is {shown}"
+                return name
             case Invoke(function, _):
-                return f"{function}(..) is {shown}"
+                return f"{function}(..)"
             case Literal() | Individual() | Arithmetic():
-                return shown
+                return ""
             case _:
                 assert_never(expression)
 
-    def _value(self, value: Value, type_: ValueType | None) -> str:
+    def _shown(self, expression: Expression, bindings: Bindings, type_: ValueType | None) -> str:
+        value = compile_expression(expression)(self._state, bindings)
+        if value is None:
+            return "missing"
         known = isinstance(value, str) and value in self._state.individuals
         return self._short(str(value)) if known else show_quantity(value, type_)
 
