@@ -131,3 +131,21 @@ def test_a_free_place_on_a_shelf_is_on_its_top_then_on_a_board_with_room_above_i
         PlaceError, match=r"on lab:Rack is clear of lab:Cover; on board 1 of .*, lab:Rack is .* mm above"
     ):
         place_height(held(*shelf_on_table(0.25, 2), *covered))
+
+
+@pytest.mark.parametrize(
+    ("x_m", "message"),
+    [
+        (0.12, "less than 0.25 m from the base of lab:Panda-1, or more than 0.81 m, 95 % of its reach"),
+        (0.75, None),
+        (1.5, "no free place on lab:Rack is within the 0.85 m that lab:Panda-1 reaches: the nearest is 1.49 m from"),
+    ],
+)
+def test_what_is_too_near_or_too_far_is_said_with_the_distances(x_m: float, message: str | None) -> None:
+    state = held(*thing("Rack", at(x_m, 0, 0.6), size=(0.12, 0.12, 0.6), cls=FURNITURE))
+    if message is None:
+        assert place_height(state) == pytest.approx(0.615)
+        return
+    with pytest.raises(PlaceError, match=message) as raised:
+        place_height(state)
+    assert raised.value.lack == "reach"

@@ -12,13 +12,13 @@ from skillc_runtime.world.space.frame_tree import frame_tree_of
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.grasp_geometry import APPROACH_M
 from skillc_runtime.world.space.hand_shape import HandShape, read_hand_shape
-from skillc_runtime.world.space.no_place import Neighbour, PlaceError, Room
+from skillc_runtime.world.space.no_place import NEAR_BASE_M, REACH_SHARE, Neighbour, PlaceError, WantedRoom
 from skillc_runtime.world.space.occupants import Occupant, read_occupants
 from skillc_runtime.world.space.oriented_box import CORNERS
 from skillc_runtime.world.space.overhead import HAND_ABOVE_M, roof_problem
 from skillc_runtime.world.space.shapes import solids_of
 from skillc_runtime.world.space.solids import Solid
-from skillc_runtime.world.space.supports import QUARTERS, Support, face_away, find_supports, tilt_problem
+from skillc_runtime.world.space.supports import QUARTERS, Support, face_away, find_supports, name_support, tilt_problem
 from skillc_runtime.world.state.data_sheet import sheet_of
 from skillc_runtime.world.state.terms import HELD_SIDEWAYS
 from skillc_runtime.world.state.world_state import WorldState
@@ -36,9 +36,7 @@ HAND_M = 0.035
 """Half the width of a hand across the direction in which it closes."""
 
 PITCH_M = 0.01
-NEAR_BASE_M = 0.25
-"""Nothing is put down nearer to the axis of an arm's base."""
-
+"""How far from each other the places are that are tried."""
 
 SIDEWAYS = tuple(np.array([[0.0, s, c], [0.0, -c, s], [1.0, 0.0, 0.0]]) for c, s in ((1, 0), (0, 1), (0, -1)))
 """The rotations (3, 3) of a horizontal hand with its x upwards, in the frame of a support: first as its x points."""
@@ -101,10 +99,7 @@ def _roof_problem(state: WorldState, support: Support, load: Load) -> PlaceError
     """Return that a hand from above does not fit between a support and what is above it; None if it does."""
     height_m = -float(_extent(load.corners, load.turns[0])[0][2])
     found = roof_problem(state, support.middle.position + np.array([0.0, 0.0, 0.001]), height_m + HAND_ABOVE_M)
-    where = f"board {support.board} of " if support.board else ""
-    if found is None:
-        return None
-    return PlaceError(f"on {where}{state.vocabulary.short(support.individual)}, {found}", "headroom")
+    return None if found is None else PlaceError(f"on {name_support(state, support)}, {found}", "headroom")
 
 
 def _read_load(state: WorldState, gripper: str, thing: str) -> Load:
@@ -160,9 +155,9 @@ def _best(state: WorldState, arm: str, support: Support, load: Load, neighbours:
         found = support.middle @ hand
         away = found.position - base.position
         distances_m.append(float(np.linalg.norm(found.position - shoulder)))
-        if distances_m[-1] < 0.95 * reach_m and np.hypot(*away[:2]) > NEAR_BASE_M:
+        if distances_m[-1] < REACH_SHARE * reach_m and np.hypot(*away[:2]) > NEAR_BASE_M:
             return found
-    room = Room(state, support, np.ptp(load.corners, axis=0)[:2], _needed(support, load))
+    room = WantedRoom(state, support, np.ptp(load.corners, axis=0)[:2], _needed(support, load))
     if distances_m:
         return room.describe_distance(arm, reach_m, distances_m)
     return room.describe_blocked(blockers) if blockers else room.describe_misfit()

@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.space.supports import Support, tilt_deg
+from skillc_runtime.world.space.supports import Support, name_support, tilt_deg
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -17,7 +17,14 @@ Lack: TypeAlias = Literal["size", "support", "room", "free room", "clearance", "
 LEVEL_DEG = 1.0
 """What is tilted less is level."""
 
+NEAR_BASE_M = 0.25
+"""Nothing is put down nearer to the axis of an arm's base."""
+
+REACH_SHARE = 0.95
+"""Things are put down within this share of the reach of an arm, measured from its shoulder."""
+
 MOST_NAMED = 3
+"""How many things that are in the way are named."""
 
 
 class PlaceError(EvaluationError):
@@ -42,8 +49,11 @@ class Neighbour:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Room:
-    """What is looked for on a support: room for a thing of a size (2,) in m, which with the hand needs (2,) in m."""
+class WantedRoom:
+    """Room on a support for a thing; the methods say why there is none.
+
+    size: the sides (2,) of the thing in m. needed: the sides (2,) in m of the room for the thing and the hand.
+    """
 
     state: WorldState
     support: Support
@@ -80,8 +90,8 @@ class Room:
         short = self.state.vocabulary.short(arm)
         if min(distances_m) < reach_m:
             return PlaceError(
-                f"every free place on {self._where} is too near to the base of {short}, or less than 5 % within the "
-                f"{reach_m:.2f} m that it reaches",
+                f"every free place on {self._where} is less than {NEAR_BASE_M:g} m from the base of {short}, or more "
+                f"than {REACH_SHARE * reach_m:.2f} m, {100 * REACH_SHARE:.0f} % of its reach, from its shoulder",
                 "reach",
             )
         return PlaceError(
@@ -92,8 +102,7 @@ class Room:
 
     @property
     def _where(self) -> str:
-        where = self.state.vocabulary.short(self.support.individual)
-        return f"board {self.support.board} of {where}" if self.support.board else where
+        return name_support(self.state, self.support)
 
 
 def _shown(sides: Array) -> str:

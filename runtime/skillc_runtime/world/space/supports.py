@@ -36,6 +36,12 @@ class Support:
     board: int = 0
 
 
+def name_support(state: WorldState, support: Support) -> str:
+    """Return the name of what carries, with the number of its board."""
+    name = state.vocabulary.short(support.individual)
+    return f"board {support.board} of {name}" if support.board else name
+
+
 def find_supports(state: WorldState, to: str) -> list[Support]:
     """Return what carries things in a place: its own supports, or those of the furniture in a place without a size."""
     if state.value(to, SIZE[0]) is not None:
@@ -75,7 +81,7 @@ def tilt_problem(state: WorldState, support: Support) -> str | None:
     tilt = tilt_deg(support)
     if tilt <= GREATEST_TILT_DEG:
         return None
-    where = state.vocabulary.short(support.individual)
+    where = name_support(state, support)
     return f"{where} is tilted by {tilt:.0f} deg, and things stand where it is {GREATEST_TILT_DEG:.0f} deg at most"
 
 
