@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from msgspec.structs import replace
 
 import skillc as api
 from skillc.cli.main import skillc
@@ -122,7 +121,7 @@ def test_the_result_is_that_of_the_events_alone(project: Path) -> None:
     again = make_result(run.events, "the run")
     same = ("plan", "choices", "planned_steps", "planner", "replanned", "failure", "cause", "failed_calls", "status")
     assert {name: getattr(again, name) for name in same} == {name: getattr(run.result, name) for name in same}
-    assert replace(again, plan=()) != again
+    assert len(again.plan) == len(STATES)
 
 
 @pytest.mark.parametrize(

@@ -81,7 +81,9 @@ def _make_wiping(call: RecordedCall, history: RunHistory, state: WorldState) -> 
     forces = [each.bindings.get(FORCE) for each in _find_activities(call, "press")]
     pressed = [force.value for force in forces if isinstance(force, Quantity)]
     followed = _find_activities(call, "follow-path")
-    strokes = tuple((each.started, each.ended) for each in followed if each.started is not None and each.ended)
+    strokes = tuple(
+        (each.started, each.ended) for each in followed if each.started is not None and each.ended is not None
+    )
     if not (surfaces and tools and pressed and strokes):
         return
     arms, began = state.instances(ARM_DEVICE), call.started or 0.0

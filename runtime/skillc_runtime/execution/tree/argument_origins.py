@@ -30,7 +30,7 @@ def explain_arguments(
 ) -> dict[str, WrittenExpression]:
     """Return the expressions of the arguments, and of the defaults that were taken, by parameter.
 
-    `values` and `bindings` are the values of the parameters, `body` is that in which the call stands.
+    `values` are the `bindings` of the parameters with labels and units, `body` is that in which the call stands.
     """
     found: dict[str, WrittenExpression] = {}
     for each in implementation.parameters:
@@ -47,7 +47,7 @@ def explain_arguments(
 
 
 class EnclosingBody:
-    """The body in which a call stands: what its names stand for."""
+    """The body in which a call stands; it knows what the names in its expressions stand for."""
 
     def __init__(self, node: Node, scope: LexicalScope, state: WorldState) -> None:
         self.state = state
@@ -77,8 +77,9 @@ class EnclosingBody:
 
 
 def _write(expression: Expression, value: LabelledValue | None, state: WorldState) -> str:
-    is_constant = isinstance(expression, Literal) and value is not None
-    return format_value(value) if is_constant and value is not None else format_expression(expression, state.vocabulary)
+    if isinstance(expression, Literal) and value is not None:
+        return format_value(value)
+    return format_expression(expression, state.vocabulary)
 
 
 def _loops_around(node: Node) -> Iterator[tree.ForEach]:

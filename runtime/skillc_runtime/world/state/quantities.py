@@ -1,4 +1,4 @@
-"""Values as people write them, numbers with their unit and angles in degrees; and what stands for one to be stated."""
+"""Formats values for messages: numbers with units, angles in degrees, and placeholders for values to fill in."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def show_quantity(value: Value, type_: ValueType | None) -> str:
 
 
 def placeholder(term: PropertyTerm) -> str:
-    """Return what stands for the value of a property where it is to be written."""
+    """Return a placeholder for the value of a property, such as `NUMBER-IN-m`."""
     match term.type:
         case NumberType(dimension):
             return f"NUMBER-IN-{SI_UNITS[dimension]}" if dimension in SI_UNITS else "NUMBER"
