@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
-from msgspec import structs
-
 from skillc_model import tree
 from skillc_model.skills import Implementation, PausePolicy
 from skillc_runtime.execution.selection.select import combine_rejections, ranked_implementations
@@ -14,8 +12,9 @@ from skillc_runtime.execution.tree.activation import Activation, BuildNode, acti
 from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.argument_origins import EnclosingBody
 from skillc_runtime.execution.tree.call_decision import bind_call, evaluate_arguments
+from skillc_runtime.execution.tree.call_failures import make_call_failure, reject_implementation
 from skillc_runtime.execution.tree.context import TreeContext
-from skillc_runtime.execution.tree.errors import describe_exception
+from skillc_runtime.execution.tree.errors import make_error
 from skillc_runtime.execution.tree.event_factory import (
     collect_facts_at_failure,
     label_outputs,
@@ -138,15 +137,13 @@ class CallNode(Node):
                 self._note_refusal(activation)
                 self.context.refresh_state()
                 return self._try_next(self._remaining)
-            return self._end_failed(activation, self._with_skill(activation.body.failure))
+            return self._end_failed(activation, self._read_failure(activation.body))
         try:
             failure = activation.apply_results()
             if failure is None:
                 self._assign_output(activation)
         except FOREIGN_ERRORS as error:  # a node is the boundary: it reports and fails
-            failure = Failure(
-                kind="error", message=describe_exception(error), source=self.source, skill=self.skill.name
-            )
+            failure = make_error(error, self.source, self.skill.name)
         if failure is not None:
             return self._end_failed(activation, failure)
         activation.release_locks()
@@ -214,9 +211,7 @@ class CallNode(Node):
                 self.context.note(note, self.id, self.source)
             return activate(self.context, self.skill, bound, self, self._scope, self._build)
         except FOREIGN_ERRORS as error:  # the other implementations are tried
-            return self._reject(
-                implementation, Failure(kind="error", message=describe_exception(error), source=self.source)
-            )
+            return reject_implementation(implementation, make_error(error, self.source))
 
     def _start(self, activation: Activation) -> Status | None:
         """Start the body; return None if it refused to start and the next implementation is to be tried."""
@@ -236,9 +231,9 @@ class CallNode(Node):
     def _note_refusal(self, activation: Activation) -> None:
         """Reject an implementation whose body has refused to start."""
         activation.release_locks()
-        failure = self._with_skill(activation.body.failure)
+        failure = self._read_failure(activation.body)
         self._remember_failure(activation.implementation.name, failure)
-        self.rejected.append(self._reject(activation.implementation, failure))
+        self.rejected.append(reject_implementation(activation.implementation, failure))
 
     def _end_failed(self, activation: Activation, failure: Failure) -> Status:
         """Undo and release everything, then try the next implementation if the skill has `fallback`."""
@@ -251,7 +246,7 @@ class CallNode(Node):
         if not self.skill.fallback:
             return self.fail(failure)
         self.context.refresh_state()
-        self.rejected.append(self._reject(activation.implementation, failure, ran=True))
+        self.rejected.append(reject_implementation(activation.implementation, failure, ran=True))
         self._facts = None
         return self._try_next(self._remaining)
 
@@ -267,28 +262,14 @@ class CallNode(Node):
             failure = activation.check_holds() if self.context.state is not activation.holds_checked_in else None
             return failure or (activation.check_properties() if activation.implementation.verify else None)
         except FOREIGN_ERRORS as error:  # a node is the boundary: it reports, halts and fails
-            return Failure(kind="error", message=describe_exception(error), source=self.source, skill=self.skill.name)
+            return make_error(error, self.source, self.skill.name)
 
     def _assign_output(self, activation: Activation) -> None:
         if self.node.out is not None:
             self._scope.frame[self.node.out] = activation.frame[activation.outputs[0]]
 
-    def _reject(self, implementation: Implementation, failure: Failure, ran: bool = False) -> Rejection:
-        return Rejection(
-            implementation=implementation.name,
-            stage="run" if ran else "start",
-            reason=failure.message,
-            source=failure.source or implementation.source,
-            failure=failure,
-        )
-
-    def _with_skill(self, failure: Failure | None) -> Failure:
-        """Return a failure of the body, with the name of this skill added if the failure has none."""
-        if failure is None:
-            return Failure(kind="body", message=f"{self.name} failed", source=self.source, skill=self.skill.name)
-        if failure.skill:
-            return failure
-        return structs.replace(failure, skill=self.skill.name)
+    def _read_failure(self, body: Node) -> Failure:
+        return make_call_failure(body.failure, self.name, self.source, self.skill.name)
 
     def describe_call(self) -> FailedCallContext:
         self._record_facts()

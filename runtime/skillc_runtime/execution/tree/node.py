@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.context import TreeContext
-from skillc_runtime.execution.tree.errors import describe_exception
+from skillc_runtime.execution.tree.errors import make_error
 from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import NodeEnded, NodeStarted
@@ -129,9 +129,9 @@ class Node:
 
     def fail_with_error(self, error: BaseException) -> Status:
         """Halt all running descendants and fail because of an exception."""
-        message = describe_exception(error)
-        self.stop(message)
-        return self.fail(Failure(kind="error", message=message, source=self.source))
+        failure = make_error(error, self.source)
+        self.stop(failure.message)
+        return self.fail(failure)
 
     def fail_late(self) -> Status:
         """Halt the node and fail because it has reached the deadline of each step."""

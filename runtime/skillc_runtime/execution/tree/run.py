@@ -15,7 +15,7 @@ from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.build import build_node
 from skillc_runtime.execution.tree.call_node import CallNode
 from skillc_runtime.execution.tree.context import TreeContext
-from skillc_runtime.execution.tree.errors import describe_exception
+from skillc_runtime.execution.tree.errors import make_error
 from skillc_runtime.execution.tree.event_factory import make_change_event
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.lexical_scope import CallFailures, LexicalScope
@@ -199,9 +199,9 @@ class TreeRun:
     def abort(self, error: BaseException) -> None:
         """Fail because of an error, for example of the cell: halt all running nodes, undo scoped skills and end."""
         if self.status in (Status.IDLE, RUNNING):
-            message = describe_exception(error)
-            self._root.halt(message)
-            self._finish(Status.FAILURE, Failure(kind="error", message=message, source=self._root.source))
+            failure = make_error(error, self._root.source)
+            self._root.halt(failure.message)
+            self._finish(Status.FAILURE, failure)
 
     def check_devices(self) -> None:
         """Write where bases stand that stopped on their way; turn a success into a failure if a device contradicts it.
