@@ -1,7 +1,7 @@
 """The events of runs and what they consist of, for programs that listen to them."""
 
 from skillc_runtime.devices.prompts import Prompt
-from skillc_runtime.recording.account import CallOutput, Measure
+from skillc_runtime.recording.account import CallOutput, MeasuredProperty
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import (
     Disturbed,
@@ -31,7 +31,7 @@ __all__ = [
     "Event",
     "Failure",
     "ImplementationChosen",
-    "Measure",
+    "MeasuredProperty",
     "NodeEnded",
     "NodeStarted",
     "Note",

@@ -17,7 +17,7 @@ from skillc.errors import RequestError, ServiceError
 from skillc.values.arguments import read_pace, require_choice, require_text
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording import commands
-from skillc_runtime.recording.account import CallOutput, Measure
+from skillc_runtime.recording.account import CallOutput, MeasuredProperty
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.states import State
@@ -99,7 +99,7 @@ class Operation:
         return self._shared.account.outputs
 
     @property
-    def measures(self) -> tuple[Measure, ...]:
+    def measures(self) -> tuple[MeasuredProperty, ...]:
         """The properties that it has measured so far, the last hundred."""
         return self._shared.account.measures
 

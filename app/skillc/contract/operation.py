@@ -9,7 +9,7 @@ import msgspec
 
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.planning.progress import PlanningProgress
-from skillc_runtime.recording.account import CallOutput, Measure
+from skillc_runtime.recording.account import CallOutput, MeasuredProperty
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.run_spec import RunRequest
 from skillc_runtime.recording.states import ENDS as ENDS
@@ -60,7 +60,7 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     ended_at: datetime | None = None
     failure: Failure | None = None
     outputs: tuple[CallOutput, ...] = ()
-    measures: tuple[Measure, ...] = ()
+    measures: tuple[MeasuredProperty, ...] = ()
     library_hash: str = ""
     devices: tuple[str, ...] | None = ()
     prompts: tuple[Prompt, ...] = ()

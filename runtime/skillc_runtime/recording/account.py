@@ -1,4 +1,4 @@
-"""What a run has come to so far: its times, why it failed, what its calls have returned, and what was measured."""
+"""Keeps account of a run while it goes on: its times, its failure, the outputs of its calls, what was measured."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.labelled import LabelledProperty, LabelledValue
 
 MAX_LISTED = 100
-"""How many outputs and how many measures are kept; the events have all."""
+"""How many outputs and how many measured properties are kept; the events have all."""
 
 
 class CallOutput(msgspec.Struct, frozen=True):
@@ -25,8 +25,8 @@ class CallOutput(msgspec.Struct, frozen=True):
     value: LabelledValue
 
 
-class Measure(msgspec.Struct, frozen=True):
-    """A property as a skill or a device, `by`, has found it last, at the time `time_s` of the cell."""
+class MeasuredProperty(msgspec.Struct, frozen=True):
+    """The value of a property that a skill or a device, `by`, has found last, at the time `time_s` of the cell."""
 
     fact: LabelledProperty
     known: Evidence
@@ -47,7 +47,7 @@ class RunAccount:
         self.ended_at: datetime | None = None
         self.failure: Failure | None = None
         self.outputs: tuple[CallOutput, ...] = ()
-        self.measures: tuple[Measure, ...] = ()
+        self.measures: tuple[MeasuredProperty, ...] = ()
         self._calls: dict[int, str] = {}  # the outermost calls that go on, with their skills
         self._inside: set[int] = set()  # the nodes inside of them
 
@@ -82,7 +82,7 @@ class RunAccount:
 
     def _take_measures(self, changed: events.WorldChanged, known: Evidence) -> None:
         found = {
-            (each.individual.iri, each.property.iri): Measure(each, known, changed.origin, changed.time)
+            (each.individual.iri, each.property.iri): MeasuredProperty(each, known, changed.origin, changed.time)
             for each in changed.changes
             if isinstance(each, LabelledProperty) and each.value is not None
         }

@@ -360,7 +360,7 @@ export interface components {
             /** @default [] */
             outputs?: components["schemas"]["CallOutput"][];
             /** @default [] */
-            measures?: components["schemas"]["Measure"][];
+            measures?: components["schemas"]["MeasuredProperty"][];
             /** @default  */
             library_hash?: string;
             /** @default [] */
@@ -579,10 +579,10 @@ export interface components {
             value: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
         };
         /**
-         * Measure
-         * @description A property as a skill or a device, `by`, has found it last, at the time `time_s` of the cell.
+         * MeasuredProperty
+         * @description The value of a property that a skill or a device, `by`, has found last, at the time `time_s` of the cell.
          */
-        Measure: {
+        MeasuredProperty: {
             fact: components["schemas"]["LabelledProperty"];
             /** @enum {unknown} */
             known: "assumed" | "idealised" | "reported" | "sensed";
@@ -1738,9 +1738,10 @@ export interface components {
         };
         /**
          * NameInExpression
-         * @description A name of the enclosing body in an expression, and what gives it its value.
+         * @description A name of the enclosing body in an expression, and how it gets its value.
          *
-         *         That is the call of the body, the `expression` of a `let`, that of the items of a loop, or the `output` of a call.
+         *         It is a `parameter` of the body, a `let` with its `expression`, an item of a `loop` over the `expression`, or the
+         *         `output` of a call.
          */
         NameInExpression: {
             name: string;
@@ -1968,8 +1969,8 @@ export interface components {
          *
          *         `call` is the number of the call of whose parameter or body it is a name, empty in a task. `how` is `passed` by the
          *         caller, `planned`, a `default`, `inferred`, a `let`, an item of a `loop`, the `output` of the call `by`, or `given`
-         *         to the task. `text` and `source` are the expression, `conditions` are those by which it was found in the world among
-         *         `others`, which it could have been.
+         *         to the task. `text` and `source` are the expression. A value that was inferred fulfils the `conditions`; `others`
+         *         are the individuals that `infer any` could have chosen as well.
          */
         ValueOrigin: {
             name: string;
