@@ -46,7 +46,7 @@ def in_world(body: tree.Node, library: SkillLibrary, state: WorldState) -> RunHi
 
 
 def known(story: RunHistory | None) -> RunHistory:
-    """Return a story that there is."""
+    """Return the story of a run that has started."""
     assert story is not None
     return story
 

@@ -138,10 +138,9 @@ def _never(call: RecordedCall) -> Iterator[str]:
 def _choice(call: RecordedCall) -> Iterator[str]:
     if call.implementation:
         yield f"chosen: {call.implementation} ({call.implementation_source}), {_ground(call)}"
-    rejected = _others(call)
-    if rejected:
+    if call.others:
         yield "rejected:"
-        yield from _indented(together.from_iterable(map(_refusal, rejected)))
+        yield from _indented(together.from_iterable(map(_refusal, call.others)))
     if call.untried:
         yield "not tried, because they rank lower (less specific, less preferred, or declared later):"
         yield from (f"  {each.implementation} ({each.source}): {_would(each)}" for each in call.untried)
@@ -150,12 +149,7 @@ def _choice(call: RecordedCall) -> Iterator[str]:
 def _ground(call: RecordedCall) -> str:
     if call.fixed:
         return "which the call names"
-    return "the first in rank that fits" if _others(call) or call.untried else "the only one"
-
-
-def _others(call: RecordedCall) -> tuple[Rejection, ...]:
-    """Return the rejected implementations without the last one, whose failure is that of the call."""
-    return tuple(each for each in call.rejected if each.implementation != call.implementation)
+    return "the first in rank that fits" if call.others or call.untried else "the only one"
 
 
 def _would(untried: UntriedImplementation) -> str:
@@ -226,7 +220,7 @@ def _located(located: LocatedFact) -> str:
 def _failed(call: RecordedCall) -> Iterator[str]:
     if call.failure is None:
         return
-    refused = [each for each in _others(call) if each.reason == call.failure.message]
+    refused = [each for each in call.others if each.reason == call.failure.message]
     why = "no implementation is left" if refused else f"{call.failure.message} ({call.failure.source})"
     yield f"{'halted' if call.status == 'halted' else 'failed'}: {why}"
     yield from _indented(_causes(call.failure.causes))

@@ -99,6 +99,11 @@ class RecordedCall(_Part, frozen=True, kw_only=True):
         return bool(self.implementation)
 
     @property
+    def others(self) -> tuple[Rejection, ...]:
+        """The rejected implementations without the one that was chosen last, whose failure is that of the call."""
+        return tuple(each for each in self.rejected if each.implementation != self.implementation)
+
+    @property
     def individuals(self) -> tuple[str, ...]:
         """The IRIs of the individuals that the parameters stand for, in the order of the parameters."""
         return tuple(value.iri for value in self.bindings.values() if isinstance(value, LabelledIri))

@@ -19,8 +19,9 @@ class StepResult(msgspec.Struct, frozen=True, kw_only=True):
     """One call that a plan or a given body made, or was to make, with its arguments by parameter name and its line.
 
     `number` is that by which `skillc why` knows it; `rounds` are those of the loops around it, the outermost first.
-    `implementation` is empty if it never started; `alternatives` is the number of the skill's other
-    implementations, of which `rejected` could not be used. Times in s; `failure` is why it did not succeed.
+    `implementation` is empty if it never started, and `fixed` if the call names it; `alternatives` is the number of
+    others that it could have been, of which `rejected` could not be used. Times in s; `failure` is why it did not
+    succeed.
     """
 
     skill: str
@@ -33,6 +34,7 @@ class StepResult(msgspec.Struct, frozen=True, kw_only=True):
     start_s: float | None = None
     end_s: float | None = None
     failure: str | None = None
+    fixed: bool = False
     alternatives: int = 0
     rejected: tuple[Rejection, ...] = ()
 

@@ -137,8 +137,9 @@ def _make_step(call: RecordedCall) -> StepResult:
         start_s=call.started,
         end_s=call.ended,
         failure=call.failure.message if call.failure is not None else None,
+        fixed=call.fixed,
         alternatives=_count_alternatives(call),
-        rejected=call.rejected,
+        rejected=call.others,
     )
 
 
@@ -146,7 +147,7 @@ def _make_choices(calls: Iterator[RecordedCall]) -> tuple[ChoiceResult, ...]:
     """Return each choice between several implementations once."""
     found = {
         (call.skill, call.implementation): ChoiceResult(
-            skill=call.skill, implementation=call.implementation, rejected=call.rejected
+            skill=call.skill, implementation=call.implementation, rejected=call.others
         )
         for call in calls
         if call.implementation and _count_alternatives(call)
@@ -155,7 +156,7 @@ def _make_choices(calls: Iterator[RecordedCall]) -> tuple[ChoiceResult, ...]:
 
 
 def _count_alternatives(call: RecordedCall) -> int:
-    return len(call.rejected) + len(call.untried)
+    return len(call.others) + len(call.untried)
 
 
 def _robots(state: WorldState) -> list[LabelledIri]:

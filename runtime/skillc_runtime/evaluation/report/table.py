@@ -20,6 +20,8 @@ def format_choice_reason(taken: StepResult | ChoiceResult) -> str:
     """Return why an implementation was chosen."""
     if taken.rejected:
         return "; ".join(f"not {each.implementation}: {each.reason}" for each in taken.rejected)
+    if isinstance(taken, StepResult) and taken.fixed:
+        return "named by the call"
     return "the only one" if isinstance(taken, StepResult) and not taken.alternatives else "the first that fits"
 
 
