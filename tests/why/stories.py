@@ -64,4 +64,4 @@ def written(folder: Path, events: Sequence[Event]) -> Path:
 
 def steps_of(story: RunHistory) -> list[RecordedCall]:
     """Return the steps of all attempts."""
-    return [step for attempt in story.attempts for step in attempt.steps]
+    return list(story.steps)

@@ -115,7 +115,7 @@ class CellLoop:
         return run
 
     def reorder(self, first: Sequence[TaskRun]) -> None:
-        """Let these runs come before all others that wait, in this order."""
+        """Put these runs before all others that wait, in this order."""
         others = [each for each in self.runs if each not in first]
         ahead = next((place for place, each in enumerate(others) if each.waits), len(others))
         self.runs = [*others[:ahead], *first, *others[ahead:]]

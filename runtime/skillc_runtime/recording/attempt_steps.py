@@ -1,4 +1,4 @@
-"""Makes the steps of an attempt, with the calls inside them, of the records of its nodes."""
+"""Makes the steps of an attempt, with the calls inside them, from the records of its nodes."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from skillc_runtime.recording.reader import TraceReader
 
 
 def end_recording(path: Path, explain: Callable[[RunHistory], str], now: float) -> HistoryBuilder:
-    """End a recording as `interrupted` at the time `now` of the cell in s, if it has no end; return what it tells.
+    """End a recording as `interrupted` at the time `now` of the cell in s, if it has no end, and build its history.
 
     `explain` returns the reason for the history up to then. An incomplete last line is removed. TraceError if the file
     is not a recording, OSError if it cannot be read or written; no other program may write to it.

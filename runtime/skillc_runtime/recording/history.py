@@ -158,12 +158,17 @@ class RunHistory(_Part, frozen=True, kw_only=True):
 
     @property
     def paused(self) -> tuple[tuple[float, float], ...]:
-        """When it was paused and resumed; a pause after which it never went on has no end."""
+        """When it was paused and resumed, in s; the end is inf if it never went on."""
         return tuple((start, inf if end is None else end) for start, end in self.pauses)
 
     @property
-    def calls(self) -> Iterator[RecordedCall]:
-        """All calls of all attempts."""
+    def steps(self) -> Iterator[RecordedCall]:
+        """The steps of all attempts."""
         for attempt in self.attempts:
-            for step in attempt.steps:
-                yield from step.all
+            yield from attempt.steps
+
+    @property
+    def calls(self) -> Iterator[RecordedCall]:
+        """The steps of all attempts with all calls inside them."""
+        for step in self.steps:
+            yield from step.all

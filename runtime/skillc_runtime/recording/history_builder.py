@@ -28,7 +28,7 @@ def read_history(recording: Iterable[Event]) -> RunHistory | None:
 
 
 def listen_to(recording: Iterable[Event]) -> HistoryBuilder:
-    """Return what has heard all events of a recording. Raises what iterating over the recording raises."""
+    """Return a builder that has all events of a recording. Raises what iterating over the recording raises."""
     builder = HistoryBuilder()
     for event in recording:
         builder(event)

@@ -152,7 +152,7 @@ class NodeRecords:
                 self._body.skipped.append(event)
 
     def _thin(self, record: NodeRecord) -> None:
-        """Drop what an earlier start of a node has besides calls, and the nodes around these; all if it has none."""
+        """Keep of an earlier start of a node only the calls in it and the nodes around them."""
         self._thin_below(record)
         if not record.is_call and not record.children:
             self._siblings(record).remove(record)

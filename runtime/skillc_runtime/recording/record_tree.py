@@ -1,4 +1,4 @@
-"""The records of the nodes of an attempt as a tree for reports, in which each start of a call is a node."""
+"""Makes the tree of an attempt for reports, in which each start of a call is a node."""
 
 from __future__ import annotations
 

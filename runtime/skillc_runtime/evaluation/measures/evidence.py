@@ -32,8 +32,7 @@ class RunEvidence:
 
         None if there is no such call, or its skill declares no constant duration.
         """
-        steps = (step for attempt in self.history.attempts for step in attempt.steps)
-        for call in reversed(tuple(_outermost_calls(steps, subject))):
+        for call in reversed(tuple(_outermost_calls(self.history.steps, subject))):
             literal = self.library.skills[call.skill].duration
             if isinstance(literal, Literal) and call.started is not None and call.ended is not None:
                 taken = subtract_intervals([(call.started, call.ended)], self.history.paused)

@@ -127,11 +127,12 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
     which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed, and no
     claim is false. `false_claims` are sentences about what the world model claims of things at the end that is not so
-    in the simulator. `plan` has the steps of the last plan, which has `planned_steps`, or of the body, and before them
-    those that earlier plans have started, each call in order of time; `replanned` is why each was abandoned. `wipings`
-    has one entry for each time a surface was wiped, `wiping` is the first of them; `placements` has one for each thing
-    that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand or base.
-    What only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its clock.
+    in the simulator. `plan` has the steps that abandoned plans have started, then those of the last plan or of the
+    body, in order of time; `planned_steps` is how many the last plan has, `replanned` why the others were abandoned.
+    `wipings` has one entry for each time a surface was wiped, `wiping` is the first of them; `placements` has one for
+    each thing that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand
+    or base. What only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its
+    clock.
     """
 
     task: str

@@ -61,8 +61,7 @@ class Wiping:
 
 def find_wipings(history: RunHistory, state: WorldState) -> tuple[Wiping, ...]:
     """Return in order of time the innermost calls with a surface and a tool that follow paths under pressure."""
-    steps = (step for attempt in history.attempts for step in attempt.steps)
-    found = (wiping for step in steps for wiping in _find_below(step, history, state))
+    found = (wiping for step in history.steps for wiping in _find_below(step, history, state))
     return tuple(sorted(found, key=lambda wiping: wiping.began))
 
 
