@@ -14,7 +14,8 @@ class NodeOutcome(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True)
     """The outcome of a node at its last start; `started` and `ended` are in s of the cell's clock.
 
     `status` is idle, running, success, failure or halted. A call has `rejected` implementations, and as its child the
-    body of the implementation that ran last.
+    body of the implementation that ran last. In a tree that is made from events, each start of a call is a node of its
+    own, a call has the bodies of all its implementations that ran, and a step that was not needed is `skipped`.
     """
 
     id: int
