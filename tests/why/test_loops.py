@@ -38,6 +38,26 @@ impl twice of Visit {
         apply seen
     }
 }
+
+skill Wear {
+    in thing: Product
+    post worn: thing.patience == 0.8 s
+}
+impl at_once of Wear { do apply worn }
+
+skill Tire {
+    in thing: Product
+    post seen: thing.isVisited == true
+    post worn: thing.patience == 0.8 s
+}
+impl by_rest of Tire {
+    let half = 0.5 * thing.patience
+    do seq {
+        Wear(thing)
+        Rest(spell: half)
+        apply seen
+    }
+}
 """
 TASKS = """import "skills.skill"
 prefix lab: <http://example.org/lab#>
@@ -155,6 +175,18 @@ def test_a_value_is_followed_to_the_line_of_the_scene(
     lines = invoke("why", "out", question).splitlines()[1:]
     wanted = [line for line in answer.splitlines() if line.strip()]
     assert [line.strip() for line in lines] == [line.strip() for line in wanted]
+
+
+def test_a_let_is_told_with_what_it_has_read_also_if_that_has_changed_since(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(project)
+    wanted = ("--call", "Tire(thing: lab:box)", "--scene", "scene.ttl", "--library", ".")
+    invoke("run", *wanted, "--backend", "kinematic", "--out", "tired", "--no-film")
+    (origin,) = json.loads(invoke("why", "tired", "1.2.spell", "--json"))["origins"]
+    assert origin["value"] == {"type": "quantity", "value": 0.2, "unit": "s"}
+    (let,) = origin["names"]
+    assert [each["known"]["fact"]["value"]["value"] for each in let["facts"]] == [0.4]
 
 
 def test_the_origin_is_data_too(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:

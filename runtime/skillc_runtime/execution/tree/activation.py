@@ -231,7 +231,10 @@ def _build_body(
     match implementation.body:
         case Compound(node=node):
             calls, writes = (*scope.calls, holder), context.cell.world.ledger.count
-            return build(node, context, LexicalScope(scope.undo, frame, implementation, calls, writes_at_start=writes))
+            inside = LexicalScope(
+                scope.undo, frame, implementation, calls, writes_at_start=writes, lets_read=context.state
+            )
+            return build(node, context, inside)
         case Primitive(python=python):
             cls = import_matching_primitive(python, implementation.parameters)
             names = [p.name for p in implementation.parameters if p.direction != "out"]

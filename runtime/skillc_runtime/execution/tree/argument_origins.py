@@ -59,11 +59,16 @@ class EnclosingBody:
 
     def write(self, expression: Expression, source: Position, value: LabelledValue | None = None) -> WrittenExpression:
         """Return an expression with what it reads; a constant as its `value`, which has a unit."""
+        return self._write_in(self.state, expression, source, value)
+
+    def _write_in(
+        self, state: WorldState, expression: Expression, source: Position, value: LabelledValue | None = None
+    ) -> WrittenExpression:
         names = free_variables_in_order(expression)
         return WrittenExpression(
-            text=_write(expression, value, self.state),
+            text=_write(expression, value, state),
             source=source,
-            facts=facts_read(expression, self.state, self._scope.frame),
+            facts=facts_read(expression, state, self._scope.frame),
             names=tuple(self._explain(each) for each in names),
         )
 
@@ -72,7 +77,8 @@ class EnclosingBody:
             loop = self._loops[name]
             return NameInExpression(name=name, how="loop", expression=self.write(loop.items, loop.source))
         if name in self._lets:
-            return NameInExpression(name=name, how="let", expression=self.write(*self._lets[name]))
+            read = self._scope.lets_read if self._scope.lets_read is not None else self.state
+            return NameInExpression(name=name, how="let", expression=self._write_in(read, *self._lets[name]))
         return NameInExpression(name=name, how="parameter" if name in self._parameters else "output")
 
 

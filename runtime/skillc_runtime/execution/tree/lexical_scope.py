@@ -49,8 +49,9 @@ class LexicalScope:
     `frame` holds the values in scope: parameters, lets, loop variables, outputs; an optional parameter that was not
     passed is absent. `implementation` is the one that the body belongs to, None in a task. `calls` are the enclosing
     calls, outermost first, which may hold locks; `writes_at_start` is the number of writes to the world before the
-    innermost call started. `undo` is the stack of the innermost `with`, which is unwound when the `with` ends.
-    `failures` are those of earlier attempts at the goal, None if the calls are not steps of a plan.
+    innermost call started, `lets_read` the world in which its lets were computed, None in a task. `undo` is the stack
+    of the innermost `with`, which is unwound when the `with` ends. `failures` are those of earlier attempts at the
+    goal, None if the calls are not steps of a plan.
     """
 
     undo: UndoStack
@@ -59,6 +60,7 @@ class LexicalScope:
     calls: tuple[object, ...] = ()
     failures: CallFailures | None = None
     writes_at_start: int = 0
+    lets_read: WorldState | None = None
 
     @property
     def skill(self) -> str:
