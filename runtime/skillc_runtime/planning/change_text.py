@@ -18,7 +18,8 @@ from skillc_model.pddl.problem import Problem
 from skillc_model.read_write import terms_read, terms_written
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.formula_text import FormulaFormatter
-from skillc_runtime.planning.nearest_changes import Lack, NearestChange, Reader, find_stated
+from skillc_runtime.planning.lacks import AtomReader, Lack, NearestChange
+from skillc_runtime.planning.nearest_changes import find_stated
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.obstacles import RelationObstacle, find_missing_property, find_obstacle
 from skillc_runtime.world.state.python_calls import EvaluationError
@@ -43,7 +44,7 @@ class ChangeText:
         texts = (text for lack, reader in found[0].lacking for text in self._describe(lack, reader, alone))
         return tuple(dict.fromkeys(texts))
 
-    def _describe(self, lack: Lack, reader: Reader, choices: Sequence[tuple[Lack, Reader]]) -> Iterator[str]:
+    def _describe(self, lack: Lack, reader: AtomReader, choices: Sequence[tuple[Lack, AtomReader]]) -> Iterator[str]:
         skill = reader.action.skill
         meaning = self._problem.domain.predicate[lack.atom.predicate].meaning
         if not lack.holds and not isinstance(meaning, GuardMeaning):
@@ -68,7 +69,7 @@ class ChangeText:
                 assert_never(meaning)
 
     def _describe_relation(
-        self, relation: str, lack: Lack, reader: Reader, choices: Sequence[tuple[Lack, Reader]]
+        self, relation: str, lack: Lack, reader: AtomReader, choices: Sequence[tuple[Lack, AtomReader]]
     ) -> str:
         """Return a missing relation; with the classes of its sides if other individuals would do as well."""
         classes, skill = self._find_classes(lack, reader, choices), reader.action.skill
@@ -80,7 +81,9 @@ class ChangeText:
         fact = f"{self._short(subject)} {self._short(stated)} {self._short(object_)}" if stated else ""
         return f"{skill} needs `{shown}`, which does not hold" + (f": state `{fact}` if it is so" if fact else "")
 
-    def _find_classes(self, lack: Lack, reader: Reader, choices: Sequence[tuple[Lack, Reader]]) -> dict[str, str]:
+    def _find_classes(
+        self, lack: Lack, reader: AtomReader, choices: Sequence[tuple[Lack, AtomReader]]
+    ) -> dict[str, str]:
         """Return the class for each term of an atom in place of which other choices have another individual."""
         alike = [
             each.atom.terms for each, other in choices if (other.action, other.atom) == (reader.action, reader.atom)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from msgspec import structs
 
 from skillc_model.pddl.domain import Action
-from skillc_model.pddl.formulas import TRUE, Atom, Change, Equal, Formula, Negation, conjunction, disjunction
+from skillc_model.pddl.formulas import Atom, Change, Equal, Formula, Negation, conjunction, disjunction
 from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import CancelToken
@@ -78,18 +78,12 @@ class GoalConflicts:
     def _explain_undoing(self, there: Problem, first: Sequence[Formula], after: WorldState) -> str:
         """Return which step of a plan for the last part undoes the others."""
         solved = self._plan(there, [there.goal])
+        unmoved = replace(there.domain, actions=())
         for step, world in self._follow(solved.plan, after) if isinstance(solved, Solved) else ():
-            grounding = Grounding(
-                replace(there, init=self._list_atoms(world), domain=replace(there.domain, actions=()))
-            )
+            grounding = Grounding(replace(there, init=self._list_atoms(world), domain=unmoved))
             if not all(grounding.is_possible(grounding.reduce(each, {})) for each in first):
                 return f"{step.skill} undoes that on the way to the other"
         return ""
-
-    def _holds(self, parts: Sequence[Formula], state: WorldState) -> bool:
-        domain = replace(self._problem.domain, actions=())
-        grounding = Grounding(replace(self._problem, init=self._list_atoms(state), domain=domain))
-        return all(grounding.reduce(each, {}) == TRUE for each in parts)
 
     def _follow(self, plan: Plan, state: WorldState) -> tuple[tuple[Step, WorldState], ...]:
         """Return the steps of a plan with the world after each; nothing if the plan does not work."""

@@ -6,10 +6,9 @@ What is lacking is tried: it counts if the goal can be reached, deletions ignore
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from itertools import product
-from typing import TypeAlias, assert_never
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import assert_never
 
 from skillc_model.conditions import Condition, Variable
 from skillc_model.pddl.domain import Action, GuardMeaning, Meaning, RelationMeaning
@@ -29,6 +28,18 @@ from skillc_model.pddl.formulas import (
 from skillc_model.pddl.problem import Problem
 from skillc_model.rewriting import substitute
 from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.planning.lacks import (
+    NOTHING,
+    AtomReader,
+    Lack,
+    NearestChange,
+    Order,
+    Way,
+    combine_ways,
+    keep_cheapest,
+    sum_costs,
+    to_order,
+)
 from skillc_runtime.planning.partial_bindings import PartialBindings, Values, unify
 from skillc_runtime.planning.plan import Solved
 from skillc_runtime.planning.search.astar import AStar
@@ -39,52 +50,14 @@ from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 
 MAX_DEPTH = 6
-MAX_WAYS = 40
-"""How many ways to make one formula true are considered, those that lack the least first."""
+"""How many actions before the goal are considered."""
 
 MAX_TRIED = 200
 """How many changes of the world are tried."""
 
-
 MAX_SEARCHED = 8
 SEARCH_S = 0.5
 """How many changes are tried by searching for a plan, and the time limit for each search."""
-
-
-@dataclass(frozen=True, slots=True)
-class Lack:
-    """An atom that should be true (`holds`) or false; `cost` is how far that is from what people would state."""
-
-    atom: Atom
-    holds: bool
-    cost: int
-
-
-@dataclass(frozen=True, slots=True)
-class Reader:
-    """The action that needs an atom, as it has it in its conditions, `depth` actions before the goal."""
-
-    depth: int
-    action: Action
-    atom: Atom
-
-    @property
-    def types(self) -> tuple[str | None, ...]:
-        """The type of the parameter at each place of the atom; None if there is no parameter."""
-        types = {each.name: each.type for each in self.action.parameters}
-        return tuple(map(types.get, self.atom.terms))
-
-
-@dataclass(frozen=True, slots=True)
-class NearestChange:
-    """What is lacking together, each with what needs it."""
-
-    lacking: tuple[tuple[Lack, Reader], ...]
-
-
-Way: TypeAlias = frozenset[Lack]
-_Order: TypeAlias = tuple[str, tuple[str, ...], bool]
-NOTHING: tuple[Way, ...] = (frozenset(),)
 
 
 class NearestChanges:
@@ -94,7 +67,7 @@ class NearestChanges:
         self._problem, self._state, self._grounding, self._limit = problem, state, grounding, limit
         self._partial = PartialBindings(problem, grounding, limit)
         self._guards = _group_guards(problem)
-        self._readers: dict[Lack, Reader] = {}
+        self._readers: dict[Lack, AtomReader] = {}
         self._wanted = frozenset(atoms(problem.goal))
         self._made: dict[Atom, tuple[Way, ...]] = {}
         """What actions lack that make an atom true, as far as it was found where the atom was first needed."""
@@ -114,13 +87,13 @@ class NearestChanges:
     def find_blocking(self) -> tuple[NearestChange, ...]:
         """Return the facts, one each, that keep skills from starting, and without which the goal has a plan."""
         found = {
-            self._lack(part.body, {}, False, Reader(0, action, part.body))
+            self._lack(part.body, {}, False, AtomReader(0, action, part.body))
             for each in self._grounding.actions
             for action in (self._problem.domain.action[each.words[0]],)
             for part in conjuncts(each.precondition)
             if isinstance(part, Negation) and isinstance(part.body, Atom) and part.body in self._grounding.init
         }
-        alone = [frozenset({each}) for each in sorted(found, key=_order)[:MAX_SEARCHED]]
+        alone = [frozenset({each}) for each in sorted(found, key=to_order)[:MAX_SEARCHED]]
         return tuple(self._with_readers(way) for way in alone if self._has_plan(way))
 
     def _has_plan(self, way: Way) -> bool:
@@ -133,18 +106,18 @@ class NearestChanges:
         grounding.explore()
         return grounding.is_possible(grounding.goal())
 
-    def _distance(self, way: Way) -> tuple[int, int, list[_Order]]:
+    def _distance(self, way: Way) -> tuple[int, int, list[Order]]:
         """Return how far a change is: what it costs, then how near to the goal, where only consequences show."""
         depth = max(self._readers[each].depth for each in way)
-        return _cost(way), -depth, sorted(map(_order, way))
+        return sum_costs(way), -depth, sorted(map(to_order, way))
 
     def _with_readers(self, way: Way) -> NearestChange:
         """Return a change without conditions that hold once the facts are stated that are needed with them."""
         plain = [each for each in way if not isinstance(self._meaning(each), GuardMeaning)]
-        guards = sorted(way.difference(plain), key=_order)
+        guards = sorted(way.difference(plain), key=to_order)
         state = self._state.with_changes([each for lack in plain for each in self._state_fact(lack)])
         left = [each for each in guards if not (plain and self._holds(each, state))]
-        return NearestChange(tuple((each, self._readers[each]) for each in (*sorted(plain, key=_order), *left)))
+        return NearestChange(tuple((each, self._readers[each]) for each in (*sorted(plain, key=to_order), *left)))
 
     def _state_fact(self, lack: Lack) -> Iterator[AddRelation]:
         meaning = self._meaning(lack)
@@ -178,19 +151,19 @@ class NearestChanges:
             case Atom():
                 return self._ways_to_atom(formula, values, by, depth, visiting)
             case Negation(Atom() as atom) if by is not None:
-                return (frozenset({self._lack(atom, values, False, Reader(depth, by, atom))}),)
+                return (frozenset({self._lack(atom, values, False, AtomReader(depth, by, atom))}),)
             case Negation() | Equal():
                 return ()
             case Conjunction(parts):
-                return _together([self._ways(part, values, by, depth, visiting) for part in parts])
+                return combine_ways([self._ways(part, values, by, depth, visiting) for part in parts])
             case Disjunction(parts):
-                return _least(way for part in parts for way in self._ways(part, values, by, depth, visiting))
+                return keep_cheapest(way for part in parts for way in self._ways(part, values, by, depth, visiting))
             case Existential(variable, body):
                 scopes = self._scopes(variable, values)
-                return _least(way for scope in scopes for way in self._ways(body, scope, by, depth, visiting))
+                return keep_cheapest(way for scope in scopes for way in self._ways(body, scope, by, depth, visiting))
             case Universal(variable, body):
                 scopes = self._scopes(variable, values)
-                return _together([self._ways(body, scope, by, depth, visiting) for scope in scopes])
+                return combine_ways([self._ways(body, scope, by, depth, visiting) for scope in scopes])
             case _:
                 assert_never(formula)
 
@@ -205,18 +178,18 @@ class NearestChanges:
         stated = (
             ()
             if by is None or atom in self._wanted
-            else (frozenset({self._lack(read, values, True, Reader(depth, by, read))}),)
+            else (frozenset({self._lack(read, values, True, AtomReader(depth, by, read))}),)
         )
         if atom in visiting or depth >= MAX_DEPTH or not self._problem.domain.predicate[atom.predicate].changes:
             return stated
         if atom not in self._made:
-            self._made[atom] = _least(self._ways_by_actions(atom, depth, visiting | {atom}))
-        return _least((*self._made[atom], *stated))
+            self._made[atom] = keep_cheapest(self._ways_by_actions(atom, depth, visiting | {atom}))
+        return keep_cheapest((*self._made[atom], *stated))
 
     def _ways_by_actions(self, atom: Atom, depth: int, visiting: frozenset[Atom]) -> Iterator[Way]:
         for action, start in self._makers(atom):
             for bound, lacking in self._partial.find(action, start):
-                yield from _together([self._ways(each, bound, action, depth + 1, visiting) for each in lacking])
+                yield from combine_ways([self._ways(each, bound, action, depth + 1, visiting) for each in lacking])
 
     def _makers(self, atom: Atom) -> Iterator[tuple[Action, dict[str, str]]]:
         """Yield the actions that make an atom true, with the parameters that are bound by it."""
@@ -226,7 +199,7 @@ class NearestChanges:
                 if start is not None and not any(self._partial.mistyped(action, start)):
                     yield action, start
 
-    def _lack(self, read: Atom, values: Values, holds: bool, reader: Reader) -> Lack:
+    def _lack(self, read: Atom, values: Values, holds: bool, reader: AtomReader) -> Lack:
         atom = _bind(read, values)
         lack = Lack(atom, holds, self._cost_of(atom) if holds else 1)
         if lack not in self._readers or reader.depth < self._readers[lack].depth:
@@ -285,27 +258,3 @@ def _group_guards(problem: Problem) -> dict[str, list[str]]:
 
 def _bind(atom: Atom, values: Values) -> Atom:
     return Atom(atom.predicate, tuple(values.get(term, term) for term in atom.terms))
-
-
-def _together(options: Sequence[tuple[Way, ...]]) -> tuple[Way, ...]:
-    """Return the ways that take one of each of the options."""
-    ways: tuple[Way, ...] = NOTHING
-    for each in options:
-        ways = _least(one | other for one, other in product(ways, each))
-    return ways
-
-
-def _least(ways: Iterable[Way]) -> tuple[Way, ...]:
-    return tuple(sorted(dict.fromkeys(ways), key=_rank)[:MAX_WAYS])
-
-
-def _rank(way: Way) -> tuple[int, list[_Order]]:
-    return _cost(way), sorted(map(_order, way))
-
-
-def _cost(way: Way) -> int:
-    return sum(each.cost for each in way)
-
-
-def _order(lack: Lack) -> _Order:
-    return lack.atom.predicate, lack.atom.terms, lack.holds
