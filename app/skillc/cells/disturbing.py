@@ -1,4 +1,4 @@
-"""Resolves the names in disturbances of a cell."""
+"""Lets disturbances happen to a simulated cell, whose names are those of its world."""
 
 from __future__ import annotations
 
@@ -6,12 +6,37 @@ from typing import assert_never
 
 from msgspec.structs import replace
 
-from skillc_runtime.devices.disturbances import Disturbance, LoseArm, Move, PressEmergencyStop, Push, Take
-from skillc_runtime.world.state.names import resolve_individual
+from skillc.errors import RequestError
+from skillc_runtime.devices.backend import Backend
+from skillc_runtime.devices.disturbances import (
+    Disturbance,
+    DisturbanceRefused,
+    LoseArm,
+    Move,
+    PressEmergencyStop,
+    Push,
+    Take,
+)
+from skillc_runtime.world.state.names import NoSuchName, resolve_individual
 from skillc_runtime.world.state.world_state import WorldState
 
 
-def resolve_names(disturbance: Disturbance, state: WorldState) -> Disturbance:
+def disturb_cell(disturbance: Disturbance, cell: str, backend: Backend, state: WorldState) -> Disturbance:
+    """Let something happen to the cell of this name; return it with IRIs. RequestError if it is not possible."""
+    disturber = backend.capabilities.disturber
+    if disturber is None:
+        raise RequestError(f"{cell} is no simulation: what happens to it cannot be chosen")
+    if backend.broken is not None:
+        raise RequestError(f"nothing moves any more: {backend.broken}")
+    try:
+        found = _resolve_names(disturbance, state)
+        disturber.disturb(found)
+    except (NoSuchName, DisturbanceRefused) as error:
+        raise RequestError(str(error)) from error
+    return found
+
+
+def _resolve_names(disturbance: Disturbance, state: WorldState) -> Disturbance:
     """Return a disturbance with IRIs in place of names; NoSuchName for one that the world does not have."""
     match disturbance:
         case Push() | LoseArm():

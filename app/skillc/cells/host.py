@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager, suppress
-from dataclasses import replace
 from pathlib import Path
 
 from msgspec import structs
@@ -16,7 +15,7 @@ from skillc.cells.checkpoints import CellCheckpoints
 from skillc.cells.condition import CellCondition
 from skillc.cells.continuing import decisions_about, find_interrupted, prepare_continuation, take_over
 from skillc.cells.database import DatabaseError
-from skillc.cells.disturbing import resolve_names
+from skillc.cells.disturbing import disturb_cell
 from skillc.cells.editing import edit_world
 from skillc.cells.evidence import EvidenceKeeper
 from skillc.cells.interrupted import end_interrupted
@@ -26,20 +25,19 @@ from skillc.cells.journal.reading import JournalReader
 from skillc.cells.library import decode_library, load_library
 from skillc.cells.recordings import CellRecordings
 from skillc.cells.settings import WORLD, CellSettings
-from skillc.cells.snapshot import CellSnapshot, encode_snapshot
+from skillc.cells.snapshot import SnapshotTaker
 from skillc.cells.submitted import SubmittedOperation
 from skillc.cells.world import restore_world
 from skillc.contract.cell import CellStatus
 from skillc.contract.messages import Edit, Place, Reset, Restore, Turn
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.errors import RequestError
-from skillc.services.backends import DEFAULT_BACKEND
 from skillc.services.breakpoints import make_gate, parse_breakpoints
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import Reporter
 from skillc.services.stores import StoreChoice, read_or_fill
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.devices.disturbances import Disturbance, DisturbanceRefused
+from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.execution.cell_loop import CellLoop, NotDurable, Request, TooManyRequests
@@ -58,8 +56,6 @@ from skillc_runtime.recording.run_spec import specify
 from skillc_runtime.recording.states import ENDS
 from skillc_runtime.store.disk import DiskStore
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.names import NoSuchName
-from skillc_runtime.world.state.world_state import WorldState
 
 MAX_OPERATIONS = 200
 """How many operations may go on or wait in a cell; those beyond are refused."""
@@ -94,7 +90,7 @@ class CellHost:
         self.loop = CellLoop(self.devices.backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
         self._condition = CellCondition(settings.name, self.loop, journal, reader)
         self._operations: dict[str, SubmittedOperation] = {}
-        self._snapshot: tuple[WorldState | None, bytes] = (None, b"")
+        self._snapshots = SnapshotTaker(world, settings.backend)
 
     def describe(self, pace: float | None) -> CellStatus:
         """Return the cell as it is now; `pace` is what its ticks are limited to."""
@@ -160,24 +156,14 @@ class CellHost:
     def take_library(self, content: bytes) -> None:
         """Let operations that are submitted from now on run another library; its vocabulary has the same terms."""
         self.library = self.loop.library = decode_library(content)
-        self._snapshot = (None, b"")
 
     def take_snapshot(self) -> bytes:
         """Return what the cell knows now, encoded; the same again while nothing is written."""
-        state = self.world.snapshot()
-        if self._snapshot[0] is not state:
-            self._snapshot = state, encode_snapshot(self._describe_known(b""))
-        return self._snapshot[1]
+        return self._snapshots.take(self.library)
 
     def take_twin(self) -> bytes:
-        """Return what the cell knows now and what its devices report, encoded: a twin of it is built from that.
-
-        The twin of a cell that cannot be built again is simulated from what is known.
-        """
-        checkpoints = self.devices.backend.capabilities.checkpoints
-        if checkpoints is None:
-            return encode_snapshot(replace(self._describe_known(b""), backend=DEFAULT_BACKEND))
-        return encode_snapshot(self._describe_known(checkpoints.save_reported()))
+        """Return what the cell knows now and what its devices report, encoded: a twin of it is built from that."""
+        return self._snapshots.take_twin(self.library, self.devices.backend.capabilities.checkpoints)
 
     def edit(self, wanted: Edit | Place) -> None:
         """Change the world in one transaction as a person states; RequestError if it is refused: nothing changes."""
@@ -200,16 +186,7 @@ class CellHost:
 
     def disturb(self, disturbance: Disturbance, who: str) -> None:
         """Let something happen to a simulated cell; RequestError if it is not possible."""
-        disturber = self.devices.backend.capabilities.disturber
-        if disturber is None:
-            raise RequestError(f"{self.settings.name} is no simulation: what happens to it cannot be chosen")
-        if (broken := self.devices.backend.broken) is not None:
-            raise RequestError(f"nothing moves any more: {broken}")
-        try:
-            found = resolve_names(disturbance, self.world.snapshot())
-            disturber.disturb(found)
-        except (NoSuchName, DisturbanceRefused) as error:
-            raise RequestError(str(error)) from error
+        found = disturb_cell(disturbance, self.settings.name, self.devices.backend, self.world.snapshot())
         self.devices.keeper.has_changed()
         event = Disturbed(time=self.loop.backend.clock.now, disturbance=found, tick=self.loop.ticks, who=who)
         for submitted in self._operations.values():
@@ -257,10 +234,6 @@ class CellHost:
             self._commit()
         self._recordings.close()
         self.devices.backend.close()
-
-    def _describe_known(self, devices: bytes) -> CellSnapshot:
-        world, writes = self.world, self.world.ledger.list_undoable()
-        return CellSnapshot(self.library, world.snapshot(), writes, world.sequence, self.settings.backend, devices)
 
     def _commit(self) -> None:
         """Make durable what has happened, with the reality in which it did; NotDurable if that is not possible."""
