@@ -1,4 +1,4 @@
-"""A simulated cell is made again as its scene says, or as it was saved: the world, its evidence, and reality."""
+"""A simulated cell is reset to its scene, saved and restored: the world, its evidence, and reality."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from running_cells.test_reality import ONE_PART, SORTING, find_places, make_sett
 from running_cells.yard import write_yard
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.settings import CellSettings
-from skillc.contract.messages import Edit, Forget, Reset, Restore, Save, Turn
+from skillc.contract.messages import CheckpointCommand, Edit, Forget, Reset, Restore, Save
 from skillc.contract.operation import OperationRequest
 from skillc.errors import RequestError
 from skillc.services.reporting import SilentReporter
@@ -44,9 +44,9 @@ def done(host: CellHost, name: str, request: OperationRequest) -> int:
     return ended.events
 
 
-def refusal(host: CellHost, wanted: Turn) -> str:
+def refusal(host: CellHost, wanted: CheckpointCommand) -> str:
     with pytest.raises(RequestError) as caught:
-        host.turn(wanted)
+        host.checkpoint(wanted)
     return str(caught.value)
 
 
@@ -70,7 +70,7 @@ def test_a_cell_is_reset_to_its_scene_and_the_same_task_is_done_again(backend: s
         world, places, known = host.world.snapshot(), find_places(host), evidence(host)
         first = done(host, "first", ONE_PART)
         assert done(host, "idle", ONE_PART) < first, "the goal holds already"
-        host.turn(RESET)
+        host.checkpoint(RESET)
         assert_same(host, world, places)
         assert evidence(host) == known
         assert host.loop.backend.clock.now == 0.0
@@ -89,17 +89,17 @@ def test_what_was_saved_is_restored_also_in_another_process(tmp_path: Path) -> N
         done(host, "first", ONE_PART)
         world, places, known = host.world.snapshot(), find_places(host), evidence(host)
         assert any(each == "assumed" or each == "sensed" for each, _ in known)
-        host.turn(Save(name="one", who="bo"))
+        host.checkpoint(Save(name="one", who="bo"))
         host.edit(Edit(edits=("not lab:Part-B",), who="bo", why="taken away"))
-        host.turn(RESET)
+        host.checkpoint(RESET)
     with opened(settings) as host:
-        host.turn(Restore(name="one", who="bo", why=""))
+        host.checkpoint(Restore(name="one", who="bo", why=""))
         assert_same(host, world, places)
         assert evidence(host) == known
     with opened(settings) as host:
         assert_same(host, world, places)
         assert evidence(host) == known
-        host.turn(Forget(name="one"))
+        host.checkpoint(Forget(name="one"))
         assert "has no checkpoint one; there are: none" in refusal(host, Restore(name="one", who="bo", why=""))
 
 
@@ -107,7 +107,7 @@ def test_what_does_not_fit_is_refused_and_changes_nothing(tmp_path: Path) -> Non
     settings = write_yard(tmp_path, 10)
     restore = Restore(name="full", who="bo", why="")
     with opened(settings) as host:
-        host.turn(Save(name="full", who="bo"))
+        host.checkpoint(Save(name="full", who="bo"))
         assert "a checkpoint full already" in refusal(host, Save(name="full", who="bo"))
         host.submit("first", CARRY_ALL)
         for wanted in (RESET, restore, Save(name="late", who="bo")):
@@ -129,10 +129,10 @@ def test_what_does_not_fit_is_refused_and_changes_nothing(tmp_path: Path) -> Non
         assert "another scene (yard.ttl " in refusal(host, restore)
         scene.write_text("lab:crate-99 a")
         with pytest.raises(Exception, match=r"yard\.ttl"):
-            host.turn(RESET)
+            host.checkpoint(RESET)
         scene.write_text(text)
         assert changes_between(host.world.snapshot(), world) == ()
-        host.turn(restore)
+        host.checkpoint(restore)
         assert done(host, "second", CARRY_ALL) > 10
 
 
@@ -147,6 +147,6 @@ def test_a_cell_that_cannot_be_built_again_says_so(tmp_path: Path, monkeypatch: 
 
 def test_what_was_interrupted_before_a_reset_is_given_up(tmp_path: Path) -> None:
     with crashed(tmp_path, "carry_all", 9) as host:
-        host.turn(RESET)
+        host.checkpoint(RESET)
         with pytest.raises(RequestError, match="submit its task again"):
             host.submit("second", OperationRequest(continues="first"))

@@ -1,4 +1,4 @@
-"""Makes a simulated cell again as its scene says, or as somebody saved it: its world and its reality together."""
+"""Resets a simulated cell to its scene, saves it and restores it: its world and its reality together."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from msgspec import structs
 from skillc.cells.cell_backend import CellBackend
 from skillc.cells.evidence import EvidenceKeeper, StoredWrite, read_write, store_write
 from skillc.cells.journal.journal import CellJournal
-from skillc.cells.journal.reading import LATEST_NS, JournalReader
+from skillc.cells.journal.reading import JournalReader, find_checkpoint
 from skillc.cells.settings import CellSettings
 from skillc.contract.cell import CellCheckpoint
-from skillc.contract.messages import Forget, Reset, Restore, Save, Turn
+from skillc.contract.messages import CheckpointCommand, Forget, Reset, Restore, Save
 from skillc.errors import RequestError, ServiceError
 from skillc.services.reporting import SilentReporter
 from skillc.services.stores import identify_scene, load_world
@@ -31,13 +31,11 @@ from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.world_state import WorldState
 
 MAX_CHECKPOINTS = 100
-"""How many checkpoints a cell has."""
-MAX_GIVEN_UP = 1000
-"""How many of the last operations are looked at for those that were interrupted."""
+"""The most checkpoints of a cell."""
 
 
 class SavedCell(msgspec.Struct, frozen=True):
-    """What a checkpoint has: the changes from an empty world, the writes that led there, and the state of reality."""
+    """The content of a checkpoint: the changes from an empty world, the writes that led there, the state of reality."""
 
     world: str
     writes: tuple[StoredWrite, ...]
@@ -45,7 +43,7 @@ class SavedCell(msgspec.Struct, frozen=True):
 
 
 class CellCheckpoints:
-    """The checkpoints of a cell, of which its scene is the first; nothing may go on in it."""
+    """The checkpoints of a cell. No operation may go on in it while one is saved or restored."""
 
     def __init__(
         self, settings: CellSettings, scene: Path, devices: CellBackend, evidence: EvidenceKeeper, journal: CellJournal,
@@ -56,10 +54,10 @@ class CellCheckpoints:
 
     @property
     def possible(self) -> bool:
-        """Whether the cell can be built again."""
+        """Whether the cell can be reset, saved and restored."""
         return self._devices.backend.capabilities.checkpoints is not None
 
-    def carry_out(self, wanted: Turn, world: WorldModel, library: SkillLibrary) -> None:
+    def carry_out(self, wanted: CheckpointCommand, world: WorldModel, library: SkillLibrary) -> None:
         """Do what a client wants, in the next commit of the journal; RequestError if it is refused."""
         match wanted:
             case Reset(who=who, why=why):
@@ -71,7 +69,7 @@ class CellCheckpoints:
             case Restore(name=name, who=who, why=why):
                 self._restore(name, world, library, _describe(who, f"restored {name}", why))
             case Forget(name=name):
-                self._find(name)
+                find_checkpoint(name, self._reader.checkpoints(), self._settings.name)
                 self._journal.remove_checkpoint(name)
             case _:
                 assert_never(wanted)
@@ -98,47 +96,41 @@ class CellCheckpoints:
 
     def _restore(self, name: str, world: WorldModel, library: SkillLibrary, origin: str) -> None:
         self._require()
-        self._require_same(self._find(name), self._describe(name, "", library))
+        found = find_checkpoint(name, self._reader.checkpoints(), self._settings.name)
+        self._require_same(found, self._describe(name, "", library))
+        empty = WorldState.empty(world.snapshot().vocabulary)
         try:
             saved = msgspec.msgpack.decode(self._reader.checkpoint_content(name), type=SavedCell)
-            empty = WorldState.empty(world.snapshot().vocabulary)
             state = empty.with_changes(decode_changes(saved.world))
-            self._become(world, state, tuple(map(read_write, saved.writes)), saved.reality, origin)
-        except (msgspec.MsgspecError, CheckpointError, ValueError) as error:
+            writes = tuple(map(read_write, saved.writes))
+        except (msgspec.MsgspecError, ValueError) as error:
             raise RequestError(f"the checkpoint {name} cannot be read: {error}") from error
+        self._become(world, state, writes, saved.reality, origin)
 
     def _become(
         self, world: WorldModel, state: WorldState, writes: Sequence[UndoableWrite], saved: bytes | None, origin: str
     ) -> None:
-        """Let the world be a version of it, known as `writes` say, and reality as it was saved, or as these facts say.
+        """Replace the world by a version of it, its evidence by that of `writes`, and reality by what was `saved`.
 
-        Nothing changes if no cell can be built of it.
+        Without `saved`, reality is built from the facts. Nothing changes if the cell cannot be built.
         """
         try:
             self._devices.try_out(state, saved)
             world.commit(changes_between(world.snapshot(), state), origin, None)
-        except (SheetError, FrameError, WorldError) as error:
+        except (SheetError, FrameError, WorldError, CheckpointError) as error:
             raise RequestError(f"{self._settings.name} cannot be made again: {error}") from error
         self._evidence.replace(writes, origin)
         self._devices.build(saved)
         self._give_up()
 
     def _give_up(self) -> None:
-        """Let what was interrupted be continued no more: the cell is not as it was left."""
-        for each in self._reader.latest(LATEST_NS, MAX_GIVEN_UP):
-            if each.ended is not None and each.ended.decisions:
-                self._journal.end_operation(structs.replace(each.ended, decisions=()))
-
-    def _find(self, name: str) -> CellCheckpoint:
-        known = self._reader.checkpoints()
-        found = next((each for each in known if each.name == name), None)
-        if found is None:
-            there = ", ".join(each.name for each in known) or "none"
-            raise RequestError(f"{self._settings.name} has no checkpoint {name}; there are: {there}")
-        return found
+        """Give up the operations that were interrupted: the cell is not as they left it."""
+        for each in self._reader.continuable():
+            assert each.ended is not None, "it was interrupted"
+            self._journal.end_operation(structs.replace(each.ended, decisions=()))
 
     def _require_same(self, saved: CellCheckpoint, now: CellCheckpoint) -> None:
-        """Raise RequestError if something was saved that does not fit what there is now."""
+        """Raise RequestError if a checkpoint was saved with another scene, library, back end or seed."""
         for what in ("scene", "library_hash", "backend", "seed"):
             one, other = getattr(saved, what), getattr(now, what)
             if one != other:

@@ -29,7 +29,7 @@ from skillc.cells.snapshot import SnapshotTaker
 from skillc.cells.submitted import SubmittedOperation
 from skillc.cells.world import restore_world
 from skillc.contract.cell import CellStatus
-from skillc.contract.messages import Edit, Place, Reset, Restore, Turn
+from skillc.contract.messages import CheckpointCommand, Edit, Place, Reset, Restore
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.errors import RequestError
 from skillc.services.breakpoints import make_gate, parse_breakpoints
@@ -171,7 +171,7 @@ class CellHost:
             raise RequestError(f"the world of {self.settings.name} cannot be written: {self.loop.fault}")
         edit_world(self.world, wanted, self.loop, self._operations.values())
 
-    def turn(self, wanted: Turn) -> None:
+    def checkpoint(self, wanted: CheckpointCommand) -> None:
         """Reset the cell to its scene, save or restore it; RequestError or DiagnosticsError if that is not possible."""
         if self._operations:
             going = ", ".join(self._operations)

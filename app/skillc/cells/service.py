@@ -207,7 +207,7 @@ class CellService:
                 self._host.disturb(disturbance, who)
                 return _Pending(number, durable=False)
             case Reset() | Save() | Restore() | Forget():
-                self._host.turn(message)
+                self._host.checkpoint(message)
             case TakeLibrary(content=content):
                 self._host.take_library(content)
             case End(reason=reason):

@@ -95,21 +95,21 @@ class Disturb(_Message, tag="disturb", frozen=True, kw_only=True):
 
 
 class Reset(_Message, tag="reset", frozen=True, kw_only=True):
-    """Make the simulated cell again as its scene says; `who` wants it, and `why`."""
+    """Reset the simulated cell to its scene; `who` wants it, and `why`."""
 
     who: str
     why: str
 
 
 class Save(_Message, tag="save", frozen=True, kw_only=True):
-    """Save the simulated cell as it is under a name that no other checkpoint has; `who` wants it."""
+    """Save the simulated cell as a checkpoint with a new name; `who` wants it."""
 
     name: str
     who: str
 
 
 class Restore(_Message, tag="restore", frozen=True, kw_only=True):
-    """Make the simulated cell again as it was saved under a name; `who` wants it, and `why`."""
+    """Restore the simulated cell from a checkpoint; `who` wants it, and `why`."""
 
     name: str
     who: str
@@ -117,7 +117,7 @@ class Restore(_Message, tag="restore", frozen=True, kw_only=True):
 
 
 class Forget(_Message, tag="forget", frozen=True, kw_only=True):
-    """Forget what was saved under a name."""
+    """Remove a checkpoint."""
 
     name: str
 
@@ -134,9 +134,10 @@ class End(_Message, tag="end", frozen=True, kw_only=True):
     reason: str
 
 
-Turn: TypeAlias = Reset | Save | Restore | Forget
-"""What concerns the cell as a whole, at rest."""
-Change: TypeAlias = Submit | Give | Reorder | SetPace | Acknowledge | Edit | Place | Disturb | Turn | TakeLibrary | End
+CheckpointCommand: TypeAlias = Reset | Save | Restore | Forget
+Change: TypeAlias = (
+    Submit | Give | Reorder | SetPace | Acknowledge | Edit | Place | Disturb | CheckpointCommand | TakeLibrary | End
+)
 Look: TypeAlias = TakeSnapshot | TakeSample | TakeGeometry | TakeCoverage
 Message: TypeAlias = Change | Look
 

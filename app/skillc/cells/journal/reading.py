@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +14,7 @@ from skillc.cells.database import DatabaseError, describe_error, open_for_readin
 from skillc.cells.journal.schema import SCHEMA
 from skillc.contract.cell import CellCheckpoint
 from skillc.contract.operation import OperationRequest, OperationStatus
+from skillc.errors import RequestError
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.store.change_json import decode_changes
 from skillc_runtime.world.state.changes import Change
@@ -108,6 +109,10 @@ class JournalReader:
         with self._reading() as connection:
             return int(connection.execute(query, (operation,)).fetchone()[0])
 
+    def continuable(self) -> tuple[RecordedOperation, ...]:
+        """Return the operations that were interrupted and can be continued."""
+        return self._select("WHERE json_array_length(CAST(ended AS TEXT), '$.decisions') > 0")
+
     def state(self, name: str) -> bytes | None:
         """Return what the cell recorded last under a name; None if it never did."""
         with self._reading() as connection:
@@ -155,6 +160,14 @@ class JournalReader:
             raise describe_error(self._path, error) from error
         except (msgspec.DecodeError, msgspec.ValidationError, ValueError) as error:
             raise DatabaseError(f"{self._path} has a row that cannot be read: {error}") from error
+
+
+def find_checkpoint(name: str, known: Iterable[CellCheckpoint], cell: str) -> CellCheckpoint:
+    """Return a checkpoint of a cell by its name; RequestError if there is none."""
+    found = {each.name: each for each in known}
+    if name not in found:
+        raise RequestError(f"{cell} has no checkpoint {name}; there are: {', '.join(found) or 'none'}")
+    return found[name]
 
 
 def _make_operation(name: str, submitted_ns: int, request: bytes, ended: bytes | None) -> RecordedOperation:

@@ -6,8 +6,10 @@ import asyncio
 from contextlib import closing
 from http import HTTPStatus
 
+from skillc.cells.journal.reading import find_checkpoint
 from skillc.contract.cell import CellCheckpoint, CellStatus
 from skillc.contract.messages import Acknowledge, Forget, Message, Reset, Restore, Save, SetPace
+from skillc.errors import RequestError
 from skillc.server.api_call import ApiCall
 from skillc.server.context import open_journal
 from skillc.server.outcome import command_cell
@@ -73,9 +75,7 @@ def _read_checkpoints(cell: CellSupervisor) -> tuple[CellCheckpoint, ...]:
 
 
 async def _find_checkpoint(call: ApiCall, name: str) -> CellCheckpoint:
-    known = await list_checkpoints(call)
-    found = next((each for each in known if each.name == name), None)
-    if found is None:
-        there = ", ".join(each.name for each in known) or "none"
-        raise ApiRefusal(HTTPStatus.NOT_FOUND, f"{call.path['cell']} has no checkpoint {name}; there are: {there}")
-    return found
+    try:
+        return find_checkpoint(name, await list_checkpoints(call), call.path["cell"])
+    except RequestError as error:
+        raise ApiRefusal(HTTPStatus.NOT_FOUND, str(error)) from error
