@@ -1,4 +1,4 @@
-"""Gives the model and the data sheet of a shipped tool another size: its handle stays as it is, for the fingers."""
+"""Gives the model and the data sheet of a shipped tool another size; the handle, which fingers hold, keeps its size."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from skillc_runtime.motion.pose import Array
 
 LEAST_M, MOST_M = 0.005, 1.0
 HANDLE = "handle"
-_HEADER = re.compile(r"\A<!--.*?-->\n", re.DOTALL)
 _PAD = re.compile(r"(?P<name>skillc:pad(?:Stiffness|Damping)) (?P<value>[\d.]+)")
 
 
@@ -28,7 +27,7 @@ class ResizedTool(NamedTuple):
 
 
 def resize_tool(sheet: str, model: str, size: Sequence[float], name: str) -> ResizedTool:
-    """Return a tool whose working part has a size (3,) in m, of the same material: weight follows from the volume.
+    """Return a tool of the same material whose working part has a size (3,) in m: its weight follows from its volume.
 
     A pad is an elastic foundation: it is stiffer with its area, and softer with its thickness. RequestError for a size
     that no tool in a hand has.
@@ -40,19 +39,18 @@ def resize_tool(sheet: str, model: str, size: Sequence[float], name: str) -> Res
     block = root.find("worldbody/body")
     assert block is not None, "a shipped tool is one body"
     old = _extent(block)
-    if any(True for _ in _ribs(block)) and wanted[2] / 2 >= wanted[:2].min():
+    if block.find(".//geom[@class='rib']") is not None and wanted[2] / 2 >= wanted[:2].min():
         raise RequestError("--size: the tool must be wider than half of its height: its pad has round rims")
     weight_kg = _Scaling(old, wanted).apply(block)
     stiffer = wanted[0] * wanted[1] / wanted[2] / (old[0] * old[1] / old[2])
     millimetres = " x ".join(f"{1000 * each:g}" for each in wanted)
     header = f"<!-- {name}: {millimetres} mm without its handle; made from a shipped tool of the same material. -->\n"
     scaled = _PAD.sub(lambda found: f"{found['name']} {float(found['value']) * stiffer:.1f}", sheet)
-    assert _HEADER.match(model), "a shipped model begins with a comment"
     return ResizedTool(scaled, f"{header}{ElementTree.tostring(root, 'unicode')}\n", wanted, weight_kg)
 
 
 class _Scaling:
-    """From one size (3,) in m to another."""
+    """Scales the elements of a model from one size (3,) in m to another."""
 
     def __init__(self, old: Array, new: Array) -> None:
         self._old, self._new, self._factors = old, new, new / old
@@ -73,10 +71,13 @@ class _Scaling:
                     _write(each, "pos", _read(each, "pos") * self._factors)
                     weight_kg += self.apply(each)
                 case _:
-                    for name in ("size", "pos"):
-                        if each.get(name) is not None:
-                            _write(each, name, _read(each, name) * self._factors)
+                    self._scale_lengths(each)
         return weight_kg
+
+    def _scale_lengths(self, element: ElementTree.Element) -> None:
+        for name in ("size", "pos"):
+            if element.get(name) is not None:
+                _write(element, name, _read(element, name) * self._factors)
 
     def _scale_inertia(self, inertial: ElementTree.Element) -> float:
         """Scale a mass with the volume, and its moments with mass and lengths; return the mass in kg."""
@@ -111,10 +112,6 @@ def _boxes(body: ElementTree.Element, place: Array) -> Iterator[tuple[ElementTre
             yield geom, place + _read(geom, "pos")
     for below in body.findall("body"):
         yield from _boxes(below, place + _read(below, "pos"))
-
-
-def _ribs(block: ElementTree.Element) -> Iterator[ElementTree.Element]:
-    return (geom for geom in block.iter("geom") if geom.get("class") == "rib")
 
 
 def _read(element: ElementTree.Element, name: str) -> Array:
