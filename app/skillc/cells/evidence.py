@@ -22,7 +22,7 @@ PERIOD = 1000
 
 
 class StoredWrite(msgspec.Struct, frozen=True):
-    """A write that is kept with how its facts are known; `undo` leads back to the version before."""
+    """A write with the evidence for its facts; `undo` leads back to the version before."""
 
     evidence: Evidence | None
     origin: str
@@ -33,7 +33,7 @@ class StoredWrite(msgspec.Struct, frozen=True):
 class MergedWrites(msgspec.Struct, frozen=True):
     """All writes up to `sequence` as one, as the ledger keeps them; `undo` leads back to the scene.
 
-    `separate` are those after that one, up to `sequence`, if the world was restored.
+    After a restore, the last of these writes are kept one by one, in `separate`.
     """
 
     sequence: int
@@ -64,9 +64,9 @@ class EvidenceKeeper:
         self._journal.set_state(MERGED, msgspec.msgpack.encode(saved))
 
     def replace(self, writes: Sequence[UndoableWrite], origin: str) -> None:
-        """Let the facts be known as these writes to the world say, the last of which led to its present version.
+        """Replace the evidence by that of `writes`, the last of which led to the present version of the world.
 
-        Without any, they are given; `origin` says by whom.
+        All other facts are given by a person, as `origin` says.
         """
         world = self._world
         world.ledger = EvidenceLedger()
@@ -76,20 +76,17 @@ class EvidenceKeeper:
 
 
 def store_write(write: UndoableWrite) -> StoredWrite:
-    """Return a write as it is kept."""
+    """Return a write for a file."""
     return StoredWrite(write.evidence, write.origin, encode_changes(write.changes), encode_changes(write.undo))
 
 
 def read_write(stored: StoredWrite) -> UndoableWrite:
-    """Return a write that was kept; ValueError if it cannot be read."""
+    """Return a stored write; ValueError if it cannot be read."""
     return UndoableWrite(stored.evidence, stored.origin, decode_changes(stored.changes), decode_changes(stored.undo))
 
 
 def keep_as_given(journal: CellJournal, sequence: int, origin: str, writes: tuple[StoredWrite, ...] = ()) -> None:
-    """Record that all facts after the write `sequence` were given by a person, whatever was known before.
-
-    They are but for what `writes` say, which led to them.
-    """
+    """Record that all facts after the write `sequence` were given by a person, except for those of `writes`."""
     nothing = encode_changes(())
     journal.set_state(MERGED, msgspec.msgpack.encode(MergedWrites(sequence, None, origin, nothing, nothing, writes)))
 

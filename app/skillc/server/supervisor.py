@@ -32,15 +32,15 @@ from skillc.workers.library_check import CheckedLibrary
 from skillc_runtime.recording.states import ENDS, State
 
 SILENCE_S = 30.0
-"""How long the loop of a cell may stand still before its process is ended, in s in which this process can see it."""
+"""How long the loop of a cell may stand still before its process is ended, in s; see LOOK_S."""
 LOOK_S = 1.0
-"""How often it is looked at, in s. More that passes between two looks counts as this: then the machine was busy or
-asleep, or this process was, and nobody knows whether the cell would have gone on."""
+"""The time between two looks at a cell, in s. A longer time counts as this one: the machine was busy or asleep then,
+which is no fault of the cell."""
 FIRST_DELAY_S, MAX_DELAY_S = 0.5, 60.0
 """How long to wait before a cell is started again: the delay doubles each time until a cell has run for SETTLED_S."""
 SETTLED_S = 60.0
 LONGEST_START_S = 600.0
-"""How long a process may take until it is ready, in s as of SILENCE_S: its first start compiles the control laws."""
+"""How long a process may take until it is ready, in s; see LOOK_S. Its first start compiles the control laws."""
 START_S = 20.0
 """How long requests wait for a cell that starts, in s."""
 END_S = 20.0

@@ -28,10 +28,10 @@ Statements: TypeAlias = dict[str, list[Statement]]
 
 
 class FactPlaces:
-    """The places of facts in a scene in Turtle and in the data sheets, as they are now; a file is read when needed."""
+    """The places of facts in a scene in Turtle and in the data sheets. Files are read when they are first needed."""
 
     def __init__(self, scene: str) -> None:
-        """Find facts in a file; nothing is found if it is not there."""
+        """Find facts in a scene; none are found if the file does not exist or cannot be read."""
         self._scene = scene
 
     def find(self, fact: LabelledFact) -> Position | None:
@@ -42,9 +42,12 @@ class FactPlaces:
             case LabelledRelation(subject, relation, object_, holds):
                 if not holds or subject is None or object_ is None:
                     return None
-                ends = (subject.iri, object_.iri)
-                exactly, there = self._stated(ends[0], relation.iri, ends[1]), self._stated(ends[0], None, ends[1])
-                return next(exactly, None) or next(there, None) or next(self._stated(ends[1], None, ends[0]), None)
+                tried = (
+                    (subject.iri, relation.iri, object_.iri),
+                    (subject.iri, None, object_.iri),
+                    (object_.iri, None, subject.iri),
+                )
+                return next((place for each in tried for place in self._stated(*each)), None)
             case LabelledClass(individual, _, holds):
                 return next(self._stated(individual.iri, RDF_TYPE, None), None) if holds else None
             case LabelledIdentity():
@@ -52,17 +55,14 @@ class FactPlaces:
 
     def _stated(self, subject: str, predicate: str | None, object_: str | None) -> Iterator[Position]:
         """Yield the places of the objects of statements, those of the scene first."""
-        for place in (self._in_scene, self._in_sheets):
-            for each in place().get(subject, ()):
-                if predicate in (None, each.predicate) and object_ in (None, _iri(each.object)):
-                    at = each.object_place
-                    yield Position(at.path, at.line, at.column)
+        for each in self._about(subject):
+            if predicate in (None, each.predicate) and object_ in (None, _iri(each.object)):
+                at = each.object_place
+                yield Position(at.path, at.line, at.column)
 
-    def _in_scene(self) -> Statements:
-        return self._scene_statements
-
-    def _in_sheets(self) -> Statements:
-        return self._sheet_statements
+    def _about(self, subject: str) -> Iterator[Statement]:
+        yield from self._scene_statements.get(subject, ())
+        yield from self._sheet_statements.get(subject, ())
 
     @cached_property
     def _scene_statements(self) -> Statements:

@@ -84,17 +84,17 @@ def begin_film(backend: Backend, looks: str, loop: bool, reporter: Reporter) -> 
 
 def report_run(
     execution: Execution[Backend],
-    told: HistoryBuilder,
+    builder: HistoryBuilder,
     library: SkillLibrary,
     samples: RunSamples,
     folder: Path | None,
     reporter: Reporter,
 ) -> RunResult:
-    """Make the result of a run of which the events were `told`; write it with the report to a folder, if any.
+    """Make the result of a run whose events the `builder` has; write it with the report, and a film if it was sampled.
 
-    A film is written if it was sampled.
+    Nothing is written without a folder.
     """
-    backend, history = execution.backend, told.history
+    backend, history = execution.backend, builder.history
     state, truth = backend.cell.world.snapshot(), backend.capabilities.truth
     record = RunRecord(history, state, truth, samples.trace)
     works, began_s = measure_work(record), samples.trace.began_s
@@ -105,7 +105,7 @@ def report_run(
 
     drawings = () if truth is None else tuple(make_wiping_drawing(each, state, truth) for each in record.wipings)
     try:
-        write_run(folder, result, record, told.draw() if execution.attempts else [], library, samples.film, reporter)
+        write_run(folder, result, record, builder.draw() if execution.attempts else [], library, samples.film, reporter)
     except ServiceError as error:
         reporter.say(f"error: {error}")
         return RunResult(result, drawings, written=False)

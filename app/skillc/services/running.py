@@ -134,7 +134,7 @@ class _Run:
     def carry_out(self, planning: PlanningJob) -> RunResult:
         """Run the task once it is planned, and report it."""
         task, options, cell = self.task, self.options, self.cell
-        told = HistoryBuilder()
+        builder = HistoryBuilder()
         start = summarise_start(task.assignment.name, cell)
         run_id = options.run_id or make_run_id(task.assignment.name)
         with (
@@ -144,14 +144,14 @@ class _Run:
         ):
             loop, began = self._make_loop(planning, hooks), perf_counter()
             publisher = recorded.publisher
-            listeners = (told, self.monitor, publisher)
+            listeners = (builder, self.monitor, publisher)
             run = loop.submit(task.assignment, listeners, options.spec, self.gate, publisher.run)
             operate(loop, run, self.monitor, lambda: recorded.watchdog.count_tick(cell.clock.now))
             recorded.watchdog.disarm()
             execution = describe_execution(run, cell, perf_counter() - began)
             if options.out is not None:
                 self.monitor.say("writing the report")
-            return report_run(execution, told, task.library, self.samples, options.out, self.reporter)
+            return report_run(execution, builder, task.library, self.samples, options.out, self.reporter)
 
     def _recorded(self, run_id: str) -> AbstractContextManager[tuple[Recorder, ...]]:
         """Record the run as an MCAP file, if there is a folder for it."""

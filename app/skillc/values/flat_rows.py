@@ -10,7 +10,7 @@ import msgspec
 from skillc_runtime.world.state.labelled import LabelledIri
 
 Cell: TypeAlias = bool | int | float | str | None
-"""A value in a frame; None is a text that there is not, `nan` a number that was not measured."""
+"""A value in a frame. A missing text is None, a missing number is `nan`."""
 
 AXES = ("x", "y", "z")
 
@@ -18,8 +18,8 @@ AXES = ("x", "y", "z")
 def make_flat_row(value: msgspec.Struct) -> dict[str, Cell]:
     """Return the fields of a struct as cells.
 
-    A position such as `true_m` has a column for each axis, `true_x_m`; of a struct inside the fields are those of the
-    outer one; several texts are one, in which a semicolon separates them. The tag of its type, if any, is `type`.
+    A position such as `true_m` has a column for each axis, `true_x_m`. A nested struct adds its fields to those of the
+    outer one. Several texts are joined with semicolons. The tag of the type, if any, is `type`.
     """
     tag = value.__struct_config__.tag
     row: dict[str, Cell] = {} if tag is None else {"type": str(tag)}
@@ -31,7 +31,7 @@ def make_flat_row(value: msgspec.Struct) -> dict[str, Cell]:
 
 
 def _count_axes(annotation: object) -> int:
-    """Return how many numbers a field for a position has, 0 for another one."""
+    """Return how many axes the position of a field has; 0 if the field is no position."""
     for each in (annotation, *get_args(annotation)):
         numbers = get_args(each)
         if numbers in ((float,) * 2, (float,) * 3):

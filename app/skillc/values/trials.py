@@ -66,7 +66,7 @@ class Trials:
 
 
 def _make_row(trial: Trial) -> dict[str, Cell]:
-    """Return a trial as cells: its own fields, and those of each piece of work after the name of its thing."""
+    """Return the fields of a trial as cells, and those of each piece of work after the name of its thing."""
     row = {name: cell for name, cell in make_flat_row(trial).items() if name != "works"}
     for work in trial.works:
         _, (_, thing), *measured = make_flat_row(work).items()

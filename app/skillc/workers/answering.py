@@ -100,7 +100,7 @@ def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
     if isinstance(job, SimulationJob):
         return _simulate(job, known)
     if isinstance(job, WorldJob):
-        return _look(job, known)
+        return _answer_about_world(job, known)
     match job:
         case PreviewPlan():
             return preview_plan(job, known)
@@ -113,8 +113,8 @@ def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
             assert_never(job)
 
 
-def _look(job: WorldJob, known: CellSnapshot) -> JobAnswer:
-    """Return what a job asks about the world."""
+def _answer_about_world(job: WorldJob, known: CellSnapshot) -> JobAnswer:
+    """Return the answer to a question about the world."""
     match job:
         case QueryWorld(sparql):
             return _query(sparql, known)

@@ -50,7 +50,7 @@ class LibraryBasis(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True, slots=True)
 class CheckedLibrary:
-    """A library without errors; `content` is what cells run, `description` what people and programs are told of it."""
+    """A library without errors; `content` is what cells run, `description` what the API shows."""
 
     name: str
     hash: str

@@ -39,9 +39,9 @@ def report_recorded(
     reporter.say(f"running {inputs.start.task} again from its seed, requests and plans")
     with closing(build_cell(inputs)) as cell:
         filming = begin_film(cell, looks, gif, reporter) if film else None
-        samples, told = make_samples(cell, filming), HistoryBuilder()
+        samples, builder = make_samples(cell, filming), HistoryBuilder()
         try:
-            repeated = repeat(inputs, cell, (told,), (samples.sample,))
+            repeated = repeat(inputs, cell, (builder,), (samples.sample,))
         except NotRepeatable as error:
             raise ServiceError(f"no report can be made: {error}") from error
         if repeated.difference is not None:
@@ -53,4 +53,4 @@ def report_recorded(
         with writing_to(out):
             out.mkdir(parents=True, exist_ok=True)
         execution = describe_execution(repeated.run, cell, inputs.wall_time_s)
-        return report_run(execution, told, inputs.library, samples, out, reporter)
+        return report_run(execution, builder, inputs.library, samples, out, reporter)

@@ -42,16 +42,16 @@ def write_interrupted_end(run: RunDescription, why: str, now: float) -> TaskResu
     `why` is the reason, to which the calls that ran are added, `now` the time of the cell in s. A recording that has
     its last event keeps it. OSError or TraceError if the files cannot be read or written.
     """
-    told = end_recording(Path(run.events), lambda history: f"{why}{_describe_place(history)}", now)
+    builder = end_recording(Path(run.events), lambda history: f"{why}{_describe_place(history)}", now)
     wall_s = time.time() - run.began_s
-    history = told.build()
+    history = builder.build()
     if history is None:
         result = structs.replace(run.start, wall_time_s=wall_s, failure=f"{why}, before the task began")
     else:
         result = summarise_recording(run.start, history, wall_s)
     if run.out is not None:
         write_result(Path(run.out), result)
-        write_report(Path(run.out), result, told.draw())
+        write_report(Path(run.out), result, builder.draw())
     return result
 
 
