@@ -97,7 +97,7 @@ def test_a_cell_is_reset_saved_and_restored_on_the_command_line(here: RunningSer
     assert again.exit_code == 1 and "there is a checkpoint fresh already; remove it first" in again.stderr
     assert [each["name"] for each in json.loads(type_in("cell", "list", "--json").stdout)] == ["fresh"]
     assert "fresh  20" in type_in("cell", "list").stdout
-    assert type_in("cell", "restore", "fresh").stderr == "yard: restored as it was saved as fresh\n"
+    assert type_in("cell", "restore", "fresh").stderr == "yard: restored from fresh\n"
     assert type_in("cell", "remove", "fresh").stderr == "fresh: removed\n"
     wrong = type_in("cell", "restore", "fresh")
     assert wrong.exit_code == 1 and "yard has no checkpoint fresh; there are: none" in wrong.stderr

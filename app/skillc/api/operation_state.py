@@ -39,8 +39,8 @@ class GivenCommand:
 class OperationState:
     """The state of an operation; all is read and written under the condition `changed`, but for single fields.
 
-    `world` is the world model, once it is loaded, `account` what it has come to so far. `waiting` are the commands that
-    its thread has not taken, `taken` those whose effect is not known, `settled` those whose effect is.
+    `world` is the world model, once it is loaded. `account` has its times, outputs and failure. `waiting` are the
+    commands that its thread has not taken, `taken` those whose effect is not known, `settled` those whose effect is.
     """
 
     id: str

@@ -26,14 +26,17 @@ if TYPE_CHECKING:
     from skillc_runtime.recording.states import Decision
 
 
+cell_option = click.option(
+    "--cell", metavar="NAME", shell_complete=complete_cell, help="The cell, unless the server has only one."
+)
+
+
 def request_options(function: Function) -> Function:
     """Add TASK with its arguments, and `--cell`, to a command that is a client."""
     options = (
         click.argument("task", required=False, shell_complete=complete_served_task),
         task_arguments(complete_argument),
-        click.option(
-            "--cell", metavar="NAME", shell_complete=complete_cell, help="The cell, unless the server has only one."
-        ),
+        cell_option,
     )
     for option in reversed(options):
         function = option(function)

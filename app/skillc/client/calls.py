@@ -169,32 +169,32 @@ class CellCalls:
         return await self._connection.call(STOP_CELL, self.name, body=StopReason(reason=reason))
 
     async def reset(self, why: str = "") -> CellStatus:
-        """Make a simulated cell again as its scene says: its world and its reality.
+        """Reset a simulated cell to its scene: its world and its reality.
 
-        Why a cell is reset or restored, for the history of its world.
+        The reason for a reset or a restore, for the history of the world.
         """
         return await self._connection.call(RESET_CELL, self.name, body=ResetReason(why=why))
 
     async def checkpoints(self) -> tuple[CellCheckpoint, ...]:
-        """List how a simulated cell was saved, by name."""
+        """List the checkpoints of a simulated cell, by name."""
         return await self._connection.call(LIST_CHECKPOINTS, self.name)
 
     async def save(self, name: str) -> CellCheckpoint:
-        """Save a simulated cell as it is, its world and its reality, under a name.
+        """Save a simulated cell, its world and its reality, as a checkpoint.
 
         The name of a new checkpoint: letters, digits, `_`, `-` and `.`.
         """
         return await self._connection.call(SAVE_CELL, self.name, body=CheckpointName(name=name))
 
     async def restore(self, checkpoint: str, why: str = "") -> CellStatus:
-        """Make a simulated cell again as it was saved.
+        """Restore a simulated cell from a checkpoint.
 
-        Why a cell is reset or restored, for the history of its world.
+        The reason for a reset or a restore, for the history of the world.
         """
         return await self._connection.call(RESTORE_CELL, self.name, checkpoint, body=ResetReason(why=why))
 
     async def remove_checkpoint(self, checkpoint: str) -> None:
-        """Forget how a simulated cell was saved."""
+        """Remove a checkpoint of a simulated cell."""
         return await self._connection.call(REMOVE_CHECKPOINT, self.name, checkpoint)
 
     async def model(self) -> CellModel:
@@ -235,9 +235,9 @@ class CellCalls:
         return await self._connection.call(LIST_QUEUE, self.name)
 
     async def reorder(self, first: tuple[str, ...]) -> tuple[OperationStatus, ...]:
-        """Let operations come before all others that wait in a cell, whatever their priority.
+        """Put operations before all others that wait in a cell, whatever their priority.
 
-        Which operations come first among those that wait in a cell, by their ids, in this order.
+        The ids of the operations that come first among those that wait in a cell, in this order.
         """
         return await self._connection.call(REORDER_QUEUE, self.name, body=QueueOrder(first=first))
 

@@ -51,32 +51,32 @@ class ServerCell(WaitingCell):
         return self._loop.run(self._client.stop(reason))
 
     def reset(self, why: str = "") -> CellStatus:
-        """Make a simulated cell again as its scene says: its world and its reality.
+        """Reset a simulated cell to its scene: its world and its reality.
 
-        Why a cell is reset or restored, for the history of its world.
+        The reason for a reset or a restore, for the history of the world.
         """
         return self._loop.run(self._client.reset(why))
 
     def checkpoints(self) -> tuple[CellCheckpoint, ...]:
-        """List how a simulated cell was saved, by name."""
+        """List the checkpoints of a simulated cell, by name."""
         return self._loop.run(self._client.checkpoints())
 
     def save(self, name: str) -> CellCheckpoint:
-        """Save a simulated cell as it is, its world and its reality, under a name.
+        """Save a simulated cell, its world and its reality, as a checkpoint.
 
         The name of a new checkpoint: letters, digits, `_`, `-` and `.`.
         """
         return self._loop.run(self._client.save(name))
 
     def restore(self, checkpoint: str, why: str = "") -> CellStatus:
-        """Make a simulated cell again as it was saved.
+        """Restore a simulated cell from a checkpoint.
 
-        Why a cell is reset or restored, for the history of its world.
+        The reason for a reset or a restore, for the history of the world.
         """
         return self._loop.run(self._client.restore(checkpoint, why))
 
     def remove_checkpoint(self, checkpoint: str) -> None:
-        """Forget how a simulated cell was saved."""
+        """Remove a checkpoint of a simulated cell."""
         self._loop.run(self._client.remove_checkpoint(checkpoint))
 
     def model(self) -> CellModel:
@@ -111,9 +111,9 @@ class ServerCell(WaitingCell):
         return self._loop.run(self._client.queue())
 
     def reorder(self, first: tuple[str, ...]) -> tuple[OperationStatus, ...]:
-        """Let operations come before all others that wait in a cell, whatever their priority.
+        """Put operations before all others that wait in a cell, whatever their priority.
 
-        Which operations come first among those that wait in a cell, by their ids, in this order.
+        The ids of the operations that come first among those that wait in a cell, in this order.
         """
         return self._loop.run(self._client.reorder(first))
 

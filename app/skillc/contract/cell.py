@@ -19,8 +19,8 @@ class CellStatus(msgspec.Struct, frozen=True, kw_only=True):
     """A cell as it is now; `reason` is why it is in its state.
 
     `library_hash` identifies the library that its next operation runs; `library_problem` is why that is not the one on
-    disk. `pace` is None for as fast as it computes. A `resettable` cell can be reset to its scene, saved and restored;
-    `resets` counts how often it was since its process was started: what was seen of it before is past.
+    disk. `pace` is None for as fast as it computes. A `resettable` cell can be reset to its scene, saved and restored.
+    `resets` counts the resets and restores since its process was started; what was seen before the last one is past.
     """
 
     name: str
@@ -37,7 +37,7 @@ class CellStatus(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class ResetReason(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Why a cell is reset or restored, for the history of its world."""
+    """The reason for a reset or a restore, for the history of the world."""
 
     why: Annotated[str, msgspec.Meta(max_length=500)] = ""
 
@@ -49,10 +49,10 @@ class CheckpointName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class CellCheckpoint(msgspec.Struct, frozen=True, kw_only=True):
-    """A simulated cell as `who` has saved it under a name, at the wall time `saved_ns` in ns since 1970.
+    """A simulated cell as `who` has saved it, at the wall time `saved_ns` in ns since 1970.
 
-    It can be restored in a cell with the same scene, library, backend and seed. `scene` is the name of its file with a
-    digest of what is in it.
+    Only a cell with the same scene, library, back end and seed can be restored from it. `scene` is the name of its
+    file, with a digest of the content.
     """
 
     name: str

@@ -42,7 +42,7 @@ from skillc.contract.world import (
     PlacedThing,
     QueryRows,
     StatableFacts,
-    TermPage,
+    TermSubject,
     WorldEdit,
     WorldFacts,
     WorldPlacement,
@@ -83,26 +83,26 @@ STOP_CELL = Endpoint(
 
 RESET_CELL = Endpoint(
     "reset_cell", "POST", "/cells/{cell}/reset", "operate",
-    "Make a simulated cell again as its scene says: its world and its reality", CellStatus, body=ResetReason,
+    "Reset a simulated cell to its scene: its world and its reality", CellStatus, body=ResetReason,
     needs_body=False, refusals=OF_CELLS, call="reset",
 )
 LIST_CHECKPOINTS = Endpoint(
-    "list_checkpoints", "GET", "/cells/{cell}/checkpoints", "view", "List how a simulated cell was saved, by name",
+    "list_checkpoints", "GET", "/cells/{cell}/checkpoints", "view", "List the checkpoints of a simulated cell, by name",
     tuple[CellCheckpoint, ...], refusals=(NOT_FOUND,), call="checkpoints",
 )
 SAVE_CELL = Endpoint(
     "save_cell", "POST", "/cells/{cell}/checkpoints", "operate",
-    "Save a simulated cell as it is, its world and its reality, under a name", CellCheckpoint, body=CheckpointName,
+    "Save a simulated cell, its world and its reality, as a checkpoint", CellCheckpoint, body=CheckpointName,
     status=HTTPStatus.CREATED, refusals=OF_CELLS, call="save",
 )
 RESTORE_CELL = Endpoint(
     "restore_cell", "POST", "/cells/{cell}/checkpoints/{checkpoint}/restore", "operate",
-    "Make a simulated cell again as it was saved", CellStatus, body=ResetReason, needs_body=False, refusals=OF_CELLS,
+    "Restore a simulated cell from a checkpoint", CellStatus, body=ResetReason, needs_body=False, refusals=OF_CELLS,
     call="restore",
 )
 REMOVE_CHECKPOINT = Endpoint(
     "remove_checkpoint", "DELETE", "/cells/{cell}/checkpoints/{checkpoint}", "operate",
-    "Forget how a simulated cell was saved", NoneType, status=HTTPStatus.NO_CONTENT, refusals=OF_CELLS,
+    "Remove a checkpoint of a simulated cell", NoneType, status=HTTPStatus.NO_CONTENT, refusals=OF_CELLS,
 )
 
 DISTURB_CELL = Endpoint(
@@ -183,7 +183,7 @@ LIST_QUEUE = Endpoint(
 )
 REORDER_QUEUE = Endpoint(
     "reorder_queue", "PUT", "/cells/{cell}/queue", "operate",
-    "Let operations come before all others that wait in a cell, whatever their priority", tuple[OperationStatus, ...],
+    "Put operations before all others that wait in a cell, whatever their priority", tuple[OperationStatus, ...],
     body=QueueOrder, refusals=OF_CELLS, call="reorder",
 )
 
@@ -222,8 +222,9 @@ WRITE_WORLD = Endpoint(
     WorldText, query=DocumentForm, refusals=OF_CELLS, call=None,
 )
 LIST_TERMS = Endpoint(
-    "list_terms", "GET", "/cells/{cell}/world/terms", "view", "List what facts about a thing of a cell can say",
-    StatableFacts, query=TermPage, refusals=OF_CELLS, call=None,
+    "list_terms", "GET", "/cells/{cell}/world/terms", "view",
+    "List the relations and properties that facts about a thing may have", StatableFacts, query=TermSubject,
+    refusals=OF_CELLS, call=None,
 )
 LIST_THINGS = Endpoint(
     "list_things", "GET", "/cells/{cell}/things", "view",

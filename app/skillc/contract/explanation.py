@@ -13,7 +13,7 @@ from skillc_runtime.recording.origins import ValueOrigin
 class ExplainedCall(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """A call, explained as `skillc why RUN NUMBER` does, with those inside it after it.
 
-    `parameters` are those with values; the question `NUMBER.PARAMETER` is where one comes from.
+    `parameters` are those with values; the question `NUMBER.PARAMETER` asks where one comes from.
 
     `node` is the one in the tree and the events, 0 if the call never started. `source` is the place of the call,
     `implementation_source` that of the implementation that it chose last.
@@ -40,8 +40,8 @@ class ChainedFailure(msgspec.Struct, frozen=True):
 class RunExplanation(msgspec.Struct, frozen=True):
     """Why a run, up to its event `sequence`, did what it did: `lines` as `skillc why` prints them, and each call.
 
-    `answer` has the lines for a question, none without. If the question is about a parameter, `origins` are where its
-    value comes from in each call in which it has one.
+    `answer` has the lines for a question, none without. For a question about a parameter, `origins` says where its
+    value comes from in each call that has one.
     """
 
     sequence: int

@@ -37,7 +37,7 @@ class Give(_Message, tag="give", frozen=True, kw_only=True):
 
 
 class Reorder(_Message, tag="reorder", frozen=True, kw_only=True):
-    """Let operations come before all others that wait, in this order."""
+    """Put operations before all others that wait, in this order."""
 
     first: tuple[str, ...]
 

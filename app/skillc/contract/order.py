@@ -1,4 +1,4 @@
-"""Orders: what is submitted at a time, once or again and again; and the order of what waits in a cell."""
+"""Orders: what is submitted at a time, once or repeatedly; and the order of the operations that wait in a cell."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class OrderRequest(msgspec.Struct, frozen=True, omit_defaults=True, forbid_unkno
 
 
 class QueueOrder(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Which operations come first among those that wait in a cell, by their ids, in this order."""
+    """The ids of the operations that come first among those that wait in a cell, in this order."""
 
     first: Annotated[tuple[OperationId, ...], msgspec.Meta(min_length=1, max_length=200)]
 

@@ -18,7 +18,7 @@ class ArmSample(msgspec.Struct, frozen=True):
 
     `wrench` is what a force-torque sensor measures on the tool, N and N m, in the arm's base frame; None without one.
     `velocity` is that of the tool as measured, `commanded` that of its reference, in m/s, in the world. The difference
-    of the poses of two samples is neither: the tool and its reference may be others at once.
+    of the poses of two samples is neither: the tool and its reference may change from one sample to the next.
     """
 
     joints: tuple[float, ...]

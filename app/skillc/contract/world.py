@@ -79,11 +79,11 @@ class PlacedThing:
 
 
 class StatableTerm(msgspec.Struct, frozen=True):
-    """A relation or property that facts about a thing may have, and how these are written.
+    """A relation or property that facts about a thing may have, and how such a fact is written.
 
-    `type` is that of the value, as in the language: `Force`, `Text`, or for relations the classes of the objects.
-    Numbers are in `unit`; `values` are those of a text that has only these. A fact about a `functional` term replaces
-    the one before.
+    `type` is the type of the value in the language, such as `Force` or `Text`; of a relation, the classes of its
+    objects. Numbers are in `unit`. `values` are the possible texts, if they are limited. A new fact about a
+    `functional` term replaces the former one.
     """
 
     iri: str
@@ -98,7 +98,7 @@ class StatableTerm(msgspec.Struct, frozen=True):
 
 
 class StatableFacts(msgspec.Struct, frozen=True):
-    """What facts about a thing can say; `things` are the individuals of each class that `objects` of terms name."""
+    """The terms of facts about a thing; `things` are the individuals of each class that `objects` of a term names."""
 
     terms: tuple[StatableTerm, ...]
     things: dict[str, tuple[str, ...]]
@@ -116,8 +116,8 @@ class WorldQuery(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 class WorldEdit(CheckedBody, frozen=True, forbid_unknown_fields=True):
     """Changes that are made together or not at all, and why.
 
-    Each is a fact as it is shown, such as `lab:Board-1.isClean == true`, with `not` before it if it does not hold, or
-    `not INDIVIDUAL`; statements of Turtle are taken, too.
+    Each is a fact in the syntax in which facts are shown, such as `lab:Board-1.isClean == true`. `not` before a fact
+    removes it, and `not INDIVIDUAL` removes all facts about an individual. Statements of Turtle are taken, too.
     """
 
     edits: Annotated[tuple[EditText, ...], msgspec.Meta(min_length=1, max_length=200)]
@@ -160,7 +160,7 @@ class FactPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     limit: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 200
 
 
-class TermPage(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class TermSubject(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The thing about which facts are stated: an IRI or `prefix:name`."""
 
     subject: IriText

@@ -40,35 +40,35 @@ export interface Requests {
     body: Schemas["StopReason"];
     answer: Required<Schemas["CellStatus"]>;
   };
-  /** Make a simulated cell again as its scene says: its world and its reality. */
+  /** Reset a simulated cell to its scene: its world and its reality. */
   reset_cell: {
     path: [cell: string];
     query: Record<string, never>;
     body: Schemas["ResetReason"];
     answer: Required<Schemas["CellStatus"]>;
   };
-  /** List how a simulated cell was saved, by name. */
+  /** List the checkpoints of a simulated cell, by name. */
   list_checkpoints: {
     path: [cell: string];
     query: Record<string, never>;
     body: undefined;
     answer: Required<Schemas["CellCheckpoint"]>[];
   };
-  /** Save a simulated cell as it is, its world and its reality, under a name. */
+  /** Save a simulated cell, its world and its reality, as a checkpoint. */
   save_cell: {
     path: [cell: string];
     query: Record<string, never>;
     body: Schemas["CheckpointName"];
     answer: Required<Schemas["CellCheckpoint"]>;
   };
-  /** Make a simulated cell again as it was saved. */
+  /** Restore a simulated cell from a checkpoint. */
   restore_cell: {
     path: [cell: string, checkpoint: string];
     query: Record<string, never>;
     body: Schemas["ResetReason"];
     answer: Required<Schemas["CellStatus"]>;
   };
-  /** Forget how a simulated cell was saved. */
+  /** Remove a checkpoint of a simulated cell. */
   remove_checkpoint: {
     path: [cell: string, checkpoint: string];
     query: Record<string, never>;
@@ -194,7 +194,7 @@ export interface Requests {
     body: undefined;
     answer: Required<Schemas["OperationStatus"]>[];
   };
-  /** Let operations come before all others that wait in a cell, whatever their priority. */
+  /** Put operations before all others that wait in a cell, whatever their priority. */
   reorder_queue: {
     path: [cell: string];
     query: Record<string, never>;
@@ -250,7 +250,7 @@ export interface Requests {
     body: undefined;
     answer: Required<Schemas["WorldText"]>;
   };
-  /** List what facts about a thing of a cell can say. */
+  /** List the relations and properties that facts about a thing may have. */
   list_terms: {
     path: [cell: string];
     query: { subject: string };

@@ -46,7 +46,7 @@ MODELS = (".urdf", ".xml", ".mjcf", ".xacro", ".sdf")
     nargs=3,
     type=float,
     metavar="X Y Z",
-    help="The size of a new tool without its handle, in m; its weight and its pad follow.",
+    help="The size of a new tool without its handle, in m. Weight and pad stiffness are computed from it.",
 )
 @model_option("--name", "called", metavar="NAME", help="The name of the arm; by default that of the file.")
 @model_option(

@@ -10,12 +10,10 @@ import click
 from skillc.cli.command import Command, Group
 from skillc.cli.console import page_of, print_json, print_lines, print_remark
 from skillc.cli.options import json_option
-from skillc.cli.server_completions import complete_cell, complete_checkpoint
+from skillc.cli.server_access import cell_option
+from skillc.cli.server_completions import complete_checkpoint
 from skillc.cli.server_connection import connect_server, server_options
 
-CELL = click.option(
-    "--cell", metavar="NAME", shell_complete=complete_cell, help="The cell, unless the server has only one."
-)
 CHECKPOINT = click.argument("checkpoint", shell_complete=complete_checkpoint)
 WHY = click.option("--why", default="", metavar="TEXT", help="The reason, for the history of its world.")
 
@@ -24,17 +22,17 @@ WHY = click.option("--why", default="", metavar="TEXT", help="The reason, for th
 def command() -> None:
     """Reset a simulated cell of a server to its scene, save it under a name, or restore it.
 
-    What is known of the world and what is really so change together. This is refused while operations go on or wait,
-    and for cells that are no simulation. The history of the world says who did it.
+    The world model and the simulation change together. The history of the world says who did it. All commands but
+    `list` are refused while operations go on or wait; cells that are no simulation cannot be reset, saved or restored.
     """
 
 
 @command.command(cls=Command, examples="skillc cell reset --why 'the next demonstration'")
-@CELL
+@cell_option
 @WHY
 @server_options
 def reset(cell: str | None, why: str) -> None:
-    """Make a cell again as its scene says."""
+    """Reset a cell to its scene."""
     with connect_server() as server:
         status = server.cell(cell).reset(why)
     print_remark(f"{status.name}: reset to {status.scene}")
@@ -42,10 +40,10 @@ def reset(cell: str | None, why: str) -> None:
 
 @command.command(cls=Command, examples="skillc cell save sorted")
 @click.argument("checkpoint")
-@CELL
+@cell_option
 @server_options
 def save(checkpoint: str, cell: str | None) -> None:
-    """Save a cell as it is, under the name CHECKPOINT, which no other one has."""
+    """Save a cell as CHECKPOINT, a name that no other checkpoint has."""
     with connect_server() as server:
         place = server.cell(cell)
         saved = place.save(checkpoint)
@@ -54,22 +52,22 @@ def save(checkpoint: str, cell: str | None) -> None:
 
 @command.command(cls=Command, examples="skillc cell restore sorted")
 @CHECKPOINT
-@CELL
+@cell_option
 @WHY
 @server_options
 def restore(checkpoint: str, cell: str | None, why: str) -> None:
-    """Make a cell again as it was saved as CHECKPOINT, with the same scene and library."""
+    """Restore a cell from CHECKPOINT. The scene and the library must be the same as then."""
     with connect_server() as server:
         status = server.cell(cell).restore(checkpoint, why)
-    print_remark(f"{status.name}: restored as it was saved as {checkpoint}")
+    print_remark(f"{status.name}: restored from {checkpoint}")
 
 
 @command.command("list", cls=Command)
-@CELL
+@cell_option
 @json_option
 @server_options
 def list_checkpoints(cell: str | None, as_json: bool) -> None:
-    """List the checkpoints of a cell: name, when and by whom it was saved, and with which scene."""
+    """List the checkpoints of a cell: name, time, who saved it, and the scene."""
     with connect_server() as server:
         found = server.cell(cell).checkpoints()
     if as_json:
@@ -82,10 +80,10 @@ def list_checkpoints(cell: str | None, as_json: bool) -> None:
 
 @command.command(cls=Command)
 @CHECKPOINT
-@CELL
+@cell_option
 @server_options
 def remove(checkpoint: str, cell: str | None) -> None:
-    """Forget CHECKPOINT."""
+    """Remove CHECKPOINT."""
     with connect_server() as server:
         server.cell(cell).remove_checkpoint(checkpoint)
     print_remark(f"{checkpoint}: removed")

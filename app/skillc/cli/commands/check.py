@@ -64,7 +64,7 @@ class CheckOptions(msgspec.Struct, frozen=True, kw_only=True):
 @click.command(cls=Command, examples=EXAMPLES)
 @click.argument("paths", nargs=-1, type=PATH)
 @click.option(
-    "--scene", type=PATH, shell_complete=complete_scene, help="Check in this scene alone, not in those of tasks."
+    "--scene", type=PATH, shell_complete=complete_scene, help="Check in this scene only, not in those of tasks."
 )
 @click.option(
     "--format", "form", type=FormChoice(FORMS), default="full", show_default=True, help="The format of diagnostics."

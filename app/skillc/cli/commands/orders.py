@@ -13,7 +13,8 @@ import click
 from skillc.cli.command import Command
 from skillc.cli.console import page_of, print_json, print_lines, print_remark
 from skillc.cli.options import json_option
-from skillc.cli.server_completions import complete_cell, complete_order
+from skillc.cli.server_access import cell_option
+from skillc.cli.server_completions import complete_order
 from skillc.cli.server_connection import connect_server, server_options
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ skillc orders --remove clean_table-20270104T060000Z-1f0c9a
 
 
 @click.command(cls=Command, examples=EXAMPLES)
-@click.option("--cell", metavar="NAME", shell_complete=complete_cell, help="The cell, unless the server has only one.")
+@cell_option
 @click.option(
     "--remove", metavar="ORDER", shell_complete=complete_order, help="Forget this order; what it has started goes on."
 )

@@ -33,7 +33,7 @@ skillc replay recording.mcap --check --library ./skills
 @click.option(
     "--library",
     type=PATH,
-    help="The library of the run for --check; by default the recorded one, or with Python of its own the project here.",
+    help="The library for --check; by default the recorded one, or the project here if the library has Python code.",
 )
 @json_option
 def command(run: Path, pace: Pace, check: bool, library: Path | None, as_json: bool) -> int:

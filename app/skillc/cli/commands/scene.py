@@ -140,8 +140,8 @@ def new(scene: Path, arm: str | None) -> None:
 @click.option("--weight", type=NUMBER, metavar="KG", help="The mass in kg.")
 @click.option("--shape", metavar="SHAPE", help="The shape within its size, such as cylinder; else that of its class.")
 @click.option("--label", metavar="TEXT", help="A text for people.")
-@click.option("--in", "inside", metavar="PLACE", help="The place that contains it; else that of what it is on.")
-@click.option("--slots", nargs=2, type=int, metavar="NX NY", help="Slots for parts in a rack, along its x and y.")
+@click.option("--in", "inside", metavar="PLACE", help="The place that contains it; by default that of what it is on.")
+@click.option("--slots", nargs=2, type=int, metavar="NX NY", help="The numbers of slots in a rack, along x and y.")
 @pose_options
 @LIBRARY
 @file_only

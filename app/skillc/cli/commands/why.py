@@ -23,8 +23,9 @@ def command(run: Path, question: str | None, as_json: bool) -> None:
     """Explain the run that `skillc run --out RUN` recorded: a folder, or an MCAP file.
 
     QUESTION is the number of a step (`2`, or `2.1` for a call inside it), the name of a skill or an implementation
-    (`Pick`), or a parameter (`gripper`, `Pick.gripper`, `2.gripper`): where its value comes from, through every call,
-    to the expression, the default or the fact in the scene, with its line. Without QUESTION, print an overview.
+    (`Pick`), or a parameter (`gripper`, `Pick.gripper`, `2.gripper`). The origin of a parameter is followed through
+    every call to the expression, the default or the fact in the scene, with its line. Without QUESTION, print an
+    overview.
     """
     from skillc.cli.console import Terminal, print_json, print_text
     from skillc.services.recordings import answer_question, read_run

@@ -11,7 +11,7 @@ from skillc.contract.world import (
     PlacedThing,
     QueryRows,
     StatableFacts,
-    TermPage,
+    TermSubject,
     WorldEdit,
     WorldFacts,
     WorldPlacement,
@@ -40,7 +40,7 @@ async def write_world(call: ApiCall) -> WorldText:
 
 
 async def list_terms(call: ApiCall) -> StatableFacts:
-    wanted: TermPage = call.query
+    wanted: TermSubject = call.query
     return await ask_about(call, ListTerms(wanted.subject), StatableFacts, QUERY_S)
 
 
