@@ -52,9 +52,8 @@ TAGS = {
 }
 """The tags of operations: the last part of a path that is one of these, else OTHER."""
 SERVER = {"url": "/", "description": "The server that this document comes from"}
-CONTENT: dict[str, dict[str, Any]] = {"text/plain": {"type": "string"}}
-BYTES = {"type": "string", "format": "binary"}
-"""The schemas of files by their media type; those of others are bytes."""
+TEXTS = ("text/plain",)
+"""The media types of files that are texts; all others are bytes."""
 
 
 def make_openapi(endpoints: Iterable[Endpoint[Any]], prefix: str) -> dict[str, Any]:
@@ -65,6 +64,8 @@ def make_openapi(endpoints: Iterable[Endpoint[Any]], prefix: str) -> dict[str, A
     ]
     schemas, components = msgspec.json.schema_components([*types, ProblemDetails], ref_template=REF)
     schema_of = {id(kind): schema for kind, schema in zip([*types, ProblemDetails], schemas, strict=True)}
+    names = {each: name_type(each) for each in components}
+    assert len(set(names.values())) == len(names), "no two types have the same name"
     paths: dict[str, dict[str, Any]] = {}
     for each in endpoints:
         paths.setdefault(prefix + each.path, {})[each.method.lower()] = _describe(each, schema_of)
@@ -76,11 +77,11 @@ def make_openapi(endpoints: Iterable[Endpoint[Any]], prefix: str) -> dict[str, A
         "security": [{"token": []}],
         "paths": paths | {prefix + path: {"get": _describe_open(*each)} for path, each in OPEN.items()},
         "components": {
-            "schemas": {name_type(name): {**each, "title": name_type(name)} for name, each in components.items()},
+            "schemas": {names[each]: {**schema, "title": names[each]} for each, schema in components.items()},
             "securitySchemes": {"token": {"type": "http", "scheme": "bearer"}},
         },
     }
-    references = {REF.format(name=each): REF.format(name=name_type(each)) for each in components}
+    references = {REF.format(name=each): REF.format(name=name) for each, name in names.items()}
     return dict(simplify_arrays(document, references))
 
 
@@ -123,13 +124,17 @@ def _responses(endpoint: Endpoint[Any], schema_of: dict[int, dict[str, Any]]) ->
     if endpoint.answer is not NoneType:
         success["content"] = {JSON: {"schema": schema_of[id(endpoint.answer)]}}
     elif endpoint.media_types != (JSON,):
-        success["content"] = {each: {"schema": CONTENT.get(each, BYTES)} for each in endpoint.media_types}
+        success["content"] = {each: {"schema": _describe_file(each)} for each in endpoint.media_types}
     refused = {*ALWAYS, *endpoint.refusals, *(WITH_BODY if endpoint.body is not None else ())}
     if endpoint.takes_key:
         refused.add(HTTPStatus.BAD_REQUEST)
     problem = {MEDIA_TYPE: {"schema": schema_of[id(ProblemDetails)]}}
     problems = {str(each.value): {"description": each.phrase, "content": problem} for each in sorted(refused)}
     return {str(endpoint.status.value): success, **problems}
+
+
+def _describe_file(media_type: str) -> dict[str, Any]:
+    return {"type": "string"} if media_type in TEXTS else {"type": "string", "format": "binary"}
 
 
 def _path_parameters(endpoint: Endpoint[Any]) -> list[dict[str, Any]]:
