@@ -95,6 +95,7 @@ def find_faults(narrow: list[str], wide: list[str]) -> Iterator[str]:
             if line and indent_of(line) < max(indent_of(whole), not first):
                 yield f"no indent: {line}"
             first, words = first and not line, words[len(line.split()) :]
+    yield from (f"not in the wide terminal: {line}" for line in rest if line.strip())
 
 
 def printed(command: str, folder: Path, columns: int, monkeypatch: pytest.MonkeyPatch) -> list[str]:
