@@ -55,7 +55,8 @@ from skillc.contract.geometry import CellModel, SurfaceCoverage
 from skillc.contract.lease import Lease, LeaseRequest
 from skillc.contract.library import LibraryDescription, LibraryStatus
 from skillc.contract.operation import OperationStatus
-from skillc.contract.order import Order, QueueOrder
+from skillc.contract.order import Order
+from skillc.contract.queue import QueueOrder
 from skillc.contract.rehearsal import Rehearsal
 from skillc.contract.run_diff import OtherRun, RunDiff
 from skillc.contract.run_tree import OperationTree

@@ -24,8 +24,9 @@ from skillc.contract.lease import Lease, LeaseRequest
 from skillc.contract.library import LibraryDescription, LibraryStatus
 from skillc.contract.messages import Happened, StatusChanged
 from skillc.contract.operation import OperationRequest, OperationStatus
-from skillc.contract.order import Order, OrderRequest, QueueOrder
+from skillc.contract.order import Order, OrderRequest
 from skillc.contract.plan import PlanPreview, PlanRequest
+from skillc.contract.queue import QueueOrder
 from skillc.contract.rehearsal import Rehearsal, RehearsalRequest
 from skillc.contract.report import REPORT_TYPES, OperationReport, ReportRequest
 from skillc.contract.run_diff import OtherRun, RunDiff

@@ -1,4 +1,4 @@
-"""Orders: what is submitted at a time, once or repeatedly; and the order of the operations that wait in a cell."""
+"""Orders: what is submitted at a time, once or again and again, and how far an order is."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from skillc.contract.operation import OperationRequest
 
 Instant: TypeAlias = Annotated[datetime, msgspec.Meta(tz=True)]
 """A date and time with its offset from UTC, as of RFC 3339."""
-OperationId: TypeAlias = Annotated[str, msgspec.Meta(max_length=200)]
 Missed: TypeAlias = Literal["run-once", "skip"]
 
 MAX_EVERY_S = 366 * 86_400.0
@@ -32,12 +31,6 @@ class OrderRequest(msgspec.Struct, frozen=True, omit_defaults=True, forbid_unkno
     until: Instant | None = None
     count: Annotated[int, msgspec.Meta(ge=1, le=MAX_COUNT)] | None = None
     missed: Missed = "run-once"
-
-
-class QueueOrder(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The ids of the operations that come first among those that wait in a cell, in this order."""
-
-    first: Annotated[tuple[OperationId, ...], msgspec.Meta(min_length=1, max_length=200)]
 
 
 class Order(msgspec.Struct, frozen=True):

@@ -1,4 +1,4 @@
-"""Orders: operations that are submitted at a time, once or again and again; and the queue of those that wait."""
+"""Orders: operations that are submitted at a time, once or again and again."""
 
 from __future__ import annotations
 
@@ -9,15 +9,13 @@ from msgspec import structs
 
 from skillc.cells.database import transaction
 from skillc.contract.jobs import CheckOperation
-from skillc.contract.messages import Reorder
-from skillc.contract.operation import OperationStatus
 from skillc.contract.order import Order, OrderRequest
 from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about
 from skillc.server.idempotency import KeyReused
 from skillc.server.orders.due import LATE_S
 from skillc.server.orders.store import TooManyOrders
-from skillc.server.outcome import command_cell, sign_request
+from skillc.server.outcome import sign_request
 from skillc.server.problems import KEY_REUSED, ApiRefusal
 from skillc.server.routes.world import QUERY_S
 from skillc_runtime.recording.envelope import make_run_id
@@ -50,16 +48,6 @@ async def list_orders(call: ApiCall) -> tuple[Order, ...]:
 
 async def remove_order(call: ApiCall) -> None:
     call.server.orders.remove(_find(call, call.path["order"]).id)
-
-
-async def list_queue(call: ApiCall) -> tuple[OperationStatus, ...]:
-    operations = call.server.find_cell(call.path["cell"]).operations.values()
-    return tuple(sorted((each for each in operations if each.place), key=lambda each: each.place))
-
-
-async def reorder_queue(call: ApiCall) -> tuple[OperationStatus, ...]:
-    await command_cell(call, call.server.find_cell(call.path["cell"]), Reorder(first=call.body.first))
-    return await list_queue(call)
 
 
 def _find(call: ApiCall, name: str) -> Order:
