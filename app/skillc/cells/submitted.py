@@ -25,7 +25,7 @@ class SubmittedOperation:
         self.reported: OperationStatus | None = None
 
     def describe(self, cell: str, place: int) -> OperationStatus:
-        """Return how it is in the cell of this name; `place` is that among those that wait, 0 for none."""
+        """Return how it is in the cell of this name; `place` is its place in the queue, 0 if it does not wait."""
         run, account = self.run, self._account
         return OperationStatus(
             id=run.id,

@@ -15,8 +15,8 @@ from skillc.services.project.project import MANIFEST, VIRTUAL_ENVIRONMENT
 def find_libraries(path: Path) -> Iterator[LibraryFiles]:
     """Yield the library at a path, and outside of projects those below it; RequestError if there is none.
 
-    A folder is a library if it is a project or in one, or if it has `.skill` files of its own. What is below belongs to
-    it, but for other projects.
+    A folder is a library if it is a project or in one, or if it has `.skill` files of its own. All below belongs to it,
+    except for other projects.
     """
     if inspect_path(path).kind != "folder" or find_project(path):
         yield find_library(path)

@@ -46,7 +46,7 @@ class _Pending:
     writes: list[_Write] = field(default_factory=list)
     states: dict[str, bytes] = field(default_factory=dict)
     checkpoints: list[tuple[str, bytes, bytes]] = field(default_factory=list)
-    forgotten: list[tuple[str]] = field(default_factory=list)
+    removed: list[tuple[str]] = field(default_factory=list)
 
     def __bool__(self) -> bool:
         return any(getattr(self, each) for each in self.__slots__)
@@ -107,12 +107,12 @@ class CellJournal:
         self._pending.states[name] = value
 
     def add_checkpoint(self, checkpoint: CellCheckpoint, content: bytes) -> None:
-        """Record how the cell is, under a name that no other checkpoint has."""
+        """Add a checkpoint with a new name."""
         self._pending.checkpoints.append((checkpoint.name, self._encoder.encode(checkpoint), content))
 
     def remove_checkpoint(self, name: str) -> None:
-        """Forget a checkpoint."""
-        self._pending.forgotten.append((name,))
+        """Remove a checkpoint."""
+        self._pending.removed.append((name,))
 
     @property
     def has_writes(self) -> bool:
@@ -170,7 +170,7 @@ class CellJournal:
             self._connection.executemany(_END_OPERATION, pending.ended)
             self._connection.executemany(_SET_STATE, pending.states.items())
             self._connection.executemany(_ADD_CHECKPOINT, pending.checkpoints)
-            self._connection.executemany(_REMOVE_CHECKPOINT, pending.forgotten)
+            self._connection.executemany(_REMOVE_CHECKPOINT, pending.removed)
             self._connection.execute("COMMIT")
         except BaseException:
             if self._connection.in_transaction:

@@ -120,13 +120,13 @@ class JournalReader:
             return None if row is None else bytes(row[0])
 
     def checkpoints(self) -> tuple[CellCheckpoint, ...]:
-        """Return how the cell was saved, by name."""
+        """Return the checkpoints of the cell, by name."""
         with self._reading() as connection:
             rows = connection.execute("SELECT description FROM checkpoints ORDER BY name").fetchall()
             return tuple(msgspec.json.decode(each, type=CellCheckpoint) for (each,) in rows)
 
     def checkpoint_content(self, name: str) -> bytes:
-        """Return what was saved under the name of a checkpoint; LookupError if there is none."""
+        """Return the content of a checkpoint; LookupError if there is none of this name."""
         with self._reading() as connection:
             row = connection.execute("SELECT content FROM checkpoints WHERE name = ?", (name,)).fetchone()
             if row is None:

@@ -57,7 +57,7 @@ def _default_base(tree: UrdfTree) -> str:
 
 
 def _default_tip(tree: UrdfTree, start: str) -> str:
-    """Follow what moves from the base on, to a frame that is called as a flange, or those fixed to the last link."""
+    """Follow what moves from the base on, to a frame with the name of a flange, or one fixed to the last link."""
     moving = {joint.parent for joint in tree.above.values() if joint.moves}
     leads = {link for last in moving for link in (last, *(joint.parent for joint in tree.path_to(last)))}
     link = start
@@ -76,7 +76,7 @@ def _default_tip(tree: UrdfTree, start: str) -> str:
 
 
 def _flange_on(links: list[str]) -> str | None:
-    """Return the one of some links that is called as a flange is; None if none or several are."""
+    """Return the one of some links that has the name of a flange; None if none or several have."""
     for name in FLANGES:
         found = [each for each in links if each.endswith(name)]
         if len(found) == 1:
