@@ -108,7 +108,7 @@ def command(
         )
     if size is not None:
         files, stated = add_resized_tool(project, name, like, size)
-        print_remark(f"in a scene, of a thing of the class of the copied tool: {stated} .")
+        print_remark(f"write in a scene, for a thing of the class of the copied tool: {stated} .")
     else:
         files = add_files(project, kind, name, like)
     for path in files:

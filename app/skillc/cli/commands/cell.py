@@ -67,7 +67,10 @@ def restore(checkpoint: str, cell: str | None, why: str) -> None:
 @json_option
 @server_options
 def list_checkpoints(cell: str | None, as_json: bool) -> None:
-    """List the checkpoints of a cell: name, time, who saved it, and the scene."""
+    """List the checkpoints of a cell.
+
+    Prints the name of each, when and by whom it was saved, and the scene.
+    """
     with connect_server() as server:
         found = server.cell(cell).checkpoints()
     if as_json:
