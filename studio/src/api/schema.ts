@@ -9,8 +9,8 @@ export interface components {
          * @description A cell as it is now; `reason` is why it is in its state.
          *
          *         `library_hash` identifies the library that its next operation runs; `library_problem` is why that is not the one on
-         *         disk. `pace` is None for as fast as it computes. A `resettable` cell can be reset to its scene, saved and restored;
-         *         `resets` counts how often it was since its process was started: what was seen of it before is past.
+         *         disk. `pace` is None for as fast as it computes. A `resettable` cell can be reset to its scene, saved and restored.
+         *         `resets` counts the resets and restores since its process was started; what was seen before the last one is past.
          */
         CellStatus: {
             name: string;
@@ -51,7 +51,7 @@ export interface components {
         };
         /**
          * ResetReason
-         * @description Why a cell is reset or restored, for the history of its world.
+         * @description The reason for a reset or a restore, for the history of the world.
          */
         ResetReason: {
             /** @default  */
@@ -59,10 +59,10 @@ export interface components {
         };
         /**
          * CellCheckpoint
-         * @description A simulated cell as `who` has saved it under a name, at the wall time `saved_ns` in ns since 1970.
+         * @description A simulated cell as `who` has saved it, at the wall time `saved_ns` in ns since 1970.
          *
-         *         It can be restored in a cell with the same scene, library, backend and seed. `scene` is the name of its file with a
-         *         digest of what is in it.
+         *         Only a cell with the same scene, library, back end and seed can be restored from it. `scene` is the name of its
+         *         file, with a digest of the content.
          */
         CellCheckpoint: {
             name: string;
@@ -1879,7 +1879,7 @@ export interface components {
         };
         /**
          * QueueOrder
-         * @description Which operations come first among those that wait in a cell, by their ids, in this order.
+         * @description The ids of the operations that come first among those that wait in a cell, in this order.
          */
         QueueOrder: {
             first: string[];
@@ -1919,8 +1919,8 @@ export interface components {
          * RunExplanation
          * @description Why a run, up to its event `sequence`, did what it did: `lines` as `skillc why` prints them, and each call.
          *
-         *         `answer` has the lines for a question, none without. If the question is about a parameter, `origins` are where its
-         *         value comes from in each call in which it has one.
+         *         `answer` has the lines for a question, none without. For a question about a parameter, `origins` says where its
+         *         value comes from in each call that has one.
          */
         RunExplanation: {
             sequence: number;
@@ -1944,7 +1944,7 @@ export interface components {
          * ExplainedCall
          * @description A call, explained as `skillc why RUN NUMBER` does, with those inside it after it.
          *
-         *         `parameters` are those with values; the question `NUMBER.PARAMETER` is where one comes from.
+         *         `parameters` are those with values; the question `NUMBER.PARAMETER` asks where one comes from.
          *
          *         `node` is the one in the tree and the events, 0 if the call never started. `source` is the place of the call,
          *         `implementation_source` that of the implementation that it chose last.
@@ -2110,7 +2110,7 @@ export interface components {
         };
         /**
          * StatableFacts
-         * @description What facts about a thing can say; `things` are the individuals of each class that `objects` of terms name.
+         * @description The terms of facts about a thing; `things` are the individuals of each class that `objects` of a term names.
          */
         StatableFacts: {
             terms: components["schemas"]["StatableTerm"][];
@@ -2120,11 +2120,11 @@ export interface components {
         };
         /**
          * StatableTerm
-         * @description A relation or property that facts about a thing may have, and how these are written.
+         * @description A relation or property that facts about a thing may have, and how such a fact is written.
          *
-         *         `type` is that of the value, as in the language: `Force`, `Text`, or for relations the classes of the objects.
-         *         Numbers are in `unit`; `values` are those of a text that has only these. A fact about a `functional` term replaces
-         *         the one before.
+         *         `type` is the type of the value in the language, such as `Force` or `Text`; of a relation, the classes of its
+         *         objects. Numbers are in `unit`. `values` are the possible texts, if they are limited. A new fact about a
+         *         `functional` term replaces the former one.
          */
         StatableTerm: {
             iri: string;
@@ -2176,8 +2176,8 @@ export interface components {
          * WorldEdit
          * @description Changes that are made together or not at all, and why.
          *
-         *         Each is a fact as it is shown, such as `lab:Board-1.isClean == true`, with `not` before it if it does not hold, or
-         *         `not INDIVIDUAL`; statements of Turtle are taken, too.
+         *         Each is a fact in the syntax in which facts are shown, such as `lab:Board-1.isClean == true`. `not` before a fact
+         *         removes it, and `not INDIVIDUAL` removes all facts about an individual. Statements of Turtle are taken, too.
          */
         WorldEdit: {
             edits: string[];
@@ -2505,11 +2505,12 @@ export interface components {
          *         `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
          *         which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed, and no
          *         claim is false. `false_claims` are sentences about what the world model claims of things at the end that is not so
-         *         in the simulator. `plan` has the steps of the last plan, which has `planned_steps`, or of the body, and before them
-         *         those that earlier plans have started, each call in order of time; `replanned` is why each was abandoned. `wipings`
-         *         has one entry for each time a surface was wiped, `wiping` is the first of them; `placements` has one for each thing
-         *         that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand or base.
-         *         What only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its clock.
+         *         in the simulator. `plan` has the steps that abandoned plans have started, then those of the last plan or of the
+         *         body, in order of time; `planned_steps` is how many the last plan has, `replanned` why the others were abandoned.
+         *         `wipings` has one entry for each time a surface was wiped, `wiping` is the first of them; `placements` has one for
+         *         each thing that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand
+         *         or base. What only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its
+         *         clock.
          */
         TaskResult: {
             task: string;
@@ -2572,8 +2573,9 @@ export interface components {
          * @description One call that a plan or a given body made, or was to make, with its arguments by parameter name and its line.
          *
          *         `number` is that by which `skillc why` knows it; `rounds` are those of the loops around it, the outermost first.
-         *         `implementation` is empty if it never started; `alternatives` is the number of the skill's other
-         *         implementations, of which `rejected` could not be used. Times in s; `failure` is why it did not succeed.
+         *         `implementation` is empty if it never started, and `fixed` if the call names it; `alternatives` is the number of
+         *         others that it could have been, of which `rejected` could not be used. Times in s; `failure` is why it did not
+         *         succeed.
          */
         StepResult: {
             skill: string;
@@ -2593,6 +2595,8 @@ export interface components {
             end_s?: number | null;
             /** @default null */
             failure?: string | null;
+            /** @default false */
+            fixed?: boolean;
             /** @default 0 */
             alternatives?: number;
             /** @default [] */
