@@ -56,6 +56,26 @@ def test_nothing_overflows_a_4k_screen(page: Page) -> None:
     _check_graph(page)
 
 
+def test_the_run_panel_is_wider_in_a_wide_window_and_lines_between_panels_follow_the_pointer(page: Page) -> None:
+    panel = page.locator(".column-left")
+    widths = {}
+    for width in (1280, 1600, 1920, 2560):
+        page.set_viewport_size({"width": width, "height": 1080})
+        widths[width] = panel.evaluate("each => each.clientWidth")
+    assert widths == {1280: 300, 1600: 380, 1920: 420, 2560: 420}
+    for name in ("Width of the tree", "Width of the run panel"):
+        line = page.get_by_role("separator", name=name)
+        before = line.bounding_box()
+        assert before is not None
+        page.mouse.move(before["x"] + 3, 500)
+        page.mouse.down()
+        page.mouse.move(before["x"] + 53, 500)
+        page.mouse.up()
+        after = line.bounding_box()
+        assert after is not None
+        assert after["x"] - before["x"] == pytest.approx(50, abs=1), name
+
+
 def _check_graph(page: Page) -> None:
     """Show the graph of the world, and check that its text is as large as that beside it, and all of it in sight."""
     page.keyboard.press("f")

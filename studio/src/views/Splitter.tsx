@@ -7,8 +7,8 @@ interface SplitterProps {
   vertical: boolean;
   min: number;
   max: number;
-  /** How much of the size one pixel is; the box is that of the parent. */
-  perPixel: (box: DOMRect) => number;
+  /** How much of the size one pixel is; `both` is how long what is on both sides is together, in pixels. */
+  perPixel: (both: number) => number;
 }
 
 export function Splitter({ of, label, vertical, min, max, perPixel }: SplitterProps) {
@@ -17,12 +17,14 @@ export function Splitter({ of, label, vertical, min, max, perPixel }: SplitterPr
   };
   const drag = (event: PointerEvent & { currentTarget: HTMLElement }): void => {
     const handle = event.currentTarget;
-    const box = handle.parentElement?.getBoundingClientRect();
-    if (box === undefined) return;
+    const sides = [handle.previousElementSibling, handle.nextElementSibling].map(
+      (each) => each?.getBoundingClientRect()[vertical ? "width" : "height"] ?? 0,
+    );
+    const scale = perPixel(sides.reduce((sum, each) => sum + each, 0));
     const [from, began] = [vertical ? event.clientX : event.clientY, sizes.value[of]];
     handle.setPointerCapture(event.pointerId);
     handle.onpointermove = (moved) =>
-      set(began + ((vertical ? moved.clientX : moved.clientY) - from) * perPixel(box));
+      set(began + ((vertical ? moved.clientX : moved.clientY) - from) * scale);
     handle.onpointerup = () => (handle.onpointermove = null);
   };
   const press = (event: KeyboardEvent): void => {

@@ -73,7 +73,7 @@ export function Workspace() {
             vertical={false}
             min={0.2}
             max={0.8}
-            perPixel={(box) => 1 / box.height}
+            perPixel={(both) => 1 / both}
           />
           <DetailsPanel />
         </div>
@@ -83,7 +83,7 @@ export function Workspace() {
           vertical
           min={0.3}
           max={0.7}
-          perPixel={(box) => 1 / (box.width - left)}
+          perPixel={(both) => 1 / both}
         />
         <div class="column column-right">
           <Panel name="scene" title="3-D">
@@ -95,7 +95,7 @@ export function Workspace() {
             vertical={false}
             min={0.2}
             max={0.8}
-            perPixel={(box) => 1 / box.height}
+            perPixel={(both) => 1 / both}
           />
           <SignalsView />
         </div>

@@ -5,7 +5,7 @@ export const PANELS = ["run", "tree", "details", "scene", "signals"] as const;
 export type PanelName = (typeof PANELS)[number];
 
 export interface Sizes {
-  /** Width of the left column, px. */
+  /** Width of the left column without what a wide window adds, px. */
   left: number;
   /** Share of the middle column in what is left, and of the upper panels in the height. */
   middle: number;
