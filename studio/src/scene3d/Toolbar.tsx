@@ -3,7 +3,7 @@ import type { ReadonlySignal } from "@preact/signals";
 import type { CameraPreset, Reality, SceneActions, SceneOptions, Tool } from "./types";
 
 const PRESETS: readonly [CameraPreset, string, string][] = [
-  ["fit", "Fit", "Show everything, or what is selected"],
+  ["fit", "Fit", "Show the robots and what they work on, or what is selected"],
   ["front", "Front", "Look along y"],
   ["side", "Side", "Look against x"],
   ["top", "Top", "Look down"],

@@ -61,19 +61,24 @@ function findInterrupted(all: readonly OperationStatus[]): OperationStatus[] {
     .filter((each) => each.continued_by === "" && each.decisions.length > 0);
 }
 
-/** Return for how long a question may still be answered; nothing while the time is not known. */
-export function describeLeft({ ends_s }: Prompt): string {
+/** Return for how many seconds of the cell a question may still be answered; null while the time is not known. */
+function secondsLeft({ ends_s }: Prompt): number | null {
   const now = sample.value?.time_s;
-  if (now === undefined) return "";
-  const left = Math.ceil(ends_s - now);
-  return left <= 0 ? "the time to answer is over" : `${left < 100 ? `${left} s` : formatTime(left)} left`;
+  return now === undefined ? null : Math.max(0, Math.ceil(ends_s - now));
+}
+
+/** Return for how long a question may still be answered; nothing while the time is not known. */
+export function describeLeft(prompt: Prompt): string {
+  const left = secondsLeft(prompt);
+  if (left === null) return "";
+  return left === 0 ? "the time to answer is over" : `${left < 100 ? `${left} s` : formatTime(left)} left`;
 }
 
 /** Return the same with what happens then. */
 export function describeRemaining(prompt: Prompt): string {
   const left = describeLeft(prompt);
-  const then = prompt.default ? `then “${prompt.default}” counts` : "then the skill fails";
-  return left.endsWith("left") ? `${left}, ${then}` : left;
+  if (!secondsLeft(prompt)) return left;
+  return `${left}, then ${prompt.default ? `“${prompt.default}” counts` : "the skill fails"}`;
 }
 
 /** Return who wants what. */

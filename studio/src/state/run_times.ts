@@ -4,7 +4,7 @@ import { ENDS } from "./studio";
 import { formatTime } from "./text";
 
 /** Return when an operation was submitted, as its id says: `20260131T120000Z`. */
-export function startOf(operation: OperationStatus): string {
+function startOf(operation: OperationStatus): string {
   return /\d{8}T\d{6}Z/.exec(operation.id)?.[0] ?? "";
 }
 

@@ -87,7 +87,7 @@ export class Series {
 }
 
 /** Return the length of a vector. */
-export function norm(vector: readonly number[]): number {
+function norm(vector: readonly number[]): number {
   return Math.hypot(...vector);
 }
 

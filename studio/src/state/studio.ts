@@ -76,13 +76,13 @@ export const span = computed(() => selectedSpan(selection.value, operation.value
 export const place = computed(() => selectedPlace(selection.value, operation.value));
 export const things = computed(() => selectedThings(selection.value, operation.value));
 
-/** What went wrong last with something that a person wanted, until it is dismissed. */
 export interface Message {
   kind: "error" | "done";
   text: string;
   /** Takes back what was done. */
   undo?: () => void;
 }
+/** What became last of something that a person wanted, until it is dismissed. */
 export const message = signal<Message | null>(null);
 
 const RANKS = ["view", "operate", "edit", "admin"];

@@ -10,7 +10,7 @@ import {
   restore,
   save,
 } from "../state/resetting";
-import { cell, refusalOf } from "../state/studio";
+import { cell } from "../state/studio";
 import { Popover } from "./Popover";
 
 export function CellMenu() {
@@ -83,7 +83,6 @@ function Saved({ obstacle, restored }: SavedProps) {
   const found = checkpoints.value;
   if (found === null) return <span class="spinner" />;
   if (found.length === 0) return <p class="small muted">This cell was not saved yet.</p>;
-  const refused = obstacle || refusalOf("operate");
   return (
     <ul class="stack" aria-label="Checkpoints">
       {found.map((each) => (
@@ -94,13 +93,13 @@ function Saved({ obstacle, restored }: SavedProps) {
             </strong>
             <span class="small muted truncate">{describeSaved(each)}</span>
           </span>
-          <button disabled={refused !== ""} title={refused} onClick={() => restored(restore(each.name))}>
+          <button disabled={obstacle !== ""} title={obstacle} onClick={() => restored(restore(each.name))}>
             Restore
           </button>
           <button
             class="plain"
-            disabled={refused !== ""}
-            title={refused || `Forget ${each.name}`}
+            disabled={obstacle !== ""}
+            title={obstacle || `Forget ${each.name}`}
             onClick={() => void remove(each.name)}
           >
             Remove

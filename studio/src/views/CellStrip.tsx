@@ -53,7 +53,7 @@ export function CellStrip() {
 }
 
 /** Show an operation with what a person can decide about it, whatever has the page now. */
-export function lead(operation: OperationStatus): void {
+function lead(operation: OperationStatus): void {
   choosing.value = false;
   comparison.value = shownSeries.value = null;
   runTab.value = "run";
