@@ -12,7 +12,10 @@ import { WorldDifferences, WorldHistory } from "./WorldHistory";
 import { WorldSkills } from "./WorldSkills";
 
 const search = signal("");
-const view = signal<"facts" | "graph" | "skills" | "history" | "differences">("facts");
+type View = "facts" | "graph" | "skills" | "history" | "differences";
+const view = signal<View>("facts");
+/** What the field searches in where that is not the facts. */
+const SEARCHED: Partial<Record<View, string>> = { history: "changes", skills: "skills" };
 
 /** Show the edits that undo a change in the form, to be made with who and why. */
 function proposeUndo(edits: readonly string[], why: string): void {
@@ -21,6 +24,7 @@ function proposeUndo(edits: readonly string[], why: string): void {
 
 export function WorldView() {
   const current = editing.value;
+  const searched = SEARCHED[view.value] ?? "facts";
   const isAdding = current.kind === "new" || current.kind === "lines";
   return (
     <div class="world">
@@ -28,22 +32,15 @@ export function WorldView() {
         <input
           type="search"
           placeholder={
-            view.value === "history"
-              ? "Search in the changes"
-              : view.value === "skills"
-                ? "Search in the skills"
-                : `Search in ${facts.value.length} facts`
+            searched === "facts" ? `Search in ${facts.value.length} facts` : `Search in the ${searched}`
           }
-          aria-label={view.value === "skills" ? "Search in the skills" : "Search in the facts"}
+          aria-label={`Search in the ${searched}`}
           value={search.value}
           onInput={(event) => (search.value = event.currentTarget.value)}
         />
         <label>
           <span class="visually-hidden">What to show</span>
-          <select
-            value={view.value}
-            onChange={(event) => (view.value = event.currentTarget.value as typeof view.value)}
-          >
+          <select value={view.value} onChange={(event) => (view.value = event.currentTarget.value as View)}>
             <option value="facts">facts</option>
             <option value="graph">graph</option>
             <option value="skills">what robots can do</option>
