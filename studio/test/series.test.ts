@@ -9,7 +9,7 @@ import {
   shortNames,
 } from "../src/state/series";
 import { drawSvg, writeCsv } from "../src/state/signal_files";
-import { continuePlot, hasGaps } from "../src/state/signals";
+import { hasGaps } from "../src/state/plotted";
 import type { Sample } from "../src/api/types";
 
 const FORCE = makeLine("force", "Arm");
@@ -33,33 +33,6 @@ test("what a page missed is a gap, never a line", () => {
   expect(hasGaps(columns, 0)).toBe(true);
   expect(hasGaps(columns, 5)).toBe(false);
   expect(hasGaps(columns, 20)).toBe(true);
-});
-
-test("the recording comes before what was seen, and fills its gaps", () => {
-  const stored = {
-    lines: [SPEED, FORCE],
-    columns: [
-      [0, 1, 2],
-      [1, 1, 1],
-      [5, 6, 7],
-    ],
-  };
-  const seen = {
-    lines: [FORCE],
-    columns: [
-      [0, 1.5, 2, 3],
-      [5, null, 7, 8],
-    ],
-  };
-  expect(continuePlot(stored, seen)).toEqual({
-    lines: [SPEED, FORCE],
-    columns: [
-      [0, 1, 2, 3],
-      [1, 1, 1, null],
-      [5, 6, 7, 8],
-    ],
-  });
-  expect(continuePlot(stored, { lines: [FORCE], columns: [[0], [5]] })).toEqual(stored);
 });
 
 test("the speed of a tool is not that of a reference that changes", () => {

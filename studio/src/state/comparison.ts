@@ -5,7 +5,8 @@ import type { OperationStatus, RunDiff } from "../api/types";
 import { attempt } from "./actions";
 import { numberCalls, pairCalls, type CallPair } from "./calls";
 import { applyEvents, EMPTY, type OperationState } from "./operation";
-import { readSignals, type Plotted } from "./signals";
+import type { Plotted } from "./plotted";
+import { readSignals } from "./signals";
 
 export interface ComparedRun {
   run: OperationStatus;

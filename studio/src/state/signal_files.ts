@@ -1,6 +1,6 @@
 // Signals as files: a table, and a drawing of what is plotted.
 import { colourLines, type Line } from "./series";
-import type { Plotted } from "./signals";
+import type { Plotted } from "./plotted";
 
 /** Return a plot as a table with a row for each time; what is not known is empty. */
 export function writeCsv({ lines, columns }: Plotted): string {

@@ -2,7 +2,8 @@
 import { computed, effect, signal } from "@preact/signals";
 import { api, ApiError } from "../api/client";
 import { PlotColumns } from "../recording/plot_columns";
-import { armLines, byDevice, GAP_S, measureArm, Series, type SignalLine } from "./series";
+import { between, continuePlot, hasGaps, type Plotted } from "./plotted";
+import { armLines, byDevice, measureArm, Series, type SignalLine } from "./series";
 import { isOngoing, live, operationId, replay, sample, status } from "./studio";
 
 const CAPACITY = 6000;
@@ -10,12 +11,6 @@ const CAPACITY = 6000;
 const POINT_S = 0.02;
 const FILL_MS = 5000;
 const NEEDED = "force_,contact_force,tool_v,face_v";
-
-/** Lines and their columns, the time in s first. */
-export interface Plotted {
-  lines: readonly SignalLine[];
-  columns: readonly (number | null)[][];
-}
 
 let measuring: Series | null = null;
 let lastTimeS = -Infinity;
@@ -61,36 +56,6 @@ export const plotColumns = computed(() => {
   const { columns } = plotted.value;
   return [columns[0] ?? [], ...shownIndices.value.map((index) => columns[index + 1] ?? [])];
 });
-
-/** Return a plot with the rows of another one that are later; a line that one of them does not have is not known there. */
-export function continuePlot(first: Plotted, then: Plotted): Plotted {
-  const last = first.columns[0]?.at(-1) ?? -Infinity;
-  const times = then.columns[0] ?? [];
-  const from = times.findIndex((each) => (each ?? 0) > last);
-  const names = new Set(first.lines.map((each) => each.name));
-  const lines = [...first.lines, ...then.lines.filter((each) => !names.has(each.name))];
-  const [before, after] = [first.columns[0]?.length ?? 0, from < 0 ? 0 : times.length - from];
-  const column = ({ lines: own, columns }: Plotted, name: string, count: number): (number | null)[] => {
-    const at = own.findIndex((each) => each.name === name);
-    const found = at < 0 || count === 0 ? undefined : columns[at + 1]?.slice(-count);
-    return found ?? Array.from({ length: count }, () => null);
-  };
-  return {
-    lines,
-    columns: [
-      [...(first.columns[0] ?? []), ...times.slice(times.length - after)],
-      ...lines.map(({ name }) => [...column(first, name, before), ...column(then, name, after)]),
-    ],
-  };
-}
-
-/** Return the rows of columns whose times are in a span; none if there are none there. */
-export function between(columns: (number | null)[][], from: number, to: number): (number | null)[][] {
-  const times = columns[0] ?? [];
-  const first = times.findIndex((each) => (each ?? 0) >= from);
-  const end = times.findLastIndex((each) => (each ?? 0) <= to);
-  return columns.map((each) => (first < 0 || end < first ? [] : each.slice(first, end + 1)));
-}
 
 /** Begin to measure the samples that come; the function that is returned ends that. */
 export function measureSamples(): () => void {
@@ -139,14 +104,6 @@ function followStored(): () => void {
 
 const hasStatus = computed(() => status.value !== null);
 let reader: StoredReader | null = null;
-
-/** Whether a page has missed something after a time: columns have a gap, or begin later. */
-export function hasGaps(columns: readonly (readonly (number | null)[])[], since: number): boolean {
-  const [times = [], ...values] = columns;
-  const first = times.findIndex((each) => (each ?? 0) >= since);
-  if (first < 0 || (times[first] ?? 0) - since > GAP_S) return true;
-  return times.some((_, row) => row >= first && values.every((each) => each[row] === null));
-}
 
 /** Reads the recorded signals of an operation on and on. */
 class StoredReader {

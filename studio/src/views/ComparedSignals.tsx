@@ -2,7 +2,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type uPlot from "uplot";
 import { overlay } from "../state/comparison";
-import type { Plotted } from "../state/signals";
+import type { Plotted } from "../state/plotted";
 import { isDark } from "./layout";
 import { drawPlot } from "./plot";
 
