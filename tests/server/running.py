@@ -39,11 +39,14 @@ class RunningServer:
         self.token = (folder / "served" / "admin.token").read_text().strip()
         self.client = self.client_of(self.token)
 
-    def client_of(self, token: str) -> httpx.Client:
-        """Return a client with a token."""
+    def client_of(self, token: str, address: str | None = None) -> httpx.Client:
+        """Return a client with a token, at an address of this machine's own network: limits count for each address."""
         verify = ssl.create_default_context(cafile=self._authority) if self._authority else False
         return httpx.Client(
-            base_url=self.url, headers={"Authorization": f"Bearer {token}"}, timeout=CLIENT_S, verify=verify
+            base_url=self.url,
+            headers={"Authorization": f"Bearer {token}"},
+            timeout=CLIENT_S,
+            transport=httpx.HTTPTransport(verify=verify, local_address=address),
         )
 
     def submit(self, **request: Any) -> dict[str, Any]:
