@@ -64,6 +64,11 @@ class Misfit(Diagnostic):
     could_end: bool = False
 
 
+@dataclass(frozen=True, slots=True)
+class ForeignForm(Diagnostic):
+    """A form of another language, which explains all that is wrong within its span."""
+
+
 class Outcome(NamedTuple, Generic[T_co]):
     """The result of a pass, with the diagnostics about what it had to leave out."""
 

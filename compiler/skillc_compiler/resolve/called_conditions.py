@@ -7,6 +7,10 @@ from skillc_compiler.resolve.scope import FileContext
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 
+NOTHING = frozenset(("null", "None", "nil", "undefined", "nothing"))
+"""What other languages call a missing value."""
+MISSING = "a missing value is written `not a has property`, a missing individual `not a REL _`"
+
 
 def report_called_condition(context: FileContext, written: s.Value) -> bool:
     """Report a call of a relation, property, class or skill where a condition is expected; whether it is one."""
@@ -28,9 +32,29 @@ def report_called_condition(context: FileContext, written: s.Value) -> bool:
     return True
 
 
+def report_relation_first(context: FileContext, relation: s.Name, written: s.Relation) -> None:
+    """Report a relation that stands where its subject should be: `contain box part` as in PDDL, or `tightIn one`."""
+    message = f"`{relation.text}` is a relation, and nothing is before it that it relates"
+    second = written.relation.text
+    if context.names.is_term("relation", second):
+        context.report("unknown-parameter", relation.span, message, f"write `a {second} b`, or `_ {second} b`")
+        return
+    object_ = "_" if isinstance(written.object, s.Anything) else _show(written.object)
+    meant = f"{second} {relation.text} {object_}"
+    fix = Fix(written.span, meant, f"write `{meant}`", safe=False)
+    problem = Diagnostic("unknown-parameter", relation.span, message, f"write `{meant}`", fix=fix)
+    context.names.problems.append(problem)
+
+
 def report_compared_by_is(context: FileContext, subject: s.Value, cls: s.Name) -> bool:
-    """Report the value of a property that is compared by `is`, as in `arm.deviceState is Idle`; whether it is so."""
-    if not isinstance(subject, s.Member) or context.names.is_term("class", cls.text):
+    """Report what is no class after `is`, as in `arm.deviceState is Idle` or `box is empty`; whether it is so."""
+    if context.names.is_term("class", cls.text):
+        return False
+    if cls.text in NOTHING or cls.text == "empty":
+        message = f"`is` asks for the class of an individual, and `{cls.text}` is none"
+        context.report("unknown-class", cls.span, message, MISSING)
+        return True
+    if not isinstance(subject, s.Member):
         return False
     fix = Fix(subject.span.after.to(cls.span), f" == {cls.text}", f"write `== {cls.text}`", safe=False)
     message = "`is` asks for the class of an individual, not for the value of a property"

@@ -9,7 +9,11 @@ from skillc_compiler.program.labels import label_values
 from skillc_compiler.program.typed import TypedCondition, TypedExpression
 from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, fits
 from skillc_compiler.program.unknown import UnknownName
-from skillc_compiler.resolve.called_conditions import report_called_condition, report_compared_by_is
+from skillc_compiler.resolve.called_conditions import (
+    report_called_condition,
+    report_compared_by_is,
+    report_relation_first,
+)
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_property, resolve_value
 from skillc_dsl import syntax as s
@@ -88,8 +92,7 @@ def _or(parts: Sequence[TypedCondition], span: Span) -> TypedCondition:
 def _resolve_relation(context: FileContext, scope: Scope, written: s.Relation) -> TypedCondition:
     name = _relation_in_place_of_subject(context, scope, written)
     if name is not None:
-        message = f"`{name.text}` is a relation, and nothing is before it that it relates"
-        context.report("unknown-parameter", name.span, message, f"write `a {name.text} b`, or `_ {name.text} b`")
+        report_relation_first(context, name, written)
         return TypedCondition(And(()), written.span)
     subject = _resolve_side(context, scope, written.subject)
     object_ = _resolve_side(context, scope, written.object)

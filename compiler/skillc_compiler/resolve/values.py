@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import isfinite
+from types import MappingProxyType
 from typing import assert_never
 
 import msgspec
@@ -23,6 +24,7 @@ from skillc_compiler.program.types import (
     type_of,
 )
 from skillc_compiler.program.unknown import UnknownName
+from skillc_compiler.resolve.called_conditions import MISSING, NOTHING
 from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
@@ -100,16 +102,12 @@ def _unknown_value(context: FileContext, name: s.Name, wanted: ExpectedType) -> 
     context.report_unknown(UnknownName("value", name, message, tuple(wanted.values), help_))
 
 
-_NOTHING = frozenset(("null", "None", "nil", "undefined", "nothing"))
-"""What other languages call a missing value."""
-
-
 def _unknown_name(context: FileContext, scope: Scope, written: s.NameReference, wanted: ExpectedType) -> None:
     name = written.name.text
     fitting = [n for n, v in scope.variables.items() if fits(context.vocabulary, v.type, wanted.type)]
     otherwise = "an individual is written with its prefix: `lab:Board-1`"
-    if name in _NOTHING:
-        fitting, otherwise = [], "a missing value is written `not a has property`, a missing individual `not a REL _`"
+    if name in NOTHING:
+        fitting, otherwise = [], MISSING
     elif context.names.is_term("class", name):
         fitting, otherwise = [], f"`{name}` is a class: write `a is {name}`"
     elif name == "any":
@@ -184,7 +182,25 @@ def resolve_property(context: FileContext, of: TypedExpression, name: s.Name) ->
     )
 
 
+_FUNCTIONS = MappingProxyType(
+    {
+        "range": "write `repeat 3 { .. }`, or `for x in LIST { .. }` with a parameter of a type such as `[Pose]`",
+        **dict.fromkeys(
+            ("len", "size", "length", "count"), "things are not counted; `exists x: Class (C)` asks for one"
+        ),
+        **dict.fromkeys(("sleep", "wait"), "write `wait 1 s` among the steps"),
+        **dict.fromkeys(("print", "log", "printf"), "delete it: what happens in a run is recorded"),
+    }
+)
+"""What is written instead of functions of other languages."""
+
+
 def _resolve_apply(context: FileContext, scope: Scope, written: s.Invoke) -> TypedExpression:
+    name = written.function.text
+    instead = _FUNCTIONS.get(name)
+    if instead is not None and name not in context.names.functions and context.names.elsewhere.get(name) is None:
+        context.report("unknown-function", written.function.span, f"there is no function `{name}`", instead)
+        return TypedExpression(Invoke(name, ()), UNKNOWN, written.span)
     function = context.names.look_up_function(written.function)
     wanted = [type_of(kind) for _, kind in function.parameters] if function else []
     wanted += [UNKNOWN] * (len(written.arguments) - len(wanted))

@@ -17,9 +17,6 @@ _HINTS = MappingProxyType(
     {
         ";": "a line needs no `;` at its end",
         "'": 'text stands in double quotes: "like this"',
-        "&": "write `and`",
-        "|": "write `or`",
-        "!": "write `not`",
         "^": "write a square as `m2`, or as a product",
         "°": "write `deg`, as in `90 deg`",
         "%": "write a fraction, such as 0.2",
@@ -28,7 +25,15 @@ _HINTS = MappingProxyType(
         "?": "parameters are read by their bare name",
     }
 )
-_MEANT = MappingProxyType({";": "", "&": "and", "&&": "and", "|": "or", "||": "or", "!": "not", "$": "", "?": ""})
+_MEANT = MappingProxyType(
+    dict(
+        pair.split(" ")
+        for pair in (
+            *("& and", "&& and", "∧ and", "| or", "|| or", "∨ or", "! not", "~ not", "¬ not", "→ implies"),
+            *("≤ <=", "≥ >=", "≠ !=", "× *", "· *", "÷ /", "; ", "$ ", "? "),
+        )
+    )
+)
 """What replaces characters of other languages."""
 
 
@@ -109,7 +114,8 @@ def _single_quotes(span: Span, stretch: str) -> Diagnostic:
 
 def _unknown_character(span: Span, stretch: str, around: str) -> Diagnostic:
     shown = stretch if stretch.isprintable() else f"U+{ord(stretch[0]):04X}"
-    help_, meant = _HINTS.get(stretch[0], "delete it"), _MEANT.get(stretch)
+    meant = _MEANT.get(stretch)
+    help_ = _HINTS.get(stretch[0]) or (f"write `{meant}`" if meant else "delete it")
     fix = None
     if meant is not None:
         before, after = (" " * (bool(meant) and not side.isspace()) for side in (around[0], around[-1]))

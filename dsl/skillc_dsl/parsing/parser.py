@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from msgspec import structs
 
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.diagnostics import Diagnostic, ForeignForm, Outcome
 from skillc_dsl.encoding import report_not_text, report_too_large, report_wrong_bytes
 from skillc_dsl.parsing.braces import close_braces, region_lines
 from skillc_dsl.parsing.building.declarations import FileBuilder
@@ -18,7 +18,7 @@ from skillc_dsl.parsing.recovery import Recovery
 from skillc_dsl.parsing.reserved_names import rename_reserved
 from skillc_dsl.parsing.token_repairs import repair_tokens
 from skillc_dsl.parsing.tokens import Token
-from skillc_dsl.source import Source
+from skillc_dsl.source import Source, Span
 
 MOST_PROBLEMS = 200
 """The maximum number of syntax errors shown for a file."""
@@ -50,15 +50,32 @@ def parse_with_problems(source: Source, lexed: Outcome[tuple[Token, ...]], wrong
     file = builder.file(tree)
     if wrong is not None:
         return Outcome(file, (wrong,))
-    unread = {problem.span.line for problem in lexed.diagnostics}
-    misfits = [problem for problem in recovery.problems if problem.span.line not in unread]
+    unread = [*_unexplained(lexed.diagnostics, recovery.explained)]
+    misread = _unexplained((*_before(repaired.diagnostics, unread), *named.diagnostics), recovery.explained)
+    unread_lines = {problem.span.line for problem in unread}
+    misfits = [
+        each for each in recovery.problems if isinstance(each, ForeignForm) or each.span.line not in unread_lines
+    ]
     parsing = _one_kind_each(closed.diagnostics, misfits, region_lines(lexed.value))
-    before = (*lexed.diagnostics, *repaired.diagnostics, *named.diagnostics, *parsing, *too_deep)
+    before = (*unread, *misread, *parsing, *too_deep)
     wrong_lines = {problem.span.line for problem in before}
     found = (*before, *(problem for problem in builder.problems if problem.span.line not in wrong_lines))
     problems = sorted(found, key=lambda problem: problem.span)
     places = (s.ErrorNode(problem.span) for problem in problems)
     return Outcome(structs.replace(file, errors=(*places, *recovery.errors)), _first(problems))
+
+
+def _unexplained(problems: Iterable[Diagnostic], explained: Sequence[Span]) -> Iterator[Diagnostic]:
+    """Yield the problems outside the places that a form of another language explains."""
+    return (each for each in problems if not any(each.span.begins_in(place) for place in explained))
+
+
+def _before(repaired: Iterable[Diagnostic], unread: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
+    """Yield the repairs that are not behind an unread character of their line, where tokens only seem adjacent."""
+    first: dict[int, int] = {}
+    for problem in unread:
+        first.setdefault(problem.span.line, problem.span.column)
+    return (each for each in repaired if each.span.column <= first.get(each.span.line, each.span.column))
 
 
 def _one_kind_each(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Label, Misfit
+from skillc_dsl.diagnostics import Diagnostic, ForeignForm, Label, Misfit
 from skillc_dsl.parsing.automaton import MisfitError, Parser
 from skillc_dsl.parsing.constructs import show_construct
 from skillc_dsl.parsing.expectations import describe_terminals, describe_token, explain_where_it_belongs
@@ -19,7 +19,7 @@ from skillc_dsl.parsing.reserved_names import declared_words
 from skillc_dsl.parsing.second_step import report_second_step
 from skillc_dsl.parsing.token_repairs import join_tokens
 from skillc_dsl.parsing.tokens import Branch, Token, Tree, tokens_in
-from skillc_dsl.source import Source
+from skillc_dsl.source import Source, Span
 
 _LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
 _MOST_STATES = 10 * DEEPEST
@@ -33,7 +33,7 @@ _CALM = 2
 class Recovery:
     """One run over a copy of the tokens of `source`, which repairs change; lines in `reported` already have a problem.
 
-    `errors` are the places where tokens were dropped.
+    `errors` are the places where tokens were dropped, `explained` those that a form of another language explains.
     """
 
     def __init__(self, tokens: Sequence[Token], source: Source, reported: Collection[int]) -> None:
@@ -43,6 +43,7 @@ class Recovery:
         self.reported = reported
         self.problems: list[Diagnostic] = []
         self.errors: list[s.ErrorNode] = []
+        self.explained: list[Span] = []
         self._dropped: list[Token] = []
         self._parser: Parser[Tree] = Parser(Tree)
         self._since = _CALM
@@ -88,12 +89,21 @@ class Recovery:
             self._since = 0
             return index
         misfit = second or foreign or self._misfit(before, index)
-        if misfit.span.line not in self.reported:
+        if isinstance(misfit, ForeignForm) or misfit.span.line not in self.reported:
             self._report(misfit)
         position = self._resume(index)
+        if isinstance(misfit, ForeignForm):
+            self.explained.append(self._place_to(misfit.span, position))
         self._leave_error(index, self.tokens[index:position])
         self._since = _CALM if begins_line(self.tokens, position) else 0
         return position
+
+    def _place_to(self, start: Span, position: int) -> Span:
+        """Return the place from `start` to the token at `position`, or to the end of the text."""
+        if self.tokens[position].type == END:
+            return Span(self.path, start.line, start.column, len(self._lines) + 1, 1)
+        end = token_span(self.tokens[position], self.path)
+        return Span(self.path, start.line, start.column, end.line, end.column)
 
     def _reads_declared_word(self, index: int) -> bool:
         """Whether a word of the language is the name of something, which was reported; it is read as that name."""
@@ -169,11 +179,13 @@ class Recovery:
         if token.type == "RBRACE" and END in expected:
             return Diagnostic("unopened-brace", span, "this `}` closes nothing", "delete it, or add the `{` before it")
         found = f"{describe_token(token)} does not fit here"
-        if index and not expected & {"RBRACE", END} and begins_line(self.tokens, index):
+        begins = begins_line(self.tokens, index)
+        complete = begins and bool(expected & {"RBRACE", END})
+        if index and begins and not complete:
             last = self.tokens[index - 1]
             span, found = token_span(last, self.path), f"something is missing after {describe_token(last)}"
         home = explain_where_it_belongs(token) if "RBRACE" in expected else ""
-        help_ = home or show_construct(self._parser.values)
+        help_ = home or ("" if complete else show_construct(self._parser.values))
         message = f"{found}: expected {describe_terminals(expected)}"
         return Misfit("syntax", span, message, help_, found=found, could_end="RBRACE" in expected)
 

@@ -14,7 +14,6 @@ from skillc_dsl.units import UNITS, suggest_units
 
 MEANT: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
-        "=>": ("MORE_EQUAL", ">="),
         "=<": ("LESS_EQUAL", "<="),
         "===": ("EQUALS", "=="),
         "<>": ("UNEQUAL", "!="),

@@ -14,7 +14,11 @@ _LESS = r"(?:<=?|>=?|==)"
 _NOT_WORDS = r"(?!(?:and|or|not|implies|pre|hold|post|goal|if|while|until|verify|never)\b)"
 _SUBJECT = rf"\b{_NOT_WORDS}{_NAME}"
 
+_THAN = r"(?:\b(?:is|are)\s+)?\b"
+_TRIPLE = rf"\(\s*{_NAME}\s+{_NAME}\s+{_NAME}\s*\)"
+
 FORMS = (
+    inner(rf"(?P<a>{_NAME})\.(?P<b>{_NAME})\s+is\s+not\s+(?:None|null|nil|nothing|undefined)\b", r"\g<a> has \g<b>"),
     inner(rf"(?P<a>{_NAME}\.{_NAME})\s+is\s+not\s+(?P<b>{_NAME})", r"\g<a> != \g<b>"),
     inner(rf"(?P<a>{_SUBJECT})\s+is\s+not\s+(?:an?\s+)?(?P<b>{_NAME})", r"not \g<a> is \g<b>"),
     inner(rf"(?P<a>{_SUBJECT})\s+is\s+an?\s+(?P<b>{_NAME})", r"\g<a> is \g<b>"),
@@ -46,6 +50,18 @@ FORMS = (
     inner(rf"(?P<a>{_NAME})\.(?P<b>{_NAME})\s+exists\b", r"\g<a> has \g<b>"),
     inner(rf"(?P<a>{_NAME})(?:\.|->)(?P<b>{_NAME})\(\s*(?P<c>{_NAME})\s*\)", r"\g<a> \g<b> \g<c>"),
     inner(rf"(?P<a>{_NAME})->(?P<b>{_NAME})", r"\g<a>.\g<b>"),
+    inner(rf"{_THAN}(?:greater|larger|more|higher)\s+than\s+or\s+equal\s+to\b|{_THAN}at\s+least\b", ">="),
+    inner(rf"{_THAN}(?:less|smaller|lower|fewer)\s+than\s+or\s+equal\s+to\b|{_THAN}at\s+most\b", "<="),
+    inner(rf"{_THAN}(?:greater|larger|more|higher|bigger)\s+than\b", ">"),
+    inner(rf"{_THAN}(?:less|smaller|lower|fewer)\s+than\b", "<"),
+    inner(rf"{_THAN}(?:equal\s+to|same\s+as|equals?)\b", "=="),
+    inner(r"=/=|~=|\\=", "!="),
+    inner(r"<=>|\biff\b", None, "write `(A implies B) and (B implies A)`"),
+    inner(r"\bxor\b", None, "write `(A and not B) or (B and not A)`"),
+    inner(r"=>", ">=", where="MORE_EQUAL"),
+    inner(r"=>", "implies", where="IMPLIES"),
+    inner(rf"\(\s*(?P<a>and|or)(?=\s*{_TRIPLE})", None, r"write `a RELATION b \g<a> c RELATION d`"),
+    inner(r"\(\s*(?:increase|decrease|assign)\b.*", None, "write the value after it, such as `a.count == 1`"),
     inner(r"\bfor\s+all\b", "forall"),
     inner(r"\bthere\s+(?:exists|is)\b", "exists"),
     inner(
@@ -58,6 +74,6 @@ FORMS = (
     inner(r":=", "==", where="EQUALS"),
     inner(r"\*", "_", where="UNDERSCORE"),
     inner(r"[\[{]\s*(?P<a>[^\]}]*?)\s*[\]}]", r"\g<a>", where="NOT"),
-    inner(r"\s*,\s*", " and ", where="AND"),
+    inner(r"\s*[,;]\s*(?=\S)", " and ", where="AND"),
     inner(r"\s*->\s*", " implies ", where="IMPLIES"),
 )

@@ -7,7 +7,34 @@ from skillc_dsl.parsing.foreign.form import inner, leading
 _NAME = r"[\w:]+"
 _TYPE = r"(?:\w+:)?[A-Z]\w*"
 
+_PLAIN = (
+    ("float\\d*|double|real", "Number"),
+    ("string|str|char", "Text"),
+    ("bool|boolean", "Bool"),
+    ("u?int\\d*(?:_t)?", "Int"),
+)
+"""Types of other languages, and how they are called here."""
+
 FORMS = (
+    leading(
+        r"<[?!/]?\w.*", None, "trees are not written in XML, but as steps: `do seq { .. }`; `skillc compile` writes XML"
+    ),
+    leading(r"\(define\b.*", None, "a domain is written as `skill NAME { .. }`; `skillc compile` writes PDDL"),
+    leading(r"\(:(?:durative-)?action\b.*", None, "write `skill NAME { .. }`"),
+    leading(r"\(?:(?:parameters|vars)\b.*", None, "each parameter is a line, such as `in arm: ArmDevice`"),
+    leading(r"\(?:(?:precondition|condition)\b.*", None, "each precondition is a line, such as `pre a RELATION b`"),
+    leading(r"\(?:effect\b.*", None, "each effect is a line, such as `post a RELATION b` or `post not a RELATION b`"),
+    leading(r"\(?:duration\b.*", None, "write `duration 8 s`"),
+    leading(
+        r"\(?:(?:goal|init|objects|requirements|types|predicates)\b.*",
+        None,
+        "PDDL is not read here; a goal is `goal C`",
+    ),
+    leading(
+        r"class\s+(?P<a>\w+)\s*(?:\(|:|\bextends\b)\s*(?:public\s+)?[\w.:]*(?:Skill|Action|Node|Primitive|Behaviou?r)\w*.*",
+        None,
+        r"write `skill \g<a> { .. }`",
+    ),
     leading(rf"(?:skill|class)\s+(?P<a>\w+)\s+implements\s+(?P<b>{_NAME})", r"impl \g<a> of \g<b>"),
     leading(
         rf"impl\s+(?P<a>\w+)\s*(?:\bfor\b|\bimplements\b|\bextends\b|:(?!:))\s*(?P<b>{_NAME})", r"impl \g<a> of \g<b>"
@@ -44,11 +71,33 @@ FORMS = (
     leading(rf"property\s+(?P<a>\w+)\s*\((?P<b>{_NAME})\)\s*(?:->|=)", r"property \g<a>(\g<b>):"),
     leading(r"property\s+(?P<a>\w+)\.(?P<b>\w+)\s*:", r"property \g<b>(\g<a>):"),
     leading(rf"function\s+(?P<a>\w+\(.*\))\s*:\s*(?P<b>{_NAME})", r"function \g<a> -> \g<b>"),
-    leading(r"import\s+<?(?P<a>[\w/]+)(?:\.skill)?>?\s*$", r'import "\g<a>.skill"'),
+    leading(
+        r"import\s+<?(?P<a>[\w/]+)(?:\.skill)?>?\s*$",
+        r'import "\g<a>.skill"',
+        r'write `import "\g<a>.skill"` for a file, or `use \g<a>` for a vocabulary',
+    ),
     leading(r"from\s+(?P<a>\w+)\s+import\b.*", r'import "\g<a>.skill"'),
     leading(r"include(?=\s*\")", "import"),
     leading(r"prefix\s+(?P<a>\w+)\s*=\s*(?P<b><\S*>)", r"prefix \g<a>: \g<b>"),
     # members
+    *(leading(rf"(?P<a>in|opt|out|infer)\s+(?:{each})\s+(?P<b>\w+)", rf"\g<a> \g<b>: {kind}") for each, kind in _PLAIN),
+    *(leading(rf"(?:{each})\s+(?P<b>\w+)(?=\s*$)", rf"in \g<b>: {kind}", where="IN") for each, kind in _PLAIN),
+    leading(rf"(?P<a>in|opt|out|infer)\s+\?(?P<b>\w+)\s+-\s+(?P<c>{_NAME})", r"\g<a> \g<b>: \g<c>"),
+    leading(r"(?P<a>pre|post)\s+at\s+(?:start|end)\b", r"\g<a>"),
+    leading(r"(?:pre|condition)\s+over\s+all\b", "hold"),
+    leading(r"duration\s*\(\s*=\s*\?duration\s+(?P<a>\d[\d.]*)\s*\)", r"duration \g<a> s"),
+    leading(r"goals\b:?", "goal", where="GOAL"),
+    leading(r"steps?\s*\{", "do seq {", where="DO"),
+    leading(
+        r"(?:robot|robots|world|cell)\b.*", None, 'robots and things are in the scene: `scene "FILE.ttl"`', "SCENE"
+    ),
+    leading(r"scene\s+(?P<a>[\w./-]+\.ttl)\b", r'scene "\g<a>"'),
+    leading(
+        r"(?:const|constexpr|static|final)\s+(?:\w+\s+)?(?P<a>\w+)\s*=\s*(?P<b>.*\S)",
+        None,
+        r"write `let \g<a> = \g<b>` in an implementation, or `opt \g<a>: TYPE = \g<b>` in a skill",
+        "PRE",
+    ),
     leading(r"(?P<a>pre|hold|post|goal|duration|scene|prefer|in|opt|out|infer|uses|shares)\s*:(?=\s)", r"\g<a>"),
     leading(r"(?:requires?|precondition|given|assume)\b:?", "pre", where="PRE"),
     leading(r"(?:effects?|ensures?|postcondition)\b:?", "post", where="POST"),
@@ -69,7 +118,9 @@ FORMS = (
     inner(r"\bdefault\b", "=", where="EQUAL"),
     leading(r"(?P<a>(?:opt|in|refine)\b.*?)\s+in\s+(?P<b>\S.*?\.\.)", r"\g<a> range \g<b>", where="LABEL"),
     leading(r'(?P<a>(?:in|opt|out|infer)\s+\w+:)\s*"(?P<b>[\w:]+)"', r"\g<a> \g<b>"),
-    inner(r"\[(?P<a>[^,\]]+),\s*(?P<b>[^\]]+)\]", r"range \g<a> .. \g<b>", where="RANGE"),
+    leading(
+        r"(?P<c>(?:opt|in|refine)\b.*)\[(?P<a>[^,\]]+),\s*(?P<b>[^,\]]+)\]", r"\g<c>range \g<a> .. \g<b>", where="RANGE"
+    ),
     inner(rf"\b(?:[Ll]ist|[Aa]rray)\[(?P<a>{_NAME})\]", r"[\g<a>]"),
     inner(rf"\b(?P<a>{_NAME})\[\]", r"[\g<a>]"),
     leading(r"let\s+(?P<a>\w+)\s*:\s*[\w:]+\s*=(?!=)", r"let \g<a> ="),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.diagnostics import Fix, ForeignForm
 from skillc_dsl.parsing.foreign import conditions, declarations, steps
 from skillc_dsl.parsing.foreign.form import Form
 from skillc_dsl.parsing.grammar import begins_line, can_continue
@@ -18,7 +18,7 @@ _LONGEST = 200
 """The maximum length of a line in which forms are looked for, which bounds the time."""
 
 
-def report_foreign_form(fault: Fault, lines: Sequence[str]) -> Diagnostic | None:
+def report_foreign_form(fault: Fault, lines: Sequence[str]) -> ForeignForm | None:
     """Return the problem if the line of the fault, or the one before it that is not complete, has such a form."""
     places = [*_places(fault)]
     for form in FORMS:
@@ -53,16 +53,16 @@ def _find(form: Form, line: str, place: Span) -> re.Match[str] | None:
     return next((each for each in found if each.start("form") <= end and each.end("form") >= start), None)
 
 
-def _problem(form: Form, found: re.Match[str], place: Span, fault: Fault) -> Diagnostic:
+def _problem(form: Form, found: re.Match[str], place: Span, fault: Fault) -> ForeignForm:
     start, end = found.span("form")
     span = Span(place.path, place.line, start + 1, place.line, end + 1)
     message = f"`{found['form'].strip()}` is not a form of this language"
     if form.write is None:
-        return Diagnostic("syntax", span, message, found.expand(form.advice))
+        return ForeignForm("syntax", span, message, found.expand(form.advice))
     text = found.expand(form.write)
     shown = " ".join(text.split())
     asked = f"write `{shown}`" if shown else "delete it"
     fix = Fix(span, text, asked, safe=False)
     if start == end:
-        return Diagnostic("syntax", fault.span, f"`{shown}` is missing before `{fault.token}`", asked, fix=fix)
-    return Diagnostic("syntax", span, message, found.expand(form.advice) or asked, fix=fix)
+        return ForeignForm("syntax", fault.span, f"`{shown}` is missing before `{fault.token}`", asked, fix=fix)
+    return ForeignForm("syntax", span, message, found.expand(form.advice) or asked, fix=fix)

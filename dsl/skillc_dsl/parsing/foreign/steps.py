@@ -10,7 +10,31 @@ _KIND = r"(?:var|const|val|auto|int|float|double|bool|string|def|set)"
 _VALUE = r"values are named before the steps: `let \g<a> = \g<b>` above `do`"
 _LOOP = "write `repeat 3 { .. }`, or `while C max 10 { .. }`"
 
+_COUNT = r"(?:\w+\s+)?\w+\s*=\s*0\s*;\s*\w+\s*<\s*(?P<a>\d+)\s*;[^)]*"
+_FOR = "write `repeat 3 { .. }`, `for x in LIST { .. }` or `while C max 10 { .. }`"
+_SEQ_FAILS = "delete it: a `seq` fails as soon as one of its steps fails"
+
 FORMS = (
+    inner(r"(?<=:\s)\{(?P<a>\w+)\}", r"\g<a>"),
+    leading(rf"for\s*\(\s*{_COUNT}\)", r"repeat \g<a>"),
+    leading(r"for\s*\([^:)]*;.*", None, _FOR),
+    leading(r"for\s*\(\s*(?:const\s+)?\w+\s*[&*]?\s*(?P<a>\w+)\s*:\s*(?P<b>[^)]*?)\s*\)", r"for \g<a> in \g<b>"),
+    leading(
+        r"for\s+\w+\s+in\s+range\(\s*(?:0\s*,\s*)?(?P<a>\d+)\s*\)\s*:?", r"repeat \g<a>", r"write `repeat \g<a> { .. }`"
+    ),
+    leading(r"for\s+\w+\s+in\s+\[.*", None, "a list is a parameter of the type `[T]`, or what a function returns"),
+    leading(r"if\b.*\breturn\b.*", None, _SEQ_FAILS),
+    leading(r"do\s*\{", None, "write `while C max 10 { .. }`", "RBRACE"),
+    leading(r"RetryUntilSuccessful\s*\(\s*\w+\s*[=:]\s*(?P<a>\d+)\s*\)", r"retry \g<a>"),
+    leading(r"Repeat\s*\(\s*\w+\s*[=:]\s*(?P<a>\d+)\s*\)", r"repeat \g<a>"),
+    leading(r"Timeout\s*\(\s*msec\s*[=:]\s*(?P<a>\d+)\s*\)", r"timeout \g<a> ms"),
+    leading(
+        r"[Pp]arallel(?:All)?\s*\(.*\)(?=\s*\{)", "par all", "write `par all`, `par any`, `par race` or `par lead`"
+    ),
+    leading(r"ForceSuccess\b(?=\s*\{)", "try"),
+    leading(r"ReactiveSequence\b(?=\s*\{)", "reactive seq"),
+    leading(r"ReactiveFallback\b(?=\s*\{)", "reactive sel"),
+    leading(r"(?:self\.|this(?:->|\.))(?P<a>[A-Z]\w*)", r"\g<a>"),
     leading(r"(?:elif|elseif|elsif)\b", "else if"),
     leading(r"otherwise\b", "else"),
     leading(
@@ -30,7 +54,6 @@ FORMS = (
     leading(r"(?P<a>retry|repeat)\s*\{", r"\g<a> 3 {", r"say how often, such as `\g<a> 3 {`"),
     leading(r"loop\s+(?P<a>\d+)(?:\s+times)?", r"repeat \g<a>"),
     leading(r"(?:loop|forever)\b", None, _LOOP),
-    leading(r"do\s*\{.*\}\s*while\b.*", None, "write `while C max 10 { .. }`"),
     leading(r"until\s+(?P<a>.*?)\s*\{", r"while not (\g<a>) max 10 {"),
     leading(
         r"while\s+(?P<a>.*?)\s*\{", r"while \g<a> max 10 {", r"say how often at most: `while \g<a> max 10 {`", "MAX"
