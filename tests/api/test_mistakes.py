@@ -39,6 +39,17 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     "task and goal": (lambda: skillc.plan("contact:press_button", goal="x"), "cannot be used with"),
     "number for a task": (lambda: skillc.run(42), "the task must be a text, not 42"),  # type: ignore[arg-type]
     "nothing": (lambda: skillc.run(), "name either a TASK"),
+    "skill for a task": (
+        lambda: skillc.run("contact:PressButton"),
+        "is a skill, not a task: `--scene FILE --call 'PressButton(",
+    ),
+    "call for a task": (lambda: skillc.run("Wipe(lab:Table-1)"), "given as `--scene FILE --call 'Wipe(lab:Table-1)'`"),
+    "goal for a task": (lambda: skillc.run("lab:A.isClean == true"), "given as `--scene FILE --goal 'lab:A.isClean"),
+    "goal without a scene": (lambda: skillc.run(goal="lab:A.isClean == true"), "--goal needs the scene"),
+    "call for a goal": (
+        lambda: skillc.plan(goal="Wipe(lab:Table-1)", scene="iiwa_table"),
+        "write what it makes true: `lab:Table-1.isClean == true`",
+    ),
     "wrong seed": (lambda: skillc.run("contact:press_button", seed=1.5), "`seed` must be a whole number"),  # type: ignore[arg-type]
     "wrong backend": (lambda: skillc.run("contact:press_button", backend="real"), "there are: kinematic, mujoco"),
     "wrong pace": (lambda: skillc.start("contact:press_button", pace="slow"), "`slow` is no pace"),

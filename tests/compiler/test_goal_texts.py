@@ -179,8 +179,32 @@ def test_calls() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
+    ("text", "called"),
+    [
+        ("Wipe(lab:Board)", "Wipe(surface: lab:Board)"),
+        ("Wipe(surface: lab:Board)", "Wipe(surface: lab:Board)"),
+        ("do Wipe(surface = lab:Board)", "Wipe(surface: lab:Board)"),
+        ("(wipe lab:Board)", "Wipe(surface: lab:Board)"),
+        ("Wipe", "Wipe(surface: ..)"),
+    ],
+)
+def test_a_skill_as_a_goal_is_told_what_it_makes_true(text: str, called: str) -> None:
+    wiping = compile(library("wiping"), vocabulary(), shelf(), "wiping").value
+    outcome = parse_goal(text, vocabulary(), scene(), {"lab": LAB}, home_of(wiping), wiping.skills)
+    [problem] = outcome.diagnostics
+    made = "lab:Board.isClean == true" if "lab:Board" in text else "surface.isClean == true"
+    assert problem.name == "not-a-condition" and f"`{made}`" in problem.help and f"`{called}`" in problem.help
+    ran = parse_call(called, wiping, scene(), {"lab": LAB})
+    assert ran.ok is (".." not in called)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
     ("text", "name"),
     [
+        ("lab:Board.isClean == true", "syntax"),
+        ("Wipe lab:Board", "syntax"),
+        ("Wipe(lab:Board)", "unknown-argument"),
         ("Wip(surface: lab:Board)", "unknown-skill"),
         ("Wipe(surfac: lab:Board)", "unknown-argument"),
         ("Wipe()", "missing-argument"),

@@ -66,7 +66,8 @@ def bind_task(task: Task, library: SkillLibrary, state: WorldState, arguments: M
 def assign_goal(text: str, library: SkillLibrary, state: WorldState) -> Assignment:
     """Return the assignment of a goal, as a condition, in PDDL or in JSON; DiagnosticsError if it has errors."""
     individuals = classes_by_individual(state, library.vocabulary)
-    goal = _valid(parse_goal(text, library.vocabulary, individuals, state.vocabulary.prefixes, home_of(library)), text)
+    prefixes, home = state.vocabulary.prefixes, home_of(library)
+    goal = _valid(parse_goal(text, library.vocabulary, individuals, prefixes, home, library.skills), text)
     name = format_condition(goal, state.vocabulary) if is_json(text) else text
     return Assignment(name, state, AchieveGoal(goal))
 

@@ -100,6 +100,9 @@ def _shipped() -> tuple[Source, ...]:
 def find_task(library: SkillLibrary, name: str) -> Task:
     """Return a task; RequestError suggests one that exists."""
     if name not in library.tasks:
+        if name in library.skills:
+            needed = ", ".join(f"{each.name}: .." for each in library.skills[name].parameters if each.direction == "in")
+            raise RequestError(f"`{name}` is a skill, not a task: `--scene FILE --call '{name}({needed})'` runs it")
         elsewhere = [each.name for each in list_tasks() if each.name.endswith(f":{name}")]
         hint = f"did you mean `{elsewhere[0]}`?" if elsewhere else did_you_mean(name, library.tasks)
         more = f"{hint} " if hint else ""

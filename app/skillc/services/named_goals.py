@@ -38,7 +38,7 @@ def make_named_task(project: Project, name: str, library: SkillLibrary, scene: P
     place = project.place_of("tasks", name, key)
     source = Position(place.path, place.line, place.column)
     if key == "goal":
-        goal = parse_goal(text, library.vocabulary, individuals, prefixes, home_of(library))
+        goal = parse_goal(text, library.vocabulary, individuals, prefixes, home_of(library), library.skills)
         _require_valid(goal, project, name, key)
         return Task(name=name, scene=str(scene), goal=goal.value, goal_text=text, source=source)
     call = parse_call(text, library, individuals, prefixes)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -23,6 +24,9 @@ from skillc_model.skills import SkillLibrary, Task
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.model import WorldModel
+
+_CALL = re.compile(r"\s*[A-Za-z]\w*\(")
+_CONDITION = re.compile(r"\(|[=<>]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,13 +54,28 @@ def check_request(spec: RunSpec, store: StoreChoice = NO_STORE, calls: bool = Tr
     """Raise RequestError if it is not clear what is to be done, or where; `calls`: whether a call is possible too."""
     if spec.task is None and spec.arguments:
         raise RequestError("arguments are the values of the parameters of a TASK; none is named")
-    if spec.task is not None and (spec.scene or spec.goal or spec.call or spec.library):
-        raise RequestError("a TASK cannot be used with --scene, --goal, --call or --library")
-    nothing = (spec.goal is None) == (spec.call is None)
-    if spec.task is None and ((spec.scene or store.place) is None or nothing):
-        choice = "--goal TEXT or --call CALL" if calls else "--goal TEXT"
+    if spec.task is not None:
+        _check_task(spec, calls)
+        return
+    choice = "--goal TEXT or --call CALL" if calls else "--goal TEXT"
+    if spec.goal is not None and spec.call is not None:
+        raise RequestError("either --goal or --call says what is to be done, not both")
+    if spec.goal is None and spec.call is None:
         listed = "name either a TASK (`skillc tasks` lists them)"
         raise RequestError(f"{listed}, or --scene FILE (or --store) with {choice}")
+    if (spec.scene or store.place) is None:
+        given = "--goal" if spec.goal is not None else "--call"
+        raise RequestError(f"{given} needs the scene: `--scene FILE`, a file here or a shipped one, or `--store`")
+
+
+def _check_task(spec: RunSpec, calls: bool) -> None:
+    """Raise RequestError if a task is named besides a goal or call, or if its name is one of these."""
+    if spec.scene or spec.goal or spec.call or spec.library:
+        raise RequestError("a TASK cannot be used with --scene, --goal, --call or --library")
+    if _CALL.match(spec.task or "") and calls:
+        raise RequestError(f"a call of a skill is given as `--scene FILE --call '{spec.task}'`")
+    if _CONDITION.search(spec.task or ""):
+        raise RequestError(f"a goal is given as `--scene FILE --goal '{spec.task}'`")
 
 
 @contextmanager

@@ -16,6 +16,7 @@ EXAMPLES: dict[InputKind, str] = {
     "goal": "a goal is a condition, such as `lab:Board-1.isClean == true` or `(contain lab:Box-1 lab:Part-1)`",
     "call": "a call is `Skill(parameter: value, ..)`",
 }
+_CALL = re.compile(r"\s*(?:do\s+)?\w+\s*(?:[(\[]|$)")
 _COMMENT = re.compile(r"[#;].*")
 MOST_SOUGHT = 20
 """For so many words of a goal a similar name is looked for."""
@@ -26,13 +27,16 @@ _DECLARED = re.compile(r"\b([A-Za-z]\w*+)\s*+:\s")
 def find_mistakes(
     text: str, what: InputKind, individuals: Iterable[str], means_something: Callable[[str], bool]
 ) -> tuple[Diagnostic, ...]:
-    """Report an empty text, unbalanced parentheses, and individuals without their prefix.
+    """Report an empty text, what is no call, unbalanced parentheses, and individuals without their prefix.
 
     `individuals` are the qualified names of the scene's individuals; `means_something` is true for a bare name that
     already has a meaning.
     """
     if not text.strip():
         return (Diagnostic("syntax", Span(what, 1, 1, 1, 2), f"the {what} is empty", EXAMPLES[what]),)
+    if what == "call" and not _CALL.match(text):
+        help_ = f"{EXAMPLES['call']}; a condition is given as a goal"
+        return (Diagnostic("syntax", Span(what, 1, 1, 1, 2), "this is not a call of a skill", help_),)
     lines = [_COMMENT.sub("", line) for line in text.split("\n")]
     return tuple(_parentheses(lines, what)) or tuple(_prefixes(lines, what, sorted(individuals), means_something))
 

@@ -14,6 +14,7 @@ from skillc_compiler.goals.context import make_context
 from skillc_compiler.goals.json_text import JsonGoalError, is_json, write_goal
 from skillc_compiler.goals.mistakes import EXAMPLES, InputKind, find_mistakes, reword
 from skillc_compiler.goals.pddl_text import COMPARING, PddlGoalError, PddlGroup, PddlWord, convert_goal, parse_group
+from skillc_compiler.goals.skill_as_goal import report_skill_as_goal
 from skillc_compiler.lower.bodies import lower_node
 from skillc_compiler.program.typed import Program, Task
 from skillc_compiler.resolve.individuals import Individuals
@@ -27,7 +28,7 @@ from skillc_dsl.source import Source, Span
 from skillc_model import tree
 from skillc_model.conditions import Condition
 from skillc_model.rewriting import fold
-from skillc_model.skills import SkillLibrary
+from skillc_model.skills import Skill, SkillLibrary
 from skillc_model.traversal import is_nested_deeper
 from skillc_rdf.vocabulary.types import Position, Vocabulary
 
@@ -46,17 +47,21 @@ def parse_goal(
     individuals: Individuals,
     prefixes: Mapping[str, str] | None = None,
     home: Sequence[str] = (),
+    skills: Mapping[str, Skill] | None = None,
 ) -> Outcome[Condition | None]:
     """Parse a goal such as `lab:Board.isClean == true` or `(skiros:contain lab:Box-1 lab:Part-1)`.
 
     `individuals` are the IRIs of the scene with their classes, `prefixes` those that its file declares, and `home` the
-    namespaces that bare names refer to first (see `home_of`). The value is None if there are errors; spans are
-    positions in `text`, with the path `goal`. A goal may also be a condition in JSON, as a compiled library has it.
+    namespaces that bare names refer to first (see `home_of`). One of the `skills` in place of a condition is told
+    so. The value is None if there are errors; spans are positions in `text`, with the path `goal`. A goal may also be
+    a condition in JSON, as a compiled library has it.
     """
     if is_json(text):
         return _goal_in_json(text, vocabulary, individuals, prefixes or {})
     return _bounded(
-        lambda: _goal(text, make_context(vocabulary, individuals, prefixes or {}, None, home)), text, "goal"
+        lambda: _goal(text, make_context(vocabulary, individuals, prefixes or {}, None, home), skills or {}),
+        text,
+        "goal",
     )
 
 
@@ -107,8 +112,10 @@ def _refused(what: InputKind, message: str) -> Outcome[None]:
     return Outcome(None, (Diagnostic("syntax", Span(what, 1, 1, 1, 2), message, EXAMPLES[what]),))
 
 
-def _goal(text: str, asked: FileContext) -> Outcome[Condition | None]:
-    wrong = _mistakes(asked, text, "goal")
+def _goal(text: str, asked: FileContext, skills: Mapping[str, Skill]) -> Outcome[Condition | None]:
+    own = {name: skill for name, skill in skills.items() if not _is_term(asked.names, name)}
+    skill = report_skill_as_goal(text, own, asked.vocabulary)
+    wrong = (skill,) if skill is not None else _mistakes(asked, text, "goal")
     if wrong:
         return Outcome(None, wrong)
     group = parse_group(text, "goal")
@@ -134,7 +141,11 @@ def _call(text: str, asked: FileContext) -> Outcome[tree.Call | None]:
 def _mistakes(asked: FileContext, text: str, what: InputKind) -> tuple[Diagnostic, ...]:
     names = asked.names
     written = (names.shorten(iri) for iri in asked.individuals or ())
-    return find_mistakes(text, what, written, lambda word: any(names.is_term(kind, word) for kind in KINDS))
+    return find_mistakes(text, what, written, lambda word: _is_term(names, word))
+
+
+def _is_term(names: Names, word: str) -> bool:
+    return any(names.is_term(kind, word) for kind in KINDS)
 
 
 def _is_pddl(group: PddlGroup, names: Names) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from skillc_compiler.resolve.names import Names
-from skillc_compiler.resolve.scope import FileContext
+from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 
@@ -32,12 +32,14 @@ def report_called_condition(context: FileContext, written: s.Value) -> bool:
     return True
 
 
-def report_relation_first(context: FileContext, relation: s.Name, written: s.Relation) -> None:
+def report_relation_first(context: FileContext, scope: Scope, relation: s.Name, written: s.Relation) -> None:
     """Report a relation that stands where its subject should be: `contain box part` as in PDDL, or `tightIn one`."""
     message = f"`{relation.text}` is a relation, and nothing is before it that it relates"
     second = written.relation.text
-    if context.names.is_term("relation", second):
-        context.report("unknown-parameter", relation.span, message, f"write `a {second} b`, or `_ {second} b`")
+    if second not in scope.variables and ":" not in second:
+        context.report(
+            "unknown-parameter", relation.span, message, f"write `a {relation.text} b`, or `_ {relation.text} b`"
+        )
         return
     object_ = "_" if isinstance(written.object, s.Anything) else _show(written.object)
     meant = f"{second} {relation.text} {object_}"

@@ -53,8 +53,9 @@ def _report_argument(
     """Report an argument that no parameter takes; its value is still resolved, unless it repeats the name."""
     name = argument.name.text
     own = scope.variables.get(name) if _is_shorthand(argument) else None
+    is_bare = _is_shorthand(argument) and ":" not in name
     shown = own.type if own else UNKNOWN
-    kind = shown if _is_shorthand(argument) else resolve_value(context, scope, argument.value).type
+    kind = shown if is_bare else resolve_value(context, scope, argument.value).type
     if out is not None:
         context.report(
             "unknown-argument",
@@ -66,7 +67,8 @@ def _report_argument(
         return
     free = _free_parameters(context, skill, written, kind)
     needed = [each for each in free if (found := skill.parameter(each)) and found.direction == "in"]
-    is_value = own is not None and len(needed) == 1 and not close_names(name, free)
+    is_named = own is not None or (_is_shorthand(argument) and not is_bare)
+    is_value = is_named and len(needed) == 1 and not close_names(name, free)
     context.report_unknown(
         UnknownName(
             "argument",

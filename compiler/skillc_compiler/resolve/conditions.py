@@ -92,7 +92,7 @@ def _or(parts: Sequence[TypedCondition], span: Span) -> TypedCondition:
 def _resolve_relation(context: FileContext, scope: Scope, written: s.Relation) -> TypedCondition:
     name = _relation_in_place_of_subject(context, scope, written)
     if name is not None:
-        report_relation_first(context, name, written)
+        report_relation_first(context, scope, name, written)
         return TypedCondition(And(()), written.span)
     subject = _resolve_side(context, scope, written.subject)
     object_ = _resolve_side(context, scope, written.object)
