@@ -10,9 +10,10 @@ from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, NodeEnded, Replanned
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.failure_text import describe_failure, list_details
-from skillc_runtime.world.state.changes import RemoveIndividual, RemoveRelation
+from skillc_runtime.world.state.changes import RemoveIndividual, RemoveRelation, SetProperty
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import POSITION
 
 SLIPPED = Failure(kind="body", message="it slipped")
 MOVED = "lab:b contain lab:crate"
@@ -154,6 +155,15 @@ def test_a_step_that_failed_is_tried_again_after_a_change_of_what_it_depends_on(
     depot = Depot(WorldModel(state), away, fails=lambda step, number: "crate a" in step)
     execution = carried_out(MOVED, state, depot)
     assert execution.status == "succeeded" and "carl crate d" in depot.log
+
+
+@pytest.mark.parametrize(("moved_m", "again"), [(1e-6, False), (1e-3, True)])
+def test_a_measurement_that_is_repeated_is_no_reason_to_try_again(moved_m: float, again: bool) -> None:
+    failures, arguments = FailedSteps(library()), {"robot": iri("carl"), "crate": iri("crate"), "to": iri("b")}
+    state = world({"carl": "c"}, {"crate": "a"}).with_changes([SetProperty(iri("crate"), POSITION[0], 0.5)])
+    failures.add("Unload", arguments, "lower", state, SLIPPED, 0)
+    after = state.with_changes([SetProperty(iri("crate"), POSITION[0], 0.5 + moved_m)])
+    assert (failures.find_repeated("Unload", arguments, "lower", after) is None) is again
 
 
 def test_a_change_elsewhere_is_no_reason_to_try_again() -> None:

@@ -260,6 +260,17 @@ def test_the_hull_of_points_has_all_of_them_inside() -> None:
     assert 3 <= len(hull) < 60
 
 
+def test_a_device_gets_the_data_sheet_of_its_class(cell: Path) -> None:
+    added = scene("add", "cell.ttl", "Camera-1", "Camera", "--on", "Table-1", "--at-z", "1", "--roll", "180")
+    assert added.exit_code == 0, added.output
+    assert "lab:Camera-1 a skillc:Camera ; skillc:hasSheet skillc:depth-camera-sheet ;" in cell.read_text("utf-8")
+    tool = ("add", "cell.ttl", "Tool-1", "Tool", "--size", "0.1", "0.05", "0.03", "--weight", "0.1", "--on", "Table-1")
+    assert "say --sheet NAME" in scene(*tool).output and "wiping:eraser-sheet" in scene(*tool).output
+    assert scene(*tool, "--sheet", "nowhere-sheet").exit_code == 2
+    assert scene(*tool, "--sheet", "eraser-sheet").exit_code == 0
+    assert "skillc:hasSheet wiping:eraser-sheet" in cell.read_text("utf-8")
+
+
 def test_a_rack_has_its_slots_in_a_grid_on_its_floor(cell: Path) -> None:
     arguments = ("add", str(cell), "Rack-1", "Container", "--size", "0.308", "0.208", "0.06", "--on", "Table-1")
     assert scene(*arguments, "--slots", "3", "2").exit_code == 0

@@ -60,7 +60,9 @@ def plan_goal(
     """
     library, assignment = loaded.library, loaded.assignment
     if not isinstance(assignment.objective, AchieveGoal):
-        raise RequestError(f"the task `{assignment.name}` has a body, not a goal; run it with `skillc run`")
+        name = assignment.name
+        shown = f"`skillc graph PATH {name}` shows its steps, `skillc run` runs them"
+        raise RequestError(f"the task `{name}` has a body, not a goal, so there is nothing to plan: {shown}")
     goal = assignment.objective.goal
     if measure == "makespan":
         return minimise_makespan(library, assignment.state, goal, planners, cancel, report=report)

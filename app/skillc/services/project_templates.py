@@ -31,9 +31,9 @@ class Template:
 TEMPLATES = (
     Template(
         "pick-place",
-        "an arm puts two parts into two boxes",
+        "an arm puts two parts into two boxes, and a camera looks where they are",
         "the classes of the parts and boxes",
-        "robot, table, parts, boxes and where they are",
+        "robot, camera, table, parts, boxes and where they are",
         "add a third part, which `lab:Cell` contains, to `cell.ttl` and the goal, change a box, or use another arm",
         ("Pick", "Pick", "Place", "Place"),
     ),

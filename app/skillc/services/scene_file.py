@@ -92,7 +92,8 @@ class SceneFile:
         if len(found) == 1 and ":" not in name:
             return found[0]
         near = found or _alike(local, vocabulary)
-        cure = f"; did you mean {' or '.join(map(vocabulary.short, near))}?" if near else ""
+        declare = f"; a library declares it, as in `class {local} < Container`"
+        cure = f"; did you mean {' or '.join(map(vocabulary.short, near))}?" if near else declare
         raise ServiceError(f"there is {'no' if not found else 'more than one'} class {name}{cure}")
 
     def append(self, subject: str, rows: Sequence[Sequence[tuple[str, Node]]]) -> None:

@@ -12,6 +12,7 @@ import pyoxigraph as ox
 
 from skillc.errors import RequestError, ServiceError
 from skillc.services.scene_file import SceneFile
+from skillc.services.scene_sheets import find_sheet
 from skillc.services.scene_slots import frame_of, make_slots
 from skillc_rdf.turtle.editing import StatementNotFound
 from skillc_rdf.turtle.statements import Node
@@ -28,6 +29,7 @@ from skillc_runtime.world.state.terms import (
     FRAME_ID,
     FURNITURE,
     HAS_A,
+    HAS_SHEET,
     LOCATION,
     MANIPULATABLE,
     OFFSET,
@@ -81,7 +83,8 @@ class PoseRequest:
 class ThingRequest:
     """A new thing: its name and class, its label, its size in m, its mass in kg, its shape, and what contains it.
 
-    slots: how many slots for parts it has along x and y, none if empty.
+    slots: how many slots for parts it has along x and y, none if empty. sheet: its data sheet, by default the
+    shipped one for its class, if it needs one.
     """
 
     name: str
@@ -92,6 +95,7 @@ class ThingRequest:
     shape: str | None = None
     inside: str | None = None
     slots: tuple[int, ...] = ()
+    sheet: str | None = None
 
 
 def add_thing(scene: Path, state: WorldState, thing: ThingRequest, pose: PoseRequest) -> str:
@@ -108,6 +112,9 @@ def add_thing(scene: Path, state: WorldState, thing: ThingRequest, pose: PoseReq
     kind: Pairs = [(RDF_TYPE, ox.NamedNode(cls))]
     if thing.label is not None:
         kind.append((LABEL, ox.Literal(thing.label)))
+    sheet = find_sheet(cls, thing.sheet, state)
+    if sheet is not None:
+        kind.append((HAS_SHEET, ox.NamedNode(sheet)))
     body: Pairs = [(name, _number(each)) for name, each in zip(SIZE, thing.size, strict=False)]
     if thing.weight is not None:
         body.append((WEIGHT, _number(thing.weight)))

@@ -142,6 +142,9 @@ def new(scene: Path, arm: str | None) -> None:
 @click.option("--label", metavar="TEXT", help="A text for people.")
 @click.option("--in", "inside", metavar="PLACE", help="The place that contains it; by default that of what it is on.")
 @click.option("--slots", nargs=2, type=int, metavar="NX NY", help="The numbers of slots in a rack, along x and y.")
+@click.option(
+    "--sheet", metavar="NAME", help="The data sheet of a device or tool; by default the shipped one for its class."
+)
 @pose_options
 @LIBRARY
 @file_only
@@ -161,6 +164,7 @@ def add(scene: Path, name: str, cls: str, library: Path | None, **given: Any) ->
         given["shape"],
         given["inside"],
         given["slots"] or (),
+        given["sheet"],
     )
     with _opened(scene, library) as (path, state):
         print_remark(f"{scene}: {add_thing(path, state, thing, _pose(given))}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import isclose
 
 from msgspec import structs
 
@@ -16,6 +17,9 @@ from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
+
+MEASURED = 1e-4
+"""How much two measurements of the same differ, in SI units: lengths by a tenth of a millimetre."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +40,8 @@ class FailedSteps:
     """The steps that failed in the attempts at one goal.
 
     An implementation that failed for some arguments is not tried for them again until a fact changes that the skill
-    reads, or that is about one of the arguments: a primitive may read anything about them.
+    reads, or that is about one of the arguments: a primitive may read anything about them. A number that was measured
+    again has not changed if it differs by less than MEASURED.
     """
 
     def __init__(self, library: SkillLibrary) -> None:
@@ -110,7 +115,7 @@ class FailedSteps:
         return tuple(found)
 
     def _has_changed(self, failed: FailedStep, state: WorldState) -> bool:
-        changed = tuple(find_changed_facts(failed.state, state))
+        changed = [each for each in find_changed_facts(failed.state, state) if not _is_noise(each, failed.state, state)]
         about = set(failed.step.arguments.values())
         return any(
             not about.isdisjoint((fact.subject, fact.object)) or any(fact.meets(read) for read in self._reads(failed))
@@ -123,6 +128,16 @@ class FailedSteps:
         skill = self.library.skills[step.skill]
         for requirement in (*skill.pre, *skill.hold, *implementation.pre, *implementation.hold):
             yield from facts_read(requirement.condition, step.arguments, failed.state.vocabulary)
+
+
+def _is_noise(fact: FactPattern, before: WorldState, after: WorldState) -> bool:
+    """Whether two versions of the world differ in a number by no more than two measurements of the same."""
+    if fact.term is None or fact.subject is None or fact.object is not None:
+        return False
+    one, other = before.value(fact.subject, fact.term), after.value(fact.subject, fact.term)
+    if not isinstance(one, float) or not isinstance(other, float):
+        return False
+    return isclose(one, other, rel_tol=MEASURED, abs_tol=MEASURED)
 
 
 def _step_of(skill: str, arguments: Mapping[str, Value]) -> Step:
