@@ -203,6 +203,7 @@ EXAMPLES = (
     ("step", "for (auto& b : bs) { Go() }", "for b in bs { Go() }"),
     ("step", "for i in range(3):\n            Go()", None),
     ("step", "for b in [1, 2, 3] { Go() }", None),
+    ("step", "try:\n            Go()", None),
     ("step", "if (!Go()) return false;", None),
     ("step", "do {\n            Go();\n        } while (a.x == B);", None),
     ("step", "Go(a: {b})", "Go(a: b)"),

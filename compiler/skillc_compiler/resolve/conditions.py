@@ -245,5 +245,7 @@ def _resolve_bare(context: FileContext, scope: Scope, written: s.Bare) -> TypedC
             Diagnostic("not-a-condition", span, "a value is not a condition", "write `.. == true`", fix=fix)
         )
     elif of.type != UNKNOWN:
-        context.report("not-a-condition", span, "a value is not a condition", "compare it: `.. == ..`, `.. < ..`")
+        is_text = isinstance(written.value, s.Text)
+        help_ = "write the condition without quotation marks" if is_text else "compare it: `.. == ..`, `.. < ..`"
+        context.report("not-a-condition", span, "a value is not a condition", help_)
     return TypedCondition(Compare(of.meaning, "==", Literal(True)), span, (of,))

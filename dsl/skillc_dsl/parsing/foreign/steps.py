@@ -46,6 +46,7 @@ FORMS = (
         None,
         "write `sel { seq { .. } seq { .. } }`: the second runs if the first fails",
     ),
+    leading(r"try\s*:", None, "write `sel { seq { .. } seq { .. } }`: the second runs if the first fails"),
     leading(r"finally\b", None, "what is undone however a block ends is a scoped skill: `with CALL { .. }`"),
     leading(r"(?P<a>retry|repeat)\s*\(\s*(?P<b>\d+)\s*\)", r"\g<a> \g<b>"),
     leading(r"(?P<a>retry|repeat)\s+(?:up\s+to|at\s+most)\s+(?P<b>\d+)(?:\s+times)?", r"\g<a> \g<b>"),
