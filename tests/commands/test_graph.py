@@ -15,10 +15,9 @@ from skillc_dsl.rendering.printable import printable
 pytestmark = pytest.mark.slow
 
 
-def graph(*arguments: str, columns: int = 60, **streams: int) -> subprocess.CompletedProcess[bytes]:
-    environment = os.environ | {"COLUMNS": str(columns)}
+def graph(*arguments: str, columns: int = 60, stdout: int = subprocess.PIPE) -> subprocess.CompletedProcess[bytes]:
     command = [sys.executable, "-m", "skillc", "graph", "wiping", "Wipe", *arguments]
-    return subprocess.run(command, check=True, env=environment, **(streams or {"stdout": subprocess.PIPE}))
+    return subprocess.run(command, check=True, env={**os.environ, "COLUMNS": str(columns)}, stdout=stdout)
 
 
 def test_a_terminal_gets_text_and_a_file_gets_svg() -> None:
