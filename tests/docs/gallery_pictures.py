@@ -65,8 +65,12 @@ TASKS = (
     TaskPicture("sorting:sort_seen_parts", 0.14),
     TaskPicture("sorting:sort_shapes", 0.54),
 )
-ROBOTS = (("clean_whiteboard", 0.66), ("contact:teach_pose", 0.43), ("contact:teach_pose_panda", 0.208))
-"""The films, and where in them, from which the robots that ship are cut."""
+ROBOTS = (
+    ("clean_whiteboard", 0.66, 0.53),
+    ("contact:teach_pose", 0.43, 0.5),
+    ("contact:teach_pose_panda", 0.1, 0.545),
+)
+"""The films, where in them, and about which share of their width the robots that ship are cut."""
 ROBOTS_PICTURE = PICTURES / "robots.webp"
 
 SCENES = (("clean_table", 0.2, 0.72), ("sorting:sort_parts", 0.1, 0.5), ("contact:insert_peg", 0.3, 0.75))
@@ -104,11 +108,11 @@ def write_robots_picture() -> None:
     """Write the picture of the robots that ship, side by side, each cut from a film without its caption."""
     width, height = SIZE[0] // len(ROBOTS), SIZE[0] // 2
     both = Image.new("RGB", (*SIZE[:1], height))
-    for place, (task, share) in enumerate(ROBOTS):
+    for place, (task, share, middle) in enumerate(ROBOTS):
         frame = read_frame(task, share)
         above = round(0.85 * frame.height)
         across = round(above * width / height)
-        left = (frame.width - across) // 2
+        left = round(middle * frame.width) - across // 2
         cut = frame.crop((left, 0, left + across, above)).resize((width, height), Image.Resampling.LANCZOS)
         both.paste(cut, (place * width, 0))
     both.save(ROBOTS_PICTURE, quality=QUALITY, method=6)
