@@ -162,7 +162,7 @@ def test_a_killed_server_leaves_a_cell_at_rest_and_a_history(tmp_path: Path) -> 
         wait_until(lambda: Path(f"/proc/{cell}").exists(), lambda there: not there)
     with serving(tmp_path) as again:
         found = again.client.get(f"/operations/{operation}").json()
-        assert (found["state"], found["reason"]) == ("interrupted", "the server of the cell is gone")
+        assert (found["state"], found["reason"]) == ("interrupted", "the server of the cell has ended")
 
 
 def test_two_servers_cannot_share_a_state_folder(server: RunningServer) -> None:

@@ -74,7 +74,7 @@ class CellService:
         self._host, self._inbox, self._outbox = host, inbox, outbox
         self._pace = Pace(FAST if host.devices.backend.capabilities.lock_step is not None else REAL)
         self._assigner = Assigner(inbox.wake)
-        self._requested_end = "the server of the cell is gone"
+        self._requested_end = "the server of the cell has ended"
         self._ending: str | None = None
         self._pending: list[_Pending] = []
         self._status: CellStatus | None = None
