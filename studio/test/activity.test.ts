@@ -1,8 +1,8 @@
 // What the strip shows: what wants a person first, then what goes on; what waits keeps its order.
 import { expect, test } from "vitest";
 import type { OperationStatus, Sample } from "../src/api/types";
-import { describeRemaining, findActivities, movedBy } from "../src/state/activity";
-import { sample } from "../src/state/studio";
+import { describeRemaining, findActivities, movedBy, nameOperations } from "../src/state/activity";
+import { operations, sample } from "../src/state/studio";
 
 let number = 0;
 
@@ -71,4 +71,16 @@ test("a question says how long it may be answered, and what counts then", () => 
     "6:22 min left, then the skill fails",
   );
   expect(describeRemaining({ ...prompt, ends_s: 18 })).toBe("the time to answer is over");
+});
+
+test("sentences call operations as people do, and leave what nobody knows", () => {
+  const known = operation("running", { request: { task: "carry_all", owner: "ada" } });
+  operations.value = new Map([[known.id, known]]);
+  expect(nameOperations(`waits for the whole cell, which ${known.id} holds`)).toBe(
+    "waits for the whole cell, which carry_all (ada) holds",
+  );
+  expect(nameOperations("waits for other-20270104T070000Z-abcdef")).toContain(
+    "other-20270104T070000Z-abcdef",
+  );
+  operations.value = new Map();
 });

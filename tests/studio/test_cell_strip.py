@@ -106,3 +106,12 @@ def test_what_waits_is_put_in_another_order(page: Page, server: RunningServer) -
         expect(queue.nth(0).get_by_role("button", name="Earlier")).to_be_disabled()
         page.keyboard.press("x")
         expect(strip(page)).to_contain_text("Nothing goes on in yard.")
+
+
+def test_a_cell_that_has_stopped_says_why_and_what_has_to_be_done(page: Page, server: RunningServer) -> None:
+    disturb = "/cells/yard/disturbances"
+    assert server.client.post(disturb, json={"type": "emergency-stop"}).is_success
+    expect(strip(page).get_by_role("alert")).to_contain_text("an emergency stop is pressed. Nothing runs until")
+    assert server.client.post(disturb, json={"type": "emergency-stop", "pressed": False}).is_success
+    page.get_by_role("button", name="Acknowledge").click()
+    expect(strip(page)).to_contain_text("Nothing goes on in yard.")

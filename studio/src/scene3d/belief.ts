@@ -29,10 +29,10 @@ export function findMisbeliefs(
   });
 }
 
-/** Return how far something is off, as text: in mm below 10 cm, in degrees if it is only turned. */
+/** Return how something is off, as text: in mm below 10 cm, in degrees if it is only turned. */
 export function describeDifference({ metres, radians }: Misbelief): string {
-  if (metres < LEAST_M) return `${((radians * 180) / Math.PI).toFixed(1)}°`;
-  return metres < 0.1 ? `${(metres * 1000).toFixed(0)} mm` : `${metres.toFixed(2)} m`;
+  if (metres < LEAST_M) return `turned by ${((radians * 180) / Math.PI).toFixed(1)}°`;
+  return `${metres < 0.1 ? `${(metres * 1000).toFixed(0)} mm` : `${metres.toFixed(2)} m`} away`;
 }
 
 /** Return the poses that move individuals to where they are believed to be. */

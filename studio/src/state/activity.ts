@@ -86,6 +86,12 @@ export function describeOwned({ request }: OperationStatus): string {
   return `${describeRequest(request)}${request.owner ? ` (${request.owner})` : ""}`;
 }
 
+/** Return a sentence about operations in which they are called as a person calls them, not by their ids. */
+export function nameOperations(text: string): string {
+  const named = [...operations.value.values()].filter(({ id }) => text.includes(id));
+  return named.reduce((said, each) => said.replaceAll(each.id, describeOwned(each)), text);
+}
+
 /** Return the order of a queue in which one operation comes one place earlier, or later. */
 export function movedBy(order: readonly string[], id: string, by: -1 | 1): string[] {
   const at = order.indexOf(id);

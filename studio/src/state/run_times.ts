@@ -24,8 +24,15 @@ export function formatDuration({ started_at: from, ended_at: to }: OperationStat
   return formatTime((Date.parse(to) - Date.parse(from)) / 1000);
 }
 
-/** Return when an operation was submitted, as people write it. */
-export function formatStart(operation: OperationStatus): string {
+/** Return a time by the clock of this machine, with its day if that is not `today`. */
+export function formatMoment(at: Date, today = new Date()): string {
+  if (at.toDateString() === today.toDateString())
+    return at.toLocaleTimeString(undefined, { timeStyle: "medium" });
+  return at.toLocaleString(undefined, { dateStyle: "short", timeStyle: "medium" });
+}
+
+/** Return when something was submitted, as its id says and people write it. */
+export function formatStart(operation: { id: string }): string {
   const [, year, month, day, hour, minute, second] =
     /(\d{4})(\d\d)(\d\d)T(\d\d)(\d\d)(\d\d)Z/.exec(operation.id) ?? [];
   if (year === undefined) return "";
@@ -38,10 +45,13 @@ export function formatStart(operation: OperationStatus): string {
 /** Return when an operation was submitted, began and ended by the clock of this machine, and how long it took. */
 export function describeTimes(operation: OperationStatus): string {
   const { submitted_at: submitted, started_at: started, ended_at: ended } = operation;
-  const clock = (at: string): string => new Date(at).toLocaleTimeString(undefined, { timeStyle: "medium" });
-  const said = Object.entries({ submitted, started, ended }).flatMap(([name, at]) =>
-    typeof at === "string" ? [`${name} ${clock(at)}`] : [],
-  );
+  let day = new Date();
+  const said = Object.entries({ submitted, started, ended }).flatMap(([name, at]) => {
+    if (typeof at !== "string") return [];
+    const before = day;
+    day = new Date(at);
+    return [`${name} ${formatMoment(day, before)}`];
+  });
   const took = formatDuration(operation);
-  return said.join(", ") + (took === "" ? "" : `: ${took}`);
+  return said.join(", ") + (took === "" ? "" : ` after ${took}`);
 }

@@ -28,6 +28,11 @@ export const operations = signal<ReadonlyMap<string, OperationStatus>>(new Map()
 export const cellName = signal<string | null>(null);
 export const cell = computed(() => cells.value.get(cellName.value ?? "") ?? null);
 
+/** Whether the cell has stopped by itself, or was stopped, and waits until somebody acknowledges that. */
+export const isCellStopped = computed(
+  () => cell.value !== null && !["off", "operational"].includes(cell.value.state),
+);
+
 export const library = signal<LibraryDescription | null>(null);
 export const facts = signal<readonly WorldFact[]>([]);
 /** Whether the facts of the cell that is shown have been read. */
@@ -136,15 +141,27 @@ export interface ShownRun {
   state: RunState | null;
   verified: boolean | null;
   claims: readonly string[];
+  /** Whether its skills ask a person. */
+  asks: boolean;
   reason: string;
   failure: Failure | null;
   goesOn: boolean;
 }
 export const shownRun = computed((): ShownRun | null => {
   if (replay.value !== null) {
-    const { state, ended, reason } = told.value;
+    const { state, ended, reason, prompts } = told.value;
     const { verified = null, failure = null, false_claims: claims = [] } = ended ?? {};
-    return { title: replay.value.name, state, verified, claims, failure, reason, goesOn: ended === null };
+    const asks = prompts.length > 0;
+    return {
+      title: replay.value.name,
+      state,
+      verified,
+      claims,
+      asks,
+      failure,
+      reason,
+      goesOn: ended === null,
+    };
   }
   if (status.value === null) return null;
   const { request, state, verified, false_claims: claims, reason, failure } = status.value;
@@ -153,6 +170,7 @@ export const shownRun = computed((): ShownRun | null => {
     state,
     verified,
     claims,
+    asks: status.value.prompts.length > 0,
     reason,
     failure,
     goesOn: isOngoing.value,

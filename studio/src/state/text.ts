@@ -149,9 +149,12 @@ export function describeArguments(request: OperationRequest): string {
     .join(", ");
 }
 
+/** Return what the id of an operation says of it: all but its time and number. */
+const nameOf = (id: string): string => id.replace(/-\d{8}T\d{6}Z-\w+$/, "");
+
 /** Return what an operation is to do, in short. */
 export function describeRequest(request: OperationRequest): string {
   if (request.task) return request.task;
   if (request.goal) return request.goal;
-  return request.call || (request.continues ? `continues ${request.continues}` : "operation");
+  return request.call || (request.continues ? `continues ${nameOf(request.continues)}` : "operation");
 }

@@ -14,6 +14,24 @@ export const replayed = signal<{ readonly series: string; readonly seed: number 
 
 const LOOK_MS = 1000;
 
+/** What can disturb each trial of a series, as people say it. */
+export const DISTURBANCES = {
+  none: "nothing",
+  missing: "surfaces, fixtures and persons are missing",
+  obstacle: "an obstacle is in the way",
+  push: "a person pushes the arm",
+  take: "a person takes what a hand holds",
+} as const;
+const TRIALS = 50;
+
+/** Return how many trials a series has when it is done. */
+export const wantedTrials = ({ request }: TrialSeries): number => request.number ?? TRIALS;
+
+/** Return what disturbs the trials of a series; nothing if nothing does. */
+export function describeDisturbance({ request: { disturb = "none" } }: TrialSeries): string {
+  return disturb === "none" ? "" : DISTURBANCES[disturb];
+}
+
 export const goesOn = (series: TrialSeries): boolean =>
   series.state === "waiting" || series.state === "going on";
 

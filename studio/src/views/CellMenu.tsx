@@ -41,7 +41,9 @@ function Menu({ close }: { close: () => void }) {
   const then = (done: Promise<boolean>): void => void done.then((isDone) => isDone && close());
   return (
     <>
-      <p>The world, and what is really so in this simulation, become again as the scene says.</p>
+      <p>
+        A reset puts everything back to how the scene says it is, in the world model and in the simulation.
+      </p>
       <button class="primary" disabled={obstacle !== ""} onClick={() => then(reset())}>
         Reset to the scene
       </button>
@@ -66,7 +68,7 @@ function Menu({ close }: { close: () => void }) {
       </form>
       {name !== "" && !isValid && (
         <p class="small is-bad">
-          A name has letters, digits, “_”, “-” and “.”, and begins with none of the last two.
+          A name has only letters, digits, “_”, “-” and “.”, no spaces, and does not begin with “-” or “.”.
         </p>
       )}
       <Saved obstacle={obstacle} restored={then} />

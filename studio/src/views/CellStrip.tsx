@@ -7,18 +7,29 @@ import {
   describeOwned,
   describeRemaining,
   movedBy,
+  nameOperations,
   queue,
   type Activity,
 } from "../state/activity";
 import { comparison } from "../state/comparison";
-import { cell, cellName, mayCommand, operationId, refusalOf, replay } from "../state/studio";
+import {
+  cell,
+  cellName,
+  connection,
+  isCellStopped,
+  mayCommand,
+  operationId,
+  refusalOf,
+  replay,
+} from "../state/studio";
 import { describeRequest } from "../state/text";
 import { shownSeries } from "../state/trials";
 import type { OperationStatus } from "../api/types";
 import { CellMenu } from "./CellMenu";
+import { Icon } from "./icons";
 import { choosing, maximised, runTab } from "./layout";
 import { Popover } from "./Popover";
-import { AskBadge, RunBadge } from "./status";
+import { RunBadge } from "./status";
 
 /** How many operations have a place of their own; the panel Runs has the others. */
 const MOST = 3;
@@ -30,12 +41,13 @@ export function CellStrip() {
   return (
     <nav class="strip" aria-label="What goes on in the cell">
       <ul class="strip-list">
+        <CellStop />
         {shown.slice(0, MOST).map((each) => (
           <li key={each.operation.id}>
             <Item activity={each} />
           </li>
         ))}
-        {shown.length === 0 && (
+        {shown.length === 0 && !isCellStopped.value && (
           <li class="muted truncate">
             {waiting.length > 0 ? "Nothing runs" : "Nothing goes on"} in {cell.value.name}.
           </li>
@@ -49,6 +61,19 @@ export function CellStrip() {
       {waiting.length > 0 && <Queue waiting={waiting} />}
       <CellMenu />
     </nav>
+  );
+}
+
+/** Why the cell takes no operations, and what has to be done. */
+function CellStop() {
+  const current = cell.value;
+  if (current === null || !isCellStopped.value) return null;
+  const what = current.reason === "" ? "" : `${current.reason}. `;
+  const text = `${what}Nothing runs until the cause is removed and the stop is acknowledged.`;
+  return (
+    <li class="is-bad strip-stop truncate" role="alert" title={text}>
+      <Icon name="warning" /> {text}
+    </li>
   );
 }
 
@@ -79,7 +104,7 @@ function focusDecision(from: Element | null, frames: number): void {
 function Item({ activity: { operation, attention, prompt } }: { activity: Activity }) {
   const isShown = operation.id === operationId.value && replay.value === null;
   const isUrgent = attention !== "goes on";
-  const said = prompt?.text ?? (operation.state === "planned" ? "" : operation.reason);
+  const said = prompt?.text ?? (operation.state === "planned" ? "" : nameOperations(operation.reason));
   const left = prompt === null ? "" : describeLeft(prompt);
   const title = [describeOwned(operation), said, prompt === null ? "" : describeRemaining(prompt)]
     .filter((each) => each !== "")
@@ -91,7 +116,7 @@ function Item({ activity: { operation, attention, prompt } }: { activity: Activi
       title={title}
       onClick={() => lead(operation)}
     >
-      {prompt === null ? <RunBadge state={operation.state} /> : <AskBadge />}
+      <RunBadge state={operation.state} asks={prompt !== null} isKnown={connection.value.state === "open"} />
       <strong class="truncate">{describeRequest(operation.request)}</strong>
       {operation.request.owner && <span class="muted small truncate">{operation.request.owner}</span>}
       {said !== "" && <span class="small truncate">{said}</span>}
@@ -116,14 +141,21 @@ function Queue({ waiting }: { waiting: readonly OperationStatus[] }) {
       isRight
       face={`${waiting.length} waiting`}
     >
-      {() => (
+      {(close) => (
         <ol>
           {waiting.map((each, at) => (
             <li key={each.id} class="queue-item">
               <span class="muted mono">{each.place}</span>
-              <button class="link queue-text" title={each.id} onClick={() => lead(each)}>
+              <button
+                class="link queue-text"
+                title={each.id}
+                onClick={() => {
+                  close();
+                  lead(each);
+                }}
+              >
                 <span class="truncate">{describeOwned(each)}</span>
-                <span class="small muted wrap-anywhere">{each.reason || each.state}</span>
+                <span class="small muted wrap-anywhere">{nameOperations(each.reason) || each.state}</span>
               </button>
               <Mover id={each.id} by={-1} isPossible={at > 0} move={move} />
               <Mover id={each.id} by={1} isPossible={at < waiting.length - 1} move={move} />

@@ -80,6 +80,7 @@ function Offers({ onChoose }: { onChoose: (wish: Wish) => void }) {
     );
   }, [library.value]);
   const offers = tasks.map((task) => ({ task, missing: missingIn(task.goal, known) }));
+  const example = tasks.find(({ goal }) => goal !== "")?.goal;
   return (
     <>
       <h3>What shall be done?</h3>
@@ -111,7 +112,7 @@ function Offers({ onChoose }: { onChoose: (wish: Wish) => void }) {
         }}
       >
         <h3>or a goal</h3>
-        <GoalInput value={goal} onChange={setGoal} />
+        <GoalInput value={goal} onChange={setGoal} placeholder={example} />
         <button disabled={goal.trim() === ""}>Plan for this goal</button>
       </form>
     </>

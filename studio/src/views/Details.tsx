@@ -4,11 +4,12 @@ import type { Failure, ImplementationChosen, Rejection, TaskEnded } from "../api
 import { select } from "../state/actions";
 import { activeCalls, ancestors, type TreeNode } from "../state/operation";
 import { selectedNode } from "../state/selection";
+import { nameOperations } from "../state/activity";
 import { operation, selection, shownRun } from "../state/studio";
 import { formatTime } from "../state/text";
 import { CallExplanation, Explanation } from "./Explanation";
 import { Fact, PlaceLink, ThingLink, Value } from "./links";
-import { FalseClaims, nodeWord, NodeMark, RunBadge } from "./status";
+import { FalseClaims, nodeWord, NodeMark, RunBadge, toneOfEnd } from "./status";
 import { KnownFacts } from "./KnownFacts";
 import { ThingDetails } from "./ThingDetails";
 
@@ -43,10 +44,10 @@ function OperationDetails() {
       {state !== null && (
         <p class="row">
           <RunBadge state={state} {...judge(ended)} />
-          {waits !== "" && ended === null && <span class="wrap-anywhere">{waits}</span>}
+          {waits !== "" && ended === null && <span class="wrap-anywhere">{nameOperations(waits)}</span>}
         </p>
       )}
-      {ended?.failure != null && <FailureText failure={ended.failure} />}
+      {ended?.failure != null && <FailureText failure={ended.failure} tone={toneOfEnd(state)} />}
       {ended !== null && ended.status === "failed" && <FailedNodes />}
       <Running
         title={ended === null ? "What runs now" : "What ran when it ended"}
@@ -75,7 +76,7 @@ function Running({ title, active }: { title: string; active: readonly TreeNode[]
 }
 
 function judge(ended: TaskEnded | null) {
-  return { verified: ended?.verified, claims: ended?.false_claims };
+  return { asks: shownRun.value?.asks ?? false, verified: ended?.verified, claims: ended?.false_claims };
 }
 
 /** What of the claims at the end is false; then the facts that a success rests on, and how each is known. */
@@ -171,9 +172,9 @@ function NodeDetails({ node }: { node: TreeNode }) {
   );
 }
 
-function FailureText({ failure }: { failure: Failure }) {
+function FailureText({ failure, tone = "bad" }: { failure: Failure; tone?: "bad" | "" }) {
   return (
-    <div class="notice bad stack">
+    <div class={`notice ${tone} stack`}>
       <p>{failure.message}</p>
       {failure.detail && <p class="small">{failure.detail}</p>}
       {failure.source != null && (

@@ -41,7 +41,8 @@ interface FrameProps {
   children: ComponentChildren;
   /** The edits that are made; none if something is missing. */
   edits: readonly string[];
-  action: string;
+  /** What the button says that makes them, if any can be made. */
+  action?: string;
   why?: string;
   /** What takes the fact away, and what the button says. */
   removal?: { edits: readonly string[]; label: string };
@@ -78,11 +79,11 @@ function Frame({ children, edits, action, why: begun = "", removal }: FrameProps
           value={why}
           onInput={(event) => setWhy(event.currentTarget.value)}
         />
-        {edits.length > 0 || removal === undefined ? (
+        {action !== undefined && (
           <button class="primary" disabled={edits.length === 0 || !hasWhy} title={missing}>
             {action}
           </button>
-        ) : null}
+        )}
         {removal !== undefined && (
           <button
             type="button"
@@ -109,12 +110,12 @@ export function FactForm({ fact }: { fact: LabelledFact }) {
     return <ValueForm fact={fact} subject={subject} before={before} />;
   if (fact.type !== "class")
     return (
-      <Frame edits={[]} action="Change">
+      <Frame edits={[]}>
         <p class="small muted">No edit can state this value.</p>
       </Frame>
     );
   return (
-    <Frame edits={[]} action="Change" removal={{ edits: [`not ${subject}`], label: "Remove" }}>
+    <Frame edits={[]} removal={{ edits: [`not ${subject}`], label: "Remove" }}>
       <p class="small muted">
         The class of a thing stays. <code>{subject}</code> can be removed, with all facts about it.
       </p>
@@ -140,7 +141,7 @@ function ValueForm({ fact, subject, before }: ValueFormProps) {
   const removal = { edits: [`not ${before}`], label: "Remove" };
   if (known === null || term === undefined)
     return (
-      <Frame edits={[]} action="Change" removal={removal}>
+      <Frame edits={[]} removal={removal}>
         {known === null ? <Reading /> : <p class="small muted">Only its removal can be stated.</p>}
       </Frame>
     );

@@ -18,7 +18,7 @@ export function Planning() {
         <p class="small muted mono">{progress?.states?.toLocaleString("en")} states evaluated</p>
       )}
       {progress?.narrowed && (
-        <p class="small muted">{progress.individuals} individuals; the others are left out of the search</p>
+        <p class="small muted">{progress.individuals} things; the others are left out of the search</p>
       )}
     </div>
   );

@@ -60,7 +60,9 @@ function summary(preview: PlanPreview): string {
 function countLeftOut(all: PlanPreview["left_out"]): string {
   const counts = new Map<string, number>();
   for (const { kind, what } of all) counts.set(kind, (counts.get(kind) ?? 0) + what.length);
-  return [...counts].map(([kind, count]) => `${count} ${kind}`).join(", ");
+  return [...counts]
+    .map(([kind, count]) => `${count} ${kind === "individuals" ? "things" : kind}`)
+    .join(", ");
 }
 
 function LeftOut({ preview }: { preview: PlanPreview }) {

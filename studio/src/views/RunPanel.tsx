@@ -11,7 +11,7 @@ import {
   shownRun,
   status,
 } from "../state/studio";
-import { describeRemaining } from "../state/activity";
+import { describeRemaining, nameOperations } from "../state/activity";
 import { bounds } from "../state/bounds";
 import { describeFailure, formatTime, formatValue } from "../state/text";
 import { BoundsChart } from "./BoundsChart";
@@ -21,7 +21,7 @@ import { choosing } from "./layout";
 import { NothingToDo } from "./NothingToDo";
 import { OperationData, OperationTimes } from "./OperationData";
 import { Planning } from "./Planning";
-import { FalseClaims, NodeMark, RunBadge } from "./status";
+import { FalseClaims, NodeMark, RunBadge, toneOfEnd } from "./status";
 
 export function RunPanel() {
   if (cell.value === null)
@@ -49,10 +49,12 @@ function Progress() {
         </div>
         <OperationTimes />
         {current.reason !== "" && current.failure === null && (
-          <p class="small wrap-anywhere">{current.reason}</p>
+          <p class="small wrap-anywhere">{nameOperations(current.reason)}</p>
         )}
         <FalseClaims claims={current.claims} />
-        {current.failure !== null && <p class="notice bad">{describeFailure(current.failure)}</p>}
+        {current.failure !== null && (
+          <p class={`notice ${toneOfEnd(current.state)}`}>{describeFailure(current.failure)}</p>
+        )}
       </div>
       <Prompts />
       <Decisions />
@@ -107,27 +109,44 @@ const DECISIONS = [
 function Continue() {
   const current = status.value;
   if (replay.value !== null || current?.state !== "interrupted" || current.continued_by !== "") return null;
+  const halted = describeHalted();
   const go = (decision: "replan" | "retry" | "skip"): void => {
     const why = decision === "skip" ? "counted as done in the studio" : "";
     void start({ continues: current.id, decision, why }, crypto.randomUUID());
   };
   return (
-    <div class="row decisions">
-      {current.decisions.map((name) => {
-        const known = DECISIONS.find((each) => each.name === name);
-        return (
-          <button
-            key={name}
-            disabled={!mayCommand()}
-            title={refusalOf("operate") || known?.why}
-            onClick={() => go(name)}
-          >
-            {known?.label ?? name}
-          </button>
-        );
-      })}
-    </div>
+    <>
+      <p class="small">
+        {halted !== undefined && `It was interrupted in ${halted}. `}
+        How shall it go on? Check first how the cell is now.
+      </p>
+      <div class="row decisions">
+        {current.decisions.map((name) => {
+          const known = DECISIONS.find((each) => each.name === name);
+          return (
+            <button
+              key={name}
+              disabled={!mayCommand()}
+              title={refusalOf("operate") || known?.why}
+              onClick={() => go(name)}
+            >
+              {known?.label ?? name}
+            </button>
+          );
+        })}
+      </div>
+    </>
   );
+}
+
+/** Return the step in which the operation was interrupted; undefined if it was in none. */
+function describeHalted(): string | undefined {
+  const { attempts, nodes } = operation.value;
+  const last = attempts.at(-1);
+  const at = (last?.nodes ?? []).findIndex((key) => key !== null && nodes.get(key)?.status === "halted");
+  const step = last?.plan?.steps[at];
+  if (step === undefined) return undefined;
+  return `${step.skill} ${Object.values(step.arguments).map(formatValue).join(", ")}`;
 }
 
 /** What a person can decide now: about a plan, or after a failure. */

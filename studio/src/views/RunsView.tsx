@@ -13,7 +13,7 @@ import { describeArguments, describeFailure, describeRequest } from "../state/te
 import { openFile } from "./Dropping";
 import { choosing } from "./layout";
 import { formatDuration, formatStart, newestFirst } from "../state/run_times";
-import { RunBadge } from "./status";
+import { RunBadge, toneOfEnd } from "./status";
 
 const search = signal("");
 const SEARCH_MS = 250;
@@ -103,26 +103,32 @@ function Run({ run }: { run: OperationStatus }) {
         <span class="muted small">
           {[formatStart(run), formatDuration(run), run.request.owner].filter(Boolean).join(" · ")}
         </span>
-        {run.failure != null && <span class="small run-failure">{describeFailure(run.failure)}</span>}
-      </button>
-      <div class="row run-actions">
-        <button class="plain small" onClick={() => void attempt(() => replayOperation(run.id))}>
-          Replay
-        </button>
-        {first !== null && first.id !== run.id && (
-          <button
-            class="plain small"
-            title="Side by side: the run that is shown (A), and this one (B)"
-            onClick={() => void compareRuns(first, run)}
-          >
-            Compare
-          </button>
+        {run.failure != null && (
+          <span class={`small run-failure ${toneOfEnd(run.state) === "bad" ? "is-bad" : "muted"}`}>
+            {describeFailure(run.failure)}
+          </span>
         )}
-        <button class="plain small" onClick={() => void attempt(() => download(run.id))}>
-          Download
-        </button>
-        {ENDS.includes(run.state) && <Report id={run.id} />}
-      </div>
+      </button>
+      {run.state !== "queued" && (
+        <div class="row run-actions">
+          <button class="plain small" onClick={() => void attempt(() => replayOperation(run.id))}>
+            Replay
+          </button>
+          {first !== null && first.id !== run.id && first.state !== "queued" && (
+            <button
+              class="plain small"
+              title="Side by side: the run that is shown (A), and this one (B)"
+              onClick={() => void compareRuns(first, run)}
+            >
+              Compare
+            </button>
+          )}
+          <button class="plain small" onClick={() => void attempt(() => download(run.id))}>
+            Download
+          </button>
+          {ENDS.includes(run.state) && <Report id={run.id} />}
+        </div>
+      )}
     </li>
   );
 }

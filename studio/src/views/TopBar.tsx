@@ -8,6 +8,7 @@ import {
   cells,
   connection,
   describeUnseen,
+  isCellStopped,
   mayCommand,
   message,
   operation,
@@ -49,7 +50,6 @@ export function TopBar() {
 function CellChoice() {
   const current = cell.value;
   if (current === null) return <span class="muted">no cell</span>;
-  const needsCare = current.state !== "off" && current.state !== "operational";
   return (
     <div class="row">
       <label class="row">
@@ -69,7 +69,7 @@ function CellChoice() {
       <span title={current.reason || current.scene}>
         <CellBadge state={current.state} isKnown={connection.value.state === "open"} />
       </span>
-      {needsCare && (
+      {isCellStopped.value && (
         <button
           disabled={!mayCommand()}
           title={refusalOf("operate") || current.reason}
@@ -114,6 +114,7 @@ function Pace({ name, pace }: { name: string; pace: number | null }) {
 function OperationTitle() {
   const current = shownRun.value;
   if (current === null) return <span class="operation muted">nothing has run yet</span>;
+  const { time, task } = operation.value;
   return (
     <span class="operation" title={replay.value === null ? status.value?.id : current.title}>
       <strong class="truncate">{current.title}</strong>
@@ -123,9 +124,15 @@ function OperationTitle() {
           recording
         </span>
       )}
-      {current.state !== null && <RunBadge {...current} state={current.state} />}
+      {current.state !== null && (
+        <RunBadge
+          {...current}
+          state={current.state}
+          isKnown={replay.value !== null || connection.value.state === "open"}
+        />
+      )}
       <span class="clock mono" title="How long it has run, in the time of the cell">
-        {formatTime(Math.max(0, operation.value.time - (operation.value.task?.time ?? 0)))}
+        {task !== null && formatTime(Math.max(0, time - task.time))}
       </span>
     </span>
   );

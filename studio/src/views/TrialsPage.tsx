@@ -2,8 +2,19 @@
 import { useState } from "preact/hooks";
 import type { Series, Spread, TrialSeries } from "../api/types";
 import { may } from "../state/studio";
+import { formatStart } from "../state/run_times";
 import { formatNumber } from "../state/text";
-import { dotsOf, goesOn, playTrial, removeSeries, replayed, shownSeries, worstOf } from "../state/trials";
+import {
+  describeDisturbance,
+  dotsOf,
+  goesOn,
+  playTrial,
+  removeSeries,
+  replayed,
+  shownSeries,
+  wantedTrials,
+  worstOf,
+} from "../state/trials";
 import { FullPage } from "./FullPage";
 
 interface Shown {
@@ -33,7 +44,15 @@ export function TrialsPage({ series: { about, result } }: { series: Shown }) {
         <div class="trials">
           <Summary about={about} result={result} />
           <section class="stack" aria-label="Distributions">
-            <h3>What was measured</h3>
+            <div class="trials-legend">
+              <h3>What was measured</h3>
+              <p class="small muted">
+                A dot is a trial; click it to replay it. The box holds the middle half of the values, the line
+                is their median. <span class="is-waiting">The worst value</span> and{" "}
+                <span class="is-bad">failed trials</span> have colours of their own
+                {result.spreads.some((each) => each.bound !== null) && "; a broken line is what is wanted"}.
+              </p>
+            </div>
             {result.spreads.map((each) => (
               <Distribution
                 key={`${each.subject} ${each.metric}`}
@@ -84,6 +103,7 @@ function Summary({ about, result }: { about: TrialSeries; result: Series }) {
   const interval = result.pass_interval;
   return (
     <section class="stack trials-summary" aria-label="Summary">
+      <About series={about} />
       <h3>Passed</h3>
       <p class={`trials-share ${result.passed === result.done ? "is-good" : "is-bad"}`}>
         {result.passed} of {result.done}
@@ -130,6 +150,22 @@ function Summary({ about, result }: { about: TrialSeries; result: Series }) {
         ))}
       </ul>
     </section>
+  );
+}
+
+/** What was run, when, and what disturbed it. */
+function About({ series }: { series: TrialSeries }) {
+  const first = series.request.seed ?? 0;
+  const given = Object.entries(series.request.arguments ?? {}).map(([name, value]) => `${name}: ${value}`);
+  const disturbance = describeDisturbance(series);
+  return (
+    <div>
+      {given.length > 0 && <p class="mono wrap-anywhere">{given.join(", ")}</p>}
+      {disturbance !== "" && <p>Disturbed: {disturbance}.</p>}
+      <p class="small muted">
+        Begun {formatStart(series)}, seeds {first} to {first + wantedTrials(series) - 1}.
+      </p>
+    </div>
   );
 }
 

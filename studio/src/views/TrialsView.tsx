@@ -2,7 +2,17 @@
 import { useEffect, useState } from "preact/hooks";
 import type { TrialSeries, TrialsRequest } from "../api/types";
 import { cellName, library, may } from "../state/studio";
-import { allSeries, beginSeries, followSeries, goesOn, showSeries } from "../state/trials";
+import { formatStart } from "../state/run_times";
+import {
+  allSeries,
+  beginSeries,
+  describeDisturbance,
+  DISTURBANCES,
+  followSeries,
+  goesOn,
+  showSeries,
+  wantedTrials,
+} from "../state/trials";
 import { GoalInput } from "./GoalInput";
 
 export function TrialsView() {
@@ -52,6 +62,7 @@ export function TrialsView() {
 function Row({ series }: { series: TrialSeries }) {
   const { request, done, passed } = series;
   const given = Object.values(request.arguments ?? {}).join(", ");
+  const disturbance = describeDisturbance(series);
   const failed = done - passed;
   return (
     <li class="run-item">
@@ -62,28 +73,20 @@ function Row({ series }: { series: TrialSeries }) {
             {done === 0 ? "" : failed === 0 ? `✓ ${passed} passed` : `✗ ${failed} of ${done} failed`}
           </span>
         </span>
-        <span class="muted small truncate">
-          {given !== "" && `${given} · `}
-          {request.disturb !== undefined && request.disturb !== "none" && `${request.disturb} · `}
-          {goesOn(series) ? `${series.state}: ` : ""}
-          {done} of {request.number ?? 50} trials
+        {given !== "" && <span class="mono wrap-anywhere">{given}</span>}
+        {disturbance !== "" && <span class="small wrap-anywhere">{disturbance}</span>}
+        <span class="muted small">
+          {formatStart(series)} · {goesOn(series) ? `${series.state}: ` : ""}
+          {done} of {wantedTrials(series)} trials
         </span>
         {goesOn(series) && (
-          <progress aria-label="Trials that are done" max={request.number ?? 50} value={done} />
+          <progress aria-label="Trials that are done" max={wantedTrials(series)} value={done} />
         )}
-        {series.reason !== "" && <span class="small run-failure">{series.reason}</span>}
+        {series.reason !== "" && <span class="small is-bad run-failure">{series.reason}</span>}
       </button>
     </li>
   );
 }
-
-const DISTURBANCES = {
-  none: "nothing",
-  missing: "the work object is missing",
-  obstacle: "an obstacle is in the way",
-  push: "a person pushes the arm",
-  take: "a person takes what a hand holds",
-} as const;
 
 function NewSeries({ onDone }: { onDone: () => void }) {
   const tasks = library.value?.tasks ?? [];

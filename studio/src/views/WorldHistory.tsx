@@ -5,6 +5,7 @@ import { api } from "../api/client";
 import type { WorldWrite } from "../api/types";
 import { attempt, select } from "../state/actions";
 import { cellName, mayCommand, refusalOf, worldSequence } from "../state/studio";
+import { formatMoment } from "../state/run_times";
 import { formatChange } from "../state/text";
 import { differencesOf, editsOf } from "../state/world_changes";
 
@@ -33,7 +34,7 @@ function Waiting({ writes, children }: { writes: WorldWrite[] | null; children: 
 }
 
 const timeOf = (write: WorldWrite): string =>
-  write.written_ns === 0 ? `write ${write.sequence}` : new Date(write.written_ns / 1e6).toLocaleTimeString();
+  write.written_ns === 0 ? `write ${write.sequence}` : formatMoment(new Date(write.written_ns / 1e6));
 
 interface WorldHistoryProps {
   /** Words; only what has all of them is shown. */
@@ -71,7 +72,7 @@ export function WorldHistory({ search, onUndo }: WorldHistoryProps) {
             <tr key={each.sequence}>
               <td class="muted when">{timeOf(each)}</td>
               <td class="wrap-anywhere">
-                {each.origin || "the scene"} <span class="muted when">{each.evidence ?? "given"}</span>
+                {each.origin || "the scene"} <span class="muted when">· {each.evidence ?? "given"}</span>
               </td>
               <td class="mono wrap-anywhere">{each.changes.map(formatChange).join("; ")}</td>
               <td>
@@ -102,7 +103,7 @@ function UndoButton({ write, onUndo }: UndoButtonProps) {
       class="small"
       disabled={edits === null || !mayCommand("edit")}
       title={why}
-      onClick={() => edits !== null && onUndo(edits, `undoes write ${write.sequence} (${write.origin})`)}
+      onClick={() => edits !== null && onUndo(edits, `undoes “${write.origin}”`)}
     >
       Undo
     </button>

@@ -1,6 +1,7 @@
 // States of cells, operations and nodes: each has a colour, a shape and a word.
 import type { CellState, RunState } from "../api/types";
 import type { NodeStatus } from "../state/operation";
+import { ENDS } from "../state/studio";
 import { Icon, type IconName } from "./icons";
 
 type Look = [tone: string, icon: IconName, word: string];
@@ -45,12 +46,18 @@ function Badge({ look, word }: { look: Look; word?: string }) {
 
 interface RunBadgeProps {
   state: RunState;
+  /** Whether its skills ask a person. */
+  asks?: boolean;
+  /** Whether this is how it is now; otherwise it was so when the connection was lost. */
+  isKnown?: boolean;
   verified?: boolean | null | undefined;
   claims?: readonly string[] | undefined;
 }
 
 /** The state of an operation; a success that rests on assumed facts, or whose claims are false, is not called one. */
-export function RunBadge({ state, verified, claims = [] }: RunBadgeProps) {
+export function RunBadge({ state, asks = false, isKnown = true, verified, claims = [] }: RunBadgeProps) {
+  if (!isKnown && !ENDS.includes(state)) return <Badge look={["is-idle", "ring", `was ${RUN[state][2]}`]} />;
+  if (asks) return <Badge look={["is-waiting", "help", "asks"]} />;
   if (state === "succeeded" && claims.length > 0)
     return <Badge look={["is-bad", "cross", "false success"]} />;
   if (state === "succeeded" && verified === false)
@@ -58,9 +65,9 @@ export function RunBadge({ state, verified, claims = [] }: RunBadgeProps) {
   return <Badge look={RUN[state]} />;
 }
 
-/** An operation whose skills ask a person. */
-export function AskBadge() {
-  return <Badge look={["is-waiting", "help", "asks"]} />;
+/** How a notice looks that says why an operation has ended: what a person has stopped has not failed. */
+export function toneOfEnd(state: RunState | null): "bad" | "" {
+  return state === "stopped" ? "" : "bad";
 }
 
 /** What the world model claims that is not so in the simulator. */
