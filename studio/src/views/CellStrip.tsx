@@ -71,8 +71,11 @@ function CellStop() {
   const what = current.reason === "" ? "" : `${current.reason}. `;
   const text = `${what}Nothing runs until the cause is removed and the stop is acknowledged.`;
   return (
-    <li class="is-bad strip-stop truncate" role="alert" title={text}>
-      <Icon name="warning" /> {text}
+    <li>
+      <p class="is-bad strip-stop" role="alert" title={text}>
+        <Icon name="warning" />
+        <span class="truncate">{text}</span>
+      </p>
     </li>
   );
 }

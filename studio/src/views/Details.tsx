@@ -196,7 +196,8 @@ function Causes({ causes, above }: { causes: readonly Failure[]; above: string }
       {causes.map((each, index) => (
         <li key={index}>
           {each.alternative ? `${each.alternative}: ` : ""}
-          {each.message !== above && each.message} {each.source != null && <PlaceLink place={each.source} />}
+          {each.message !== above ? each.message : each.source != null ? "the same at" : "the same"}{" "}
+          {each.source != null && <PlaceLink place={each.source} />}
           <Causes causes={each.causes ?? []} above={each.message} />
         </li>
       ))}

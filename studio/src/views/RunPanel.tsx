@@ -1,4 +1,5 @@
 // Run: choose what to do, see the plan first, start; then how far it is, and how it ended.
+import type { Failure, RunState } from "../api/types";
 import { command, select, start } from "../state/actions";
 import {
   allows,
@@ -13,11 +14,12 @@ import {
 } from "../state/studio";
 import { describeRemaining, nameOperations } from "../state/activity";
 import { bounds } from "../state/bounds";
-import { describeFailure, formatTime, formatValue } from "../state/text";
+import { NOTHING } from "../state/selection";
+import { formatTime, formatValue } from "../state/text";
 import { BoundsChart } from "./BoundsChart";
 import { Choose } from "./Choose";
 import { Icon } from "./icons";
-import { choosing } from "./layout";
+import { choosing, detailsTab, maximised } from "./layout";
 import { NothingToDo } from "./NothingToDo";
 import { OperationData, OperationTimes } from "./OperationData";
 import { Planning } from "./Planning";
@@ -52,9 +54,7 @@ function Progress() {
           <p class="small wrap-anywhere">{nameOperations(current.reason)}</p>
         )}
         <FalseClaims claims={current.claims} />
-        {current.failure !== null && (
-          <p class={`notice ${toneOfEnd(current.state)}`}>{describeFailure(current.failure)}</p>
-        )}
+        {current.failure !== null && <End failure={current.failure} state={current.state} />}
       </div>
       <Prompts />
       <Decisions />
@@ -67,6 +67,25 @@ function Progress() {
           {isOngoing.value ? "Submit another one" : "Run something else"}
         </button>
       </div>
+    </div>
+  );
+}
+
+/** Why it has ended, in short; all that was tried is one click away. */
+function End({ failure, state }: { failure: Failure; state: RunState | null }) {
+  const showAll = (): void => {
+    select(NOTHING);
+    detailsTab.value = "why";
+    if (maximised.value !== null) maximised.value = "details";
+  };
+  return (
+    <div class={`notice stack ${toneOfEnd(state)}`}>
+      <p>{failure.message}</p>
+      {(failure.causes ?? []).length > 0 && (
+        <button class="link small" onClick={showAll}>
+          All that was tried
+        </button>
+      )}
     </div>
   );
 }

@@ -9,7 +9,7 @@ import { hasWords, readOlder, searchHistory } from "../state/history";
 import { replayOperation } from "../state/replay";
 import { makeReport, reports } from "../state/reports";
 import { cellName, ENDS, operationId, operations, replay, status } from "../state/studio";
-import { describeArguments, describeFailure, describeRequest } from "../state/text";
+import { describeArguments, describeRequest } from "../state/text";
 import { openFile } from "./Dropping";
 import { choosing } from "./layout";
 import { formatDuration, formatStart, newestFirst } from "../state/run_times";
@@ -105,7 +105,7 @@ function Run({ run }: { run: OperationStatus }) {
         </span>
         {run.failure != null && (
           <span class={`small run-failure ${toneOfEnd(run.state) === "bad" ? "is-bad" : "muted"}`}>
-            {describeFailure(run.failure)}
+            {run.failure.message}
           </span>
         )}
       </button>
