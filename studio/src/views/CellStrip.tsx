@@ -68,7 +68,7 @@ export function CellStrip() {
 function CellStop() {
   const current = cell.value;
   if (current === null || !isCellStopped.value) return null;
-  const what = current.reason === "" ? "" : `${current.reason}. `;
+  const what = current.reason === "" ? "" : `Stopped: ${current.reason}. `;
   const text = `${what}Nothing runs until the cause is removed and the stop is acknowledged.`;
   return (
     <li>
