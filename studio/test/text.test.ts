@@ -1,6 +1,13 @@
 import { describe, expect, test } from "vitest";
 import type { Failure, LabelledFact } from "../src/api/types";
-import { describeFailure, formatFact, formatNumber, formatTime, formatValue } from "../src/state/text";
+import {
+  describeFailure,
+  describeReason,
+  formatFact,
+  formatNumber,
+  formatTime,
+  formatValue,
+} from "../src/state/text";
 
 const iri = (label: string) =>
   ({ type: "iri", iri: `http://example.org/lab#${label}`, label: `lab:${label}` }) as const;
@@ -68,4 +75,12 @@ test("numbers and times", () => {
     "10.0 s",
     "2:05 min",
   ]);
+});
+
+test("a reason says first what becomes of a tool that pressed", () => {
+  expect(describeReason({ reason: "coffee" })).toBe("coffee");
+  expect(describeReason({ contact: "lifting" })).toBe("the tool is being taken off the surface");
+  expect(describeReason({ reason: "coffee", contact: "taken-off" })).toMatch(
+    /^the tool was taken off the surface.* \(coffee\)$/,
+  );
 });

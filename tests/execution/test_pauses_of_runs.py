@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import pytest
 
 from execution.loops import StagedCell, Watched, staged
 from execution.ways import LONG, SHORT, check_nothing_left, paused, pausing
+from skillc.cli.event_lines import EventLines
 from skillc_model import tree
 from skillc_model.skills import Compound, PausePolicy, Skill
 from skillc_runtime.execution.tree.gate import AtSkill, Gate
+from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
-from skillc_runtime.recording.events import Paused, Resumed
+from skillc_runtime.recording.envelope import Envelope
+from skillc_runtime.recording.events import Paused, Resumed, StateChanged
 from tree.library import Library, act, call, here, par, seq, with_
+from tree.stage import Scripted
 
 
 def test_pause_holds_everything_until_it_is_resumed() -> None:
@@ -46,6 +52,46 @@ def test_a_pause_that_lasts_takes_tools_off_and_they_come_back_before_anything_g
     cell.away = set()
     watched.loop.tick()
     assert cell.said("resume") == ["resume a"]
+
+
+class Presses(Scripted):
+    """Presses on something while it is active."""
+
+    activity: ClassVar[Activity] = "press"
+
+
+def test_its_events_say_what_becomes_of_a_tool_that_presses() -> None:
+    cell, watched = staged(act("a"), library=Library("execution.test_pauses_of_runs:Presses"), a=LONG)
+    watched.until("running").request(commands.Pause("coffee"))
+    for _ in range(300):
+        watched.loop.tick()
+    cell.away = {"a"}
+    for request in (commands.Resume(), commands.Pause("again"), commands.Resume()):
+        watched.request(request)
+        for _ in range(50):
+            watched.loop.tick()
+    cell.away = set()
+    watched.loop.tick()
+    said = [(each.state, each.contact) for each in watched.told(StateChanged)]
+    first = [("running", "none"), ("pausing", "none"), ("pausing", "kept"), ("paused", "kept"), ("paused", "lifting")]
+    off, back = ("paused", "taken-off"), ("running", "approaching")
+    again = [("pausing", "lifting"), off]
+    assert said[1:] == [*first, off, back, *again, back, ("running", "none")]
+    assert watched.run.contact == "none" and len(watched.told(Paused)) == 1
+    lines = [
+        next(EventLines().format(Envelope(run="a", sequence=1, wall_time_ns=0, event=each)))
+        for each in watched.told(StateChanged)
+    ]
+    assert lines[4].endswith("paused: coffee: the force is kept")
+    assert lines[6].endswith("the tool was taken off the surface; it senses contact again before the task goes on")
+
+
+def test_nothing_is_said_of_a_tool_that_does_not_press() -> None:
+    _, watched = paused()
+    for _ in range(250):
+        watched.loop.tick()
+    assert watched.run.tree is not None and watched.run.tree.withdrawn
+    assert {each.contact for each in watched.told(StateChanged)} == {"none"}
 
 
 @pytest.mark.parametrize("when", ["withdrawn", "approaching"])

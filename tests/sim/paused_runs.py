@@ -17,6 +17,7 @@ from skillc_runtime.execution.preparation import Ready
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.commands import Command, Pause, Resume
+from skillc_runtime.recording.events import Event, StateChanged
 from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
@@ -26,7 +27,8 @@ from skillc_runtime.world.state.model import WorldModel
 class PausedRun:
     """A run that is paused `after_s` s after the first start of `skill`, for `lasts_s` s; then it gets `command`.
 
-    `still` are time and tool position of each arm, in every tick in which the run is paused.
+    `still` are time and tool position of each arm, in every tick in which the run is paused; `contacts` what its events
+    said of the contact of the tool, without repetition.
     """
 
     skill: str
@@ -35,6 +37,7 @@ class PausedRun:
     command: Command = field(default_factory=Resume)
     told: HistoryBuilder = field(default_factory=HistoryBuilder)
     still: list[tuple[float, Array]] = field(default_factory=list)
+    contacts: list[str] = field(default_factory=list)
     requested_at: float = 0.0
     resumed_at: float = 0.0
     cell: SimulatedCell = field(init=False)
@@ -49,12 +52,16 @@ class PausedRun:
         assert isinstance(prepared, PreparedTask), prepared
         self.cell = SimulatedCell(WorldModel(state), seed)
         loop = CellLoop(self.cell, library, lambda assignment, failures: Ready(prepared), after_tick=())
-        self.run = loop.submit(prepared.assignment, (self.told,))
+        self.run = loop.submit(prepared.assignment, (self.told, self._note_contact))
         while not self.run.ended and self.cell.now < most_s:
             self._request(loop)
             loop.tick()
         assert self.run.ended, f"{task} is {self.run.state} after {most_s} s"
         return self
+
+    def _note_contact(self, event: Event) -> None:
+        if isinstance(event, StateChanged) and self.contacts[-1:] != [event.contact]:
+            self.contacts.append(event.contact)
 
     def _request(self, loop: CellLoop) -> None:
         now = self.cell.now

@@ -51,6 +51,7 @@ def test_in_a_long_pause_of_wiping_the_tool_is_taken_off_and_touches_again(task:
     off = paused.forces(began + KEEP_S + LIFTING_S, paused.resumed_at)
     assert len(off) > 6000 and not off.any()
     assert paused.moved_m(began + KEEP_S + LIFTING_S, paused.resumed_at) < STILL_M
+    assert paused.contacts == ["none", "kept", "lifting", "taken-off", "approaching", "none"]
     touching = paused.forces(paused.resumed_at, ended)
     assert touching[-1] > 0.9 * result.force_command_n and touching.max() < 2 * result.force_command_n
     assert missed_targets(result) == []
@@ -72,6 +73,7 @@ def test_a_tool_that_approaches_is_stopped_above_the_surface() -> None:
     assert paused.run.state == "succeeded", paused.run.failure
     still_at = paused.still[0][0]
     assert not paused.forces(paused.paused[0], paused.resumed_at).any()
+    assert paused.contacts == ["none"]
     assert paused.moved_m(still_at, paused.resumed_at) < STILL_M
 
 

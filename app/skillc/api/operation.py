@@ -19,6 +19,7 @@ from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.account import CallOutput, MeasuredProperty
 from skillc_runtime.recording.commands import Command
+from skillc_runtime.recording.contact import Contact
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.states import State
 from skillc_runtime.world.state.labelling import label_change
@@ -62,6 +63,11 @@ class Operation:
     def reason(self) -> str:
         """Why it is in its state, as a sentence; empty if there is nothing to say."""
         return self._shared.reason
+
+    @property
+    def contact(self) -> Contact:
+        """What becomes of a tool that pressed when it was paused: `kept`, `lifting`, `taken-off` or `approaching`."""
+        return self._shared.contact
 
     @property
     def allowed(self) -> tuple[str, ...]:

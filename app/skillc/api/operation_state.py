@@ -17,6 +17,7 @@ from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.account import RunAccount
 from skillc_runtime.recording.commands import Command, Stop
+from skillc_runtime.recording.contact import Contact
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import Event, Requested
 from skillc_runtime.recording.states import State
@@ -53,6 +54,7 @@ class OperationState:
     settled: list[GivenCommand] = field(default_factory=list)
     state: State = "queued"
     reason: str = ""
+    contact: Contact = "none"
     allowed: tuple[str, ...] = ("stop",)
     prompts: tuple[Prompt, ...] = ()
     time_s: float = 0.0
@@ -115,7 +117,7 @@ class OperationState:
             status = "interrupted" if run is None else run.result.status
             self.state = "failed" if status == "refused" else status
             self.reason = (run.failure or "") if run is not None else str(error)
-            self.run, self.error, self.allowed = run, error, ()
+            self.run, self.error, self.allowed, self.contact = run, error, (), "none"
             self.answer()
             self.changed.notify_all()
 
@@ -161,7 +163,7 @@ class Monitor:
             if state.state != run.state:
                 state.changed.notify_all()
             state.state, state.reason, state.allowed, state.time_s = run.state, run.reason, tuple(run.allowed), now
-            state.prompts = run.prompts
+            state.prompts, state.contact = run.prompts, run.contact
             state.answer()
             if not state.waiting and seconds > 0.0:
                 state.changed.wait(seconds)

@@ -33,6 +33,7 @@ class SubmittedOperation:
             request=self.request,
             state=run.state,
             reason=run.waits_for or run.reason,
+            contact=run.contact,
             allowed=run.allowed,
             events=self.publisher.sequence,
             verified=run.verified,

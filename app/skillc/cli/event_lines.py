@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from skillc.cli.disturbance_text import describe_disturbance
 from skillc_runtime.recording import events
+from skillc_runtime.recording.contact import SENTENCES
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.failure_text import describe_failure
@@ -55,8 +56,8 @@ def _describe_task(event: events.Event) -> Iterator[str]:
     match event:
         case events.TaskStarted(task=task, library=library):
             yield f"{task} of {library}" if library else task
-        case events.StateChanged(state=state, reason=reason):
-            yield f"{state}: {reason}" if reason else state
+        case events.StateChanged(state=state, reason=reason, contact=contact):
+            yield ": ".join(filter(None, (state, reason, SENTENCES[contact])))
         case events.Requested(command=command, refused=refused):
             by = f" by {command.who}" if command.who else ""
             yield f"{command.name}{by} is refused: {refused}" if refused else f"{command.name} is requested{by}"

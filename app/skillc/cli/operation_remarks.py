@@ -32,11 +32,13 @@ def remark_going_on(operation: str) -> None:
 
 
 def describe_state(status: OperationStatus) -> str:
-    """Return the state of an operation, and why it is in it."""
+    """Return the state of an operation, why it is in it, and what becomes of a tool that pressed."""
     from skillc_runtime.planning.progress import describe_progress
+    from skillc_runtime.recording.contact import SENTENCES
     from skillc_runtime.recording.known_facts import format_status
 
     words = format_status(status.state, status.verified, status.false_claims)
     planning = "" if status.planning is None else describe_progress(status.planning)
     asked = [f"asks: {each.text} ({' | '.join(each.choices)})" for each in status.prompts]
-    return ": ".join(filter(None, (words, status.reason, planning, *asked, *status.false_claims)))
+    contact = SENTENCES[status.contact]
+    return ": ".join(filter(None, (words, status.reason, contact, planning, *asked, *status.false_claims)))

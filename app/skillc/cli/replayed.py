@@ -75,4 +75,4 @@ class _Player:
         playback = self._playback
         if self._paused:
             return RunView("paused", "the replay pauses", self._allowed, self._view.stacks)
-        return RunView(playback.state, playback.reason, self._allowed, self._view.stacks)
+        return RunView(playback.state, playback.reason, self._allowed, self._view.stacks, playback.contact)

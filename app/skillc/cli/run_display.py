@@ -9,6 +9,7 @@ from skillc.cli.run_keys import format_help
 from skillc.cli.run_view import RunView
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.pace import Pace
+from skillc_runtime.recording.contact import SENTENCES
 
 MAX_CALLS = 12
 """How many calls of a stack are shown; the innermost ones."""
@@ -28,16 +29,17 @@ def describe_run(run: RunView, now: float, since: float) -> list[str]:
     """Return the lines for a run at the time `now` of the cell in s; it is in its state since `since`.
 
     While it runs, that is the stack of the last active call. While it pauses or is paused, the reason, what becomes
-    of forces, and each stack with the places of its calls, the innermost first.
+    of a tool that pressed, and each stack with the places of its calls, the innermost first.
     """
     match run.state:
-        case "running" if run.approaches:
-            return [f"{now:6.1f} s  the tool approaches again"]
+        case "running" if run.contact != "none":
+            return [f"{now:6.1f} s  {SENTENCES[run.contact]}"]
         case "running":
             return [f"{now:6.1f} s  {_join_stack(run)}"]
         case "paused" | "pausing":
             head = f"{now:6.1f} s  {run.state} since {since:.1f} s: {run.reason}"
-            return [head, *([f"  {run.force}"] if run.force else []), *_describe_stacks(run)]
+            contact = [f"  {SENTENCES[run.contact]}"] if run.contact != "none" else []
+            return [head, *contact, *_describe_stacks(run)]
         case _:
             return [f"{run.state}: {run.reason}" if run.reason else run.state]
 

@@ -38,6 +38,7 @@ from skillc_runtime.recording.events import (
     TaskEnded,
 )
 from skillc_runtime.recording.known_facts import format_status
+from skillc_runtime.recording.states import State
 
 STEP_DEPTH = 2
 """The greatest depth of calls shown if stderr is not a terminal: the steps of a plan and the calls in them."""
@@ -66,6 +67,7 @@ class RunProgress:
         self._signal: Callable[[], Interrupted | None] = lambda: None
         self._remark, self._since, self._looked = "", 0.0, 0.0
         self._stopped, self._detachable = False, detachable
+        self._state: State = "queued"
         self.detached = False
 
     def __enter__(self) -> RunProgress:
@@ -99,7 +101,8 @@ class RunProgress:
                 if ended is not None and self._live is not None:
                     self._print_step(ended)
             case StateChanged(state=state, reason=reason):
-                self._since = event.time
+                self._since = self._since if state == self._state else event.time
+                self._state = state
                 if state == "stopping":
                     self._print(f"{self._title}: stopping: {reason}")
             case Replanned(reason=reason):

@@ -9,8 +9,8 @@ from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.tree.gate import GatedCall
-from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.planning.progress import PlanningProgress, describe_progress
+from skillc_runtime.recording.contact import Contact
 from skillc_runtime.recording.events import (
     Event,
     ImplementationChosen,
@@ -40,14 +40,13 @@ class CallStack:
 
 @dataclass(frozen=True, slots=True)
 class RunView:
-    """A run at one moment. `approaches` if its tool comes back into contact; `force` says what became of one."""
+    """A run at one moment; `contact` is what becomes of a tool that pressed when it was paused."""
 
     state: State
     reason: str
     allowed: tuple[str, ...]
     stacks: tuple[CallStack, ...] = ()
-    approaches: bool = False
-    force: str = ""
+    contact: Contact = "none"
     prompts: tuple[Prompt, ...] = ()
 
 
@@ -57,7 +56,7 @@ def view_run(run: TaskRun) -> RunView:
     if tree is None:
         return RunView(run.state, _join_reason(run.reason, run.planning), allowed)
     stacks = tuple(CallStack(_stack(each), tree.holds_back(each)) for each in tree.active_calls)
-    return RunView(run.state, run.reason, allowed, stacks, tree.paused, _describe_force(tree), run.prompts)
+    return RunView(run.state, run.reason, allowed, stacks, run.contact, run.prompts)
 
 
 @dataclass(slots=True)
@@ -89,7 +88,7 @@ class EventView:
     def view(self, status: OperationStatus) -> RunView:
         """Return what there is to show, with the state of its operation."""
         reason = _join_reason(status.reason, status.planning)
-        return RunView(status.state, reason, status.allowed, self.stacks, prompts=self._prompts)
+        return RunView(status.state, reason, status.allowed, self.stacks, status.contact, self._prompts)
 
     @property
     def stacks(self) -> tuple[CallStack, ...]:
@@ -121,12 +120,3 @@ def _join_reason(reason: str, planning: PlanningProgress | None) -> str:
 
 def _stack(call: GatedCall) -> tuple[ShownCall, ...]:
     return tuple(ShownCall(each.skill_name, each.source) for each in (call, *call.enclosing_calls()))
-
-
-def _describe_force(tree: TreeRun) -> str:
-    """Say what became of the force of a tool that pressed; nothing if none did."""
-    if not tree.is_pressing or not tree.paused:
-        return ""
-    if tree.withdrawn:
-        return "the tool was taken off; it senses contact again before the task goes on"
-    return "the force is kept"

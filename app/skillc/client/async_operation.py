@@ -17,7 +17,7 @@ from skillc.client.retries import Retries
 from skillc.contract import commands
 from skillc.contract.commands import Command
 from skillc.contract.endpoints import GIVE_COMMAND, READ_RECORDING, SHOW_OPERATION, STOP_OPERATION, SUBMIT_OPERATION
-from skillc.contract.operation import ENDS, Decision, OperationRequest, OperationStatus, State
+from skillc.contract.operation import ENDS, Contact, Decision, OperationRequest, OperationStatus, State
 from skillc.contract.report import OperationReport
 from skillc.contract.stopping import StopReason
 from skillc.errors import RequestError
@@ -54,6 +54,11 @@ class AsyncOperation(OperationCalls):
     def reason(self) -> str:
         """Why it is in its state, or for what it waits; empty if there is nothing to say."""
         return self.status.reason
+
+    @property
+    def contact(self) -> Contact:
+        """What becomes of a tool that pressed when it was paused: `kept`, `lifting`, `taken-off` or `approaching`."""
+        return self.status.contact
 
     @property
     def allowed(self) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from skillc.client.async_server import AsyncServer
 from skillc.client.loop_thread import LoopThread
 from skillc.contract.cell import CellStatus
 from skillc.contract.lease import Lease
-from skillc.contract.operation import OperationStatus, State
+from skillc.contract.operation import Contact, OperationStatus, State
 from skillc.events import Prompt
 
 
@@ -92,6 +92,11 @@ class WaitingOperation:
     def reason(self) -> str:
         """Why it is in its state, or for what it waits; empty if there is nothing to say."""
         return self.status.reason
+
+    @property
+    def contact(self) -> Contact:
+        """What becomes of a tool that pressed when it was paused: `kept`, `lifting`, `taken-off` or `approaching`."""
+        return self.status.contact
 
     @property
     def allowed(self) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ import msgspec
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.planning.progress import PlanningProgress
 from skillc_runtime.recording.account import CallOutput, MeasuredProperty
+from skillc_runtime.recording.contact import Contact as Contact
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.run_spec import RunRequest
 from skillc_runtime.recording.states import ENDS as ENDS
@@ -33,6 +34,8 @@ class OperationRequest(RunRequest, frozen=True, kw_only=True):
 class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     """An operation as it is now: `reason` says why it is in its state, or for what it waits.
 
+    `contact` is what becomes of a tool that pressed when it was paused: it presses on, it is being taken off, it was
+    taken off, or it approaches until it senses contact.
     `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
     whether a success rests on no fact that is only assumed, and no claim is false; None if it did not succeed.
     It was submitted, its first attempt began, and it ended at `submitted_at`, `started_at` and `ended_at`, null before.
@@ -51,6 +54,7 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     request: OperationRequest
     state: State
     reason: str = ""
+    contact: Contact = "none"
     allowed: tuple[str, ...] = ()
     events: int = 0
     verified: bool | None = None

@@ -11,6 +11,7 @@ from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, 
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.planning.progress import PlanningProgress
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.recording.contact import Contact
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact, unverified_facts
 from skillc_runtime.recording.run_spec import RunSpec
@@ -21,8 +22,8 @@ class RunStatus:
     """The status of a task run.
 
     `attempts` are those that have ended; `failure` is why it did not succeed, `facts` what its success rests on,
-    `reason` why it is in its state. `false_claims` are sentences about what the world model claimed at its end that is
-    not so; only a simulation knows.
+    `reason` why it is in its state, `contact` what becomes of a tool that pressed when it was paused. `false_claims`
+    are sentences about what the world model claimed at its end that is not so; only a simulation knows.
     """
 
     def __init__(
@@ -31,6 +32,7 @@ class RunStatus:
         self.id, self.assignment, self.spec = run_id, assignment, spec
         self.state: State = "queued"
         self.reason = ""
+        self.contact: Contact = "none"
         self.end: EndState | None = None
         self.attempts: list[AttemptResult] = []
         self.failure: Failure | None = None

@@ -30,6 +30,7 @@ from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording import commands
+from skillc_runtime.recording.contact import Contact
 from skillc_runtime.recording.events import Event, Replanned, Requested, StateChanged, TaskEnded
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.failure_text import describe_failure
@@ -254,6 +255,7 @@ class TaskRun(RunStatus):
         arms, with_physics = self._claims.devices_of(self.id), judge is not None and judge.has_physics
         self._claims.remove(self.id)
         self.state = self.end = state
+        self.contact = "none"
         self.reason, self.failure = describe_failure(failure) if failure else "", failure
         if state == "succeeded":
             broken = [call for attempt in self.attempts for call in attempt.broken_calls]
@@ -275,13 +277,13 @@ class TaskRun(RunStatus):
     def _settle_state(self) -> None:
         """Take over how far a pause is."""
         if self._attempt is not None and self._ending is None:
-            self._enter(self._pause.state, self._pause.reason)
+            self._enter(self._pause.state, self._pause.reason, contact=self._attempt.tree.contact)
 
-    def _enter(self, state: State, reason: str = "", failure: Failure | None = None) -> None:
-        if (state, reason) != (self.state, self.reason):
+    def _enter(self, state: State, reason: str = "", failure: Failure | None = None, contact: Contact = "none") -> None:
+        if (state, reason, contact) != (self.state, self.reason, self.contact):
             self._state_since = self._now if state != self.state else self._state_since
-            self.state, self.reason = state, reason
-            self._emit(StateChanged(time=self._now, state=state, reason=reason, failure=failure))
+            self.state, self.reason, self.contact = state, reason, contact
+            self._emit(StateChanged(time=self._now, state=state, reason=reason, failure=failure, contact=contact))
 
     def _emit(self, event: Event) -> None:
         for listener in self._context.listeners:

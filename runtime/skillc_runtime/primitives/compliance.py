@@ -99,6 +99,11 @@ class Push(Primitive):
         self._progress: PushProgress | None = None
         self._taken_off, self._has_pressed, self._ends = False, False, 0.0
 
+    @property
+    def is_pressing(self) -> bool:
+        """Whether the tool is in contact."""
+        return self._progress is not None and self._progress.pressed_s is not None
+
     def start(self) -> None:
         """Begin the approach."""
         raise_fault(self.arm)
@@ -147,7 +152,7 @@ class Push(Primitive):
     def withdraw(self) -> None:
         """Take the tool off, if it presses."""
         if self._progress is not None:
-            self._taken_off = self._taken_off or self._progress.pressed_s is not None
+            self._taken_off = self._taken_off or self.is_pressing
             self.arm.compliance.withdraw(self._progress)
 
     def approach(self) -> bool:

@@ -114,6 +114,11 @@ class Primitive:
         """Do the work of one tick and return RUNNING or SUCCESS."""
         raise NotImplementedError
 
+    @property
+    def is_pressing(self) -> bool:
+        """Whether it presses a tool on something now; one whose `activity` is to press does as long as it is active."""
+        return self.activity == "press"
+
     def answer(self, choice: str) -> None:
         """Take what an operator has chosen; called before a tick, and only while there is a `prompt`."""
 

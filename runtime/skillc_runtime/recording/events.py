@@ -13,6 +13,7 @@ from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.commands import Command
+from skillc_runtime.recording.contact import Contact
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.reasons import (
@@ -64,12 +65,14 @@ class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
 class StateChanged(_Event, tag="state-changed", frozen=True, kw_only=True):
     """The task run is in another state, and why; its end is a `TaskEnded`.
 
-    `failure` is that of a step if somebody has to decide how to go on after it.
+    `failure` is that of a step if somebody has to decide how to go on after it. `contact` is what becomes of a tool
+    that pressed when the run was paused: if only that changes, the state is the one before.
     """
 
     state: State
     reason: str = ""
     failure: Failure | None = None
+    contact: Contact = "none"
 
 
 class Requested(_Event, tag="requested", frozen=True, kw_only=True):

@@ -322,6 +322,8 @@ export interface components {
          * OperationStatus
          * @description An operation as it is now: `reason` says why it is in its state, or for what it waits.
          *
+         *         `contact` is what becomes of a tool that pressed when it was paused: it presses on, it is being taken off, it was
+         *         taken off, or it approaches until it senses contact.
          *         `allowed` are the names of the commands that it allows. `events` is the number of its last event. `verified` is
          *         whether a success rests on no fact that is only assumed, and no claim is false; None if it did not succeed.
          *         It was submitted, its first attempt began, and it ended at `submitted_at`, `started_at` and `ended_at`, null before.
@@ -341,6 +343,11 @@ export interface components {
             state: ("paused" | "pausing" | "planned" | "planning" | "queued" | "running" | "stopping") | ("failed" | "interrupted" | "stopped" | "succeeded");
             /** @default  */
             reason?: string;
+            /**
+             * @default none
+             * @enum {unknown}
+             */
+            contact?: "approaching" | "kept" | "lifting" | "none" | "taken-off";
             /** @default [] */
             allowed?: string[];
             /** @default 0 */
@@ -1315,7 +1322,8 @@ export interface components {
          * StateChanged
          * @description The task run is in another state, and why; its end is a `TaskEnded`.
          *
-         *         `failure` is that of a step if somebody has to decide how to go on after it.
+         *         `failure` is that of a step if somebody has to decide how to go on after it. `contact` is what becomes of a tool
+         *         that pressed when the run was paused: if only that changes, the state is the one before.
          */
         StateChanged: {
             /** @enum {unknown} */
@@ -1326,6 +1334,11 @@ export interface components {
             reason?: string;
             /** @default null */
             failure?: components["schemas"]["Failure"] | null;
+            /**
+             * @default none
+             * @enum {unknown}
+             */
+            contact?: "approaching" | "kept" | "lifting" | "none" | "taken-off";
         };
         /**
          * Requested

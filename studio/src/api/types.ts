@@ -11,6 +11,7 @@ export type Checkpoint = Schemas["CellCheckpoint"];
 export type OperationStatus = Required<Schemas["OperationStatus"]>;
 export type OperationRequest = Partial<Schemas["OperationRequest"]>;
 export type RunState = OperationStatus["state"];
+export type Contact = OperationStatus["contact"];
 export type Envelope = Schemas["Envelope"];
 export type RunEvent = Envelope["event"];
 export type Position = Schemas["Position"];

@@ -1,6 +1,6 @@
 // Events as lines of text, each with its importance and the node that it is about.
 import type { Envelope, RunEvent } from "../api/types";
-import { describeFailure, formatChange } from "./text";
+import { describeFailure, describeReason, formatChange } from "./text";
 
 export type Severity = "info" | "good" | "bad" | "world" | "command";
 
@@ -53,7 +53,7 @@ function describeTask(event: RunEvent): Described {
     case "task-started":
       return [event.library ? `${event.task} of ${event.library}` : event.task, "info", 0];
     case "state-changed":
-      return [event.reason ? `${event.state}: ${event.reason}` : event.state, "info", 0];
+      return [[event.state, describeReason(event)].filter(Boolean).join(": "), "info", 0];
     case "note":
       return [event.message, "info", event.node ?? 0];
     case "task-ended":

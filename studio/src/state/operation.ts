@@ -15,6 +15,7 @@ import type {
   TaskStarted,
 } from "../api/types";
 import { logEntry, type LogEntry } from "./log";
+import { describeReason } from "./text";
 
 export type NodeStatus = "pending" | "running" | "success" | "failure" | "halted";
 
@@ -129,7 +130,7 @@ class Draft {
         break;
       case "state-changed":
         this.state.state = event.state;
-        this.state.reason = event.reason ?? "";
+        this.state.reason = describeReason(event);
         break;
       case "plan-arrived":
         this.state.arrived = event.plan ?? null;

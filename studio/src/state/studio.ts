@@ -16,7 +16,7 @@ import type {
 } from "../api/types";
 import { EMPTY, type OperationState } from "./operation";
 import { pendingNodes, withPlanned } from "./planned";
-import { describeRequest } from "./text";
+import { describeReason, describeRequest } from "./text";
 import { NOTHING, selectedPlace, selectedSpan, selectedThings, type Selection } from "./selection";
 
 /** Who is logged in: null for nobody, undefined while that is not known yet. */
@@ -164,14 +164,14 @@ export const shownRun = computed((): ShownRun | null => {
     };
   }
   if (status.value === null) return null;
-  const { request, state, verified, false_claims: claims, reason, failure } = status.value;
+  const { request, state, verified, false_claims: claims, failure } = status.value;
   return {
     title: describeRequest(request),
     state,
     verified,
     claims,
     asks: status.value.prompts.length > 0,
-    reason,
+    reason: describeReason(status.value),
     failure,
     goesOn: isOngoing.value,
   };

@@ -1,5 +1,6 @@
 // Formats values, facts, changes and failures in the syntax of the language, as the command line does.
 import type {
+  Contact,
   Failure,
   LabelledChange,
   LabelledFact,
@@ -112,6 +113,26 @@ function* innermost(failure: Failure): Generator<Failure> {
 
 const nameWay = (failure: Failure): string =>
   failure.alternative ? `${failure.alternative}: ${failure.message}` : failure.message;
+
+const CONTACTS: Record<Contact, string> = {
+  none: "",
+  kept: "the force is kept",
+  lifting: "the tool is being taken off the surface",
+  "taken-off": "the tool was taken off the surface; it senses contact again before the task goes on",
+  approaching: "the tool approaches again until it senses contact",
+};
+
+/** Return why an operation is in its state, and before that what becomes of a tool that pressed when it was paused. */
+export function describeReason({
+  reason = "",
+  contact = "none",
+}: {
+  reason?: string;
+  contact?: Contact;
+}): string {
+  const told = CONTACTS[contact];
+  return told === "" || reason === "" ? told || reason : `${told} (${reason})`;
+}
 
 /** Return the cause of a failure, the other ways that were tried, and whether another plan was found; nothing twice. */
 export function describeFailure(failure: Failure): string {

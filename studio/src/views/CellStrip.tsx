@@ -22,7 +22,7 @@ import {
   refusalOf,
   replay,
 } from "../state/studio";
-import { describeRequest } from "../state/text";
+import { describeReason, describeRequest } from "../state/text";
 import { shownSeries } from "../state/trials";
 import type { OperationStatus } from "../api/types";
 import { CellMenu } from "./CellMenu";
@@ -107,7 +107,7 @@ function focusDecision(from: Element | null, frames: number): void {
 function Item({ activity: { operation, attention, prompt } }: { activity: Activity }) {
   const isShown = operation.id === operationId.value && replay.value === null;
   const isUrgent = attention !== "goes on";
-  const said = prompt?.text ?? (operation.state === "planned" ? "" : nameOperations(operation.reason));
+  const said = prompt?.text ?? (operation.state === "planned" ? "" : nameOperations(describeReason(operation)));
   const left = prompt === null ? "" : describeLeft(prompt);
   const title = [describeOwned(operation), said, prompt === null ? "" : describeRemaining(prompt)]
     .filter((each) => each !== "")

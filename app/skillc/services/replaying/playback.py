@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from skillc.errors import ServiceError
 from skillc_runtime.execution.attempt import TICK_S
 from skillc_runtime.execution.pace import Pace
+from skillc_runtime.recording.contact import Contact
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import NodeStarted, StateChanged, TaskEnded
 from skillc_runtime.recording.states import State
@@ -16,12 +17,16 @@ from skillc_runtime.recording.states import State
 
 @dataclass(slots=True)
 class Playback:
-    """A recorded run at the time `now` of its cell in s; `state` is the one that it had then, and `reason` why."""
+    """A recorded run at the time `now` of its cell in s; `state` is the one that it had then, and `reason` why.
+
+    `contact` is what became of a tool that pressed when it was paused.
+    """
 
     events: Sequence[Envelope]
     now: float = 0.0
     state: State = "queued"
     reason: str = ""
+    contact: Contact = "none"
     _next: int = 0
 
     def __post_init__(self) -> None:
@@ -53,10 +58,10 @@ class Playback:
         envelope = self.events[self._next]
         self._next += 1
         match envelope.event:
-            case StateChanged(state=state, reason=reason):
-                self.state, self.reason = state, reason
+            case StateChanged(state=state, reason=reason, contact=contact):
+                self.state, self.reason, self.contact = state, reason, contact
             case TaskEnded(status=state):
-                self.state, self.reason = state, ""
+                self.state, self.reason, self.contact = state, "", "none"
             case _:
                 pass
         return envelope

@@ -37,7 +37,8 @@ class ActivePrimitives:
     @property
     def is_pressing(self) -> bool:
         """Whether one of them presses a tool on something."""
-        return any(primitive.activity == "press" for primitive in self._started)
+        with foreign_code:
+            return any(primitive.is_pressing for primitive in self._started)
 
     def add(self, primitive: Primitive, node: int) -> None:
         """Add a primitive that was started by the node with this number."""

@@ -6,6 +6,7 @@ from typing import Literal, TypeAlias
 
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.recording.contact import Contact
 from skillc_runtime.recording.events import Paused, Resumed
 
 APPROACH_S = 30.0
@@ -19,10 +20,14 @@ PausePhase: TypeAlias = Literal["none", "kept", "withdrawn", "approaching"]
 
 
 class Pause:
-    """Pauses the active primitives of a run; `phase` is how far. Every method may raise what a primitive raises."""
+    """Pauses the active primitives of a run. Every method may raise what a primitive raises.
+
+    `phase` is how far the pause is; `contact` what becomes of the tools that pressed when it began.
+    """
 
     def __init__(self, context: TreeContext) -> None:
         self.phase: PausePhase = "none"
+        self.contact: Contact = "none"
         self._context = context
         self._approach_by = self._moved_at = 0.0
 
@@ -39,15 +44,14 @@ class Pause:
             self._moved_at = self._context.time
             self._context.stop_own_time()
             self._context.active.pause()
+            self.contact = "kept" if self._context.active.is_pressing else "none"
         elif self.phase == "approaching":
-            self.phase = "withdrawn"
-            self._context.active.withdraw()
+            self._take_off()
 
     def withdraw(self) -> None:
         """Take the tools off what they press on, unless that was done."""
         if self.phase == "kept":
-            self.phase = "withdrawn"
-            self._context.active.withdraw()
+            self._take_off()
 
     def end(self) -> None:
         """Go on, at once or, if tools were withdrawn, as soon as they are in contact again."""
@@ -55,6 +59,7 @@ class Pause:
             self._go_on()
         elif self.phase == "withdrawn":
             self.phase, self._approach_by = "approaching", self._context.cell.now + APPROACH_S
+            self.contact = "none" if self.contact == "none" else "approaching"
 
     def tick(self) -> None:
         """Look for faults of arms, and let withdrawn tools approach if the pause is to end."""
@@ -65,6 +70,15 @@ class Pause:
             self._moved_at = self._context.time
         if self.phase == "approaching":
             self._approach()
+        elif self.contact == "kept" and not self._context.active.is_pressing:
+            self.contact = "none"
+        elif self.contact == "lifting" and self.is_still:
+            self.contact = "taken-off"
+
+    def _take_off(self) -> None:
+        self.phase, self._moved_at = "withdrawn", self._context.time
+        self.contact = "none" if self.contact == "none" else "lifting"
+        self._context.active.withdraw()
 
     def _approach(self) -> None:
         waiting = self._context.active.approach()
@@ -75,7 +89,7 @@ class Pause:
             raise SkillFailure(f"{name} was not in contact again within {APPROACH_S:g} s of the end of the pause")
 
     def _go_on(self) -> None:
-        self.phase = "none"
+        self.phase = self.contact = "none"
         self._emit(Resumed)
         self._context.resume_own_time()
         self._context.active.resume()

@@ -26,6 +26,7 @@ from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.fact_monitor import FactMonitor
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.primitives.standing_bases import place_standing_bases
+from skillc_runtime.recording.contact import Contact
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.listeners import Listeners
@@ -106,8 +107,13 @@ class TreeRun:
         return self._pause.phase in ("withdrawn", "approaching")
 
     @property
+    def contact(self) -> Contact:
+        """What becomes of the tools that pressed when the run was paused."""
+        return self._pause.contact
+
+    @property
     def is_pressing(self) -> bool:
-        """Whether a primitive that presses is active."""
+        """Whether a primitive presses on something."""
         return self._context.active.is_pressing
 
     @property
@@ -279,6 +285,7 @@ class TreeRun:
         self._context.computations.close()
         self._context.cell.watchdog.retire(self)
         self.status, self.failure, self._pause.phase = status, failure, "none"
+        self._pause.contact = "none"
         return status
 
     def _emit_world_change(self, event: ChangeEvent) -> None:

@@ -1,0 +1,18 @@
+"""What becomes of the contact of a tool while its run is paused, and after that until the run goes on."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+Contact: TypeAlias = Literal["none", "kept", "lifting", "taken-off", "approaching"]
+"""none: the run is not paused, or no tool pressed when it was; kept: tools press on; lifting: they are being taken off;
+taken-off: they were, and have come to rest; approaching: they approach until they sense contact."""
+
+SENTENCES: dict[Contact, str] = {
+    "none": "",
+    "kept": "the force is kept",
+    "lifting": "the tool is being taken off the surface",
+    "taken-off": "the tool was taken off the surface; it senses contact again before the task goes on",
+    "approaching": "the tool approaches again until it senses contact",
+}
+"""The same for people, without a full stop."""
