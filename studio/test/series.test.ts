@@ -1,16 +1,8 @@
 import { expect, test } from "vitest";
-import {
-  armLines,
-  byDevice,
-  colourLines,
-  makeLine,
-  measureArm,
-  Series,
-  shortNames,
-} from "../src/state/series";
+import { byDevice, colourLines, makeLine, measure, Series, shortNames } from "../src/state/series";
 import { drawSvg, writeCsv } from "../src/state/signal_files";
-import { hasGaps } from "../src/state/plotted";
-import type { Sample } from "../src/api/types";
+import { dropEmpty, hasGaps } from "../src/state/plotted";
+import type { ArmSample, Sample } from "../src/api/types";
 
 const FORCE = makeLine("force", "Arm");
 const SPEED = makeLine("speed", "Arm");
@@ -35,31 +27,62 @@ test("what a page missed is a gap, never a line", () => {
   expect(hasGaps(columns, 20)).toBe(true);
 });
 
-test("the speed of a tool is not that of a reference that changes", () => {
-  const at = (time_s: number, x: number): Sample => ({
-    cell: "c",
-    time_s,
-    things: {},
-    arms: {
-      a: {
-        joints: [],
-        speeds: [],
-        base: [0, 0, 0, 1, 0, 0, 0],
-        tool: [x, 0, 0, 1, 0, 0, 0],
-        wrench: [3, 4, 0, 9, 9, 9],
-        velocity: [0, 0.1, 0],
-        commanded: [0.12, 0, 0],
-      },
+const at = (time_s: number, x: number, more: Partial<ArmSample> = {}): Sample => ({
+  cell: "c",
+  time_s,
+  things: {},
+  arms: {
+    "lab#a": {
+      joints: [],
+      speeds: [],
+      base: [0, 0, 0, 1, 0, 0, 0],
+      tool: [x, 0, 0, 1, 0, 0, 0],
+      wrench: [3, 4, 0, 9, 9, 9],
+      velocity: [0, 0.1, 0],
+      commanded: [0.12, 0, 0],
+      ...more,
     },
-  });
-  expect(measureArm(at(1, 0), "a")).toEqual([5, 0.1, 0.12]);
-  expect(measureArm(at(1.02, 0.2), "a")).toEqual([5, 0.1, 0.12]);
-  expect(armLines(at(1, 0), "lab#a").map((each) => each.kind)).toEqual(["speed", "commanded speed"]);
-  expect(armLines(at(1, 0), "a").map((each) => each.name)).toEqual([
-    "force at a",
-    "speed of a",
-    "commanded speed of a",
+  },
+});
+const values = (sample: Sample): unknown[] => measure(sample).map(([{ name }, value]) => [name, value]);
+
+test("the speed of a tool is not that of a reference that changes", () => {
+  const expected = [
+    ["force at a", 5],
+    ["speed of a", 0.1],
+    ["commanded speed of a", 0.12],
+  ];
+  expect(values(at(1, 0))).toEqual(expected);
+  expect(values(at(1.02, 0.2))).toEqual(expected);
+});
+
+test("what a push asks for and the force on a tool stand beside what the wrist measures, while there are any", () => {
+  const pushed: Sample = {
+    ...at(1, 0, { wrench: null, commanded_force: [0, 0, 18] }),
+    forces: { "lab#Eraser": { force: [0, 0, 17], point: [0, 0, 0] } },
+  };
+  expect(values(pushed).slice(0, 2)).toEqual([
+    ["commanded force at a", 18],
+    ["speed of a", 0.1],
   ]);
+  expect(values(pushed).at(-1)).toEqual(["contact of Eraser", 17]);
+});
+
+test("a line that comes later was not known before, and one that is never known is not shown", () => {
+  const series = new Series([FORCE], 3);
+  for (const time of [1, 1.2, 1.4]) series.add(time, [time * 10]);
+  const grown = series.withLines([FORCE, makeLine("commanded force", "Arm"), SPEED]);
+  grown.add(1.6, [16, 8]);
+  const columns = [
+    [1.2, 1.4, 1.6],
+    [12, 14, 16],
+    [null, null, 8],
+    [null, null, null],
+  ];
+  expect(grown.columns()).toEqual(columns);
+  const shown = dropEmpty({ lines: grown.lines, columns });
+  expect(shown.lines.map((each) => each.name)).toEqual(["force at Arm", "commanded force at Arm"]);
+  expect(shown.columns).toEqual(columns.slice(0, 3));
 });
 
 test("lines stand by device, which is named once, and what is commanded has the colour of what is measured", () => {
@@ -68,13 +91,20 @@ test("lines stand by device, which is named once, and what is commanded has the 
     makeLine("contact", "Eraser"),
     makeLine("force", "Arm"),
     makeLine("speed", "Arm"),
+    makeLine("commanded force", "Arm"),
   ];
   const order = byDevice(lines);
-  expect(order).toEqual([2, 3, 0, 1]);
+  expect(order).toEqual([1, 2, 4, 3, 0]);
   const shown = order.flatMap((each) => lines[each] ?? []);
-  expect(shortNames(shown)).toEqual(["Arm force", "speed", "commanded speed", "Eraser contact"]);
-  expect(colourLines(shown)).toEqual([0, 1, 1, 2]);
-  expect(shown.map((each) => each.isDashed)).toEqual([false, false, true, false]);
+  expect(shortNames(shown)).toEqual([
+    "Eraser contact",
+    "Arm force",
+    "commanded force",
+    "speed",
+    "commanded speed",
+  ]);
+  expect(colourLines(shown)).toEqual([0, 1, 1, 2, 2]);
+  expect(shown.map((each) => each.isDashed)).toEqual([false, false, true, false, true]);
 });
 
 test("the names of many lines do not leave the drawing", () => {

@@ -31,11 +31,24 @@ test("a damaged column is refused", () => {
 });
 
 test("commands are beside what is measured", () => {
-  const names = ["Arm/command/tool_v", "Eraser/truth/face_v"].flatMap((each) =>
-    ["x", "y", "z"].map((axis) => ({ column: `${each}${axis}_m_s` })),
+  const vectors = [
+    "Arm/command/tool_v*_m_s",
+    "Arm/estimate/tool_v*_m_s",
+    "Arm/command/force_*_n",
+    "Arm/sensor/force_*_n",
+    "Eraser/truth/face_v*_m_s",
+  ];
+  const names = vectors.flatMap((each) =>
+    ["x", "y", "z"].map((axis) => ({ column: each.replace("*", axis) })),
   );
   const plot = new PlotColumns(names);
-  expect(plot.lines.map((each) => each.name)).toEqual(["commanded speed of Arm", "speed of Eraser"]);
+  expect(plot.lines.map((each) => each.name)).toEqual([
+    "commanded speed of Arm",
+    "speed of Arm",
+    "commanded force at Arm",
+    "force at Arm",
+    "speed of Eraser",
+  ]);
 });
 
 test("the lengths of a force and a speed, and contact forces are plotted", () => {

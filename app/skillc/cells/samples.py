@@ -65,12 +65,15 @@ class Sampler:
         wrench = None if arm.wrench is None else tuple(np.frombuffer(arm.wrench()).tolist())
         driver = self._backend.cell.arm(arm.individual)
         poses = list_numbers(arm.base()), list_numbers(driver.measured.pose)
-        velocities = _list_linear(driver.measured.velocity), _list_linear(driver.motion.reference.twist)
-        return ArmSample(tuple(joints), tuple(speeds), *poses, wrench, *velocities)
+        velocities = _list_vector(driver.measured.velocity), _list_vector(driver.motion.reference.twist)
+        force = driver.compliance.commanded_force
+        pushed = None if np.isnan(force).any() else _list_vector(force)
+        return ArmSample(tuple(joints), tuple(speeds), *poses, wrench, *velocities, pushed)
 
 
-def _list_linear(twist: Array) -> Vector:
-    x, y, z = twist[:3].tolist()
+def _list_vector(values: Array) -> Vector:
+    """Return the first three values: of a twist or a wrench, the linear half."""
+    x, y, z = values[:3].tolist()
     return x, y, z
 
 

@@ -19,6 +19,7 @@ class ArmSample(msgspec.Struct, frozen=True):
     `wrench` is what a force-torque sensor measures on the tool, N and N m, in the arm's base frame; None without one.
     `velocity` is that of the tool as measured, `commanded` that of its reference, in m/s, in the world. The difference
     of the poses of two samples is neither: the tool and its reference may change from one sample to the next.
+    `commanded_force` is that on the tool which a push asks for now, in N, in the world; None without a push.
     """
 
     joints: tuple[float, ...]
@@ -28,6 +29,7 @@ class ArmSample(msgspec.Struct, frozen=True):
     wrench: tuple[float, float, float, float, float, float] | None = None
     velocity: Vector = (0.0, 0.0, 0.0)
     commanded: Vector = (0.0, 0.0, 0.0)
+    commanded_force: Vector | None = None
 
 
 class ForceSample(msgspec.Struct, frozen=True):

@@ -12,6 +12,7 @@ from skillc_runtime.control.guarded_push import FALL_SHARE, ActivePush, GivenUp
 from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.devices.guarded_push import GuardedPush, PushProgress
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.reference import ROTATION
 
 LIFT_M = 0.02
 """How far a tool is taken off what it presses on; half the travel of its push where that is less."""
@@ -37,6 +38,19 @@ class ComplianceControl:
     def commanded_wrench(self) -> Array:
         """The commanded wrench (6,) along the axes of the compliance frame, N and N m."""
         return np.concatenate([self._task.tool.compliance.wanted.force, np.zeros(3)])
+
+    @property
+    def commanded_force(self) -> Array:
+        """The force (3,) N, world axes, on the tool by what it presses on, as it is commanded; NaN without a push."""
+        task, exerted = self._task, self._task.tool.compliance.exerted
+        if task.joints is not None or not exerted.any():
+            return np.full(3, np.nan)
+        return -(task.base().rotation @ task.tool.reference.rows[ROTATION] @ exerted)
+
+    @property
+    def live_force(self) -> Array:
+        """The force (3,) N that the tool is to exert, along the axes of its reference; not a copy. 0 without a push."""
+        return self._task.tool.compliance.exerted
 
     @property
     def pushing(self) -> bool:

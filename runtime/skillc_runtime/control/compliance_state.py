@@ -46,13 +46,14 @@ class ComplianceState:
 
     While `held`, released axes have the stiffness of the gains and the tool does not push, whatever the setpoints are.
     Stiffness (6,) in N/m and N m/rad, force (3,) in N, directions (3,) are unit vectors; stiffness of a release in N/m.
+    `exerted` (3,) is the applied force along the axes of the reference tool frame, in N; one array, which changes.
     """
 
     def __init__(self, gains: Gains) -> None:
         stiffness = np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)
         self._unasked = stiffness.copy()
         self._setpoints = [ComplianceSetpoint(stiffness, np.zeros(3), np.eye(3), UNLIMITED_SPEED)]
-        self.held = False
+        self.held, self.exerted = False, np.zeros(3)
         self._stiffness = Lag(stiffness, gains.command_time, grain=1e-2)
         self._wrench = Lag(np.zeros(6), gains.command_time, grain=1e-3)
         self._followed = self.wanted
@@ -87,6 +88,7 @@ class ComplianceState:
             self._target[:3] = followed.force
             self._stiffness.step(followed.stiffness, period)
             self._wrench.step(self._target, period)
+            followed.frame.dot(self._wrench.value[:3], out=self.exerted)
             if self._stiffness.arrived and self._wrench.arrived:
                 self._arrived_at = followed
         return self.applied
@@ -199,6 +201,7 @@ class ComplianceState:
 
     def _compliance(self) -> Compliance:
         frame, fastest = self._followed.frame, self._followed.fastest
+        frame.dot(self._wrench.value[:3], out=self.exerted)
         return Compliance(self._stiffness.value, self._wrench.value, frame, self._ratio, fastest)
 
 

@@ -219,6 +219,11 @@ class ComplianceInterface(Protocol):
         """The commanded stiffness (6,) along the axes of the compliance frame, N/m and N m/rad."""
         ...
 
+    @property
+    def commanded_force(self) -> Array:
+        """The force (3,) N, world axes, on the tool by what it presses on, as it is commanded; NaN without a push."""
+        ...
+
     def release(self, axis: Array, stiffness: float = 0.0) -> None:
         """Release a direction, with a remaining stiffness in N/m.
 

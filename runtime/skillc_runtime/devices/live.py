@@ -17,7 +17,9 @@ class LiveArm:
 
     measured (2, joints): angles in rad, speeds in rad/s. wrench (6,): N and N m, on the tool, by a force-torque
     sensor; None without one. reference (8, 3): the rows of `Reference`; NaN while the joints are controlled. stamp
-    (1,): when that was measured, in s of the arm's own clock; None if it has none but the cell's.
+    (1,): when that was measured, in s of the arm's own clock; None if it has none but the cell's. velocity (3,): m/s,
+    of the tool as measured. force (3,): N that the tool is commanded to exert, along the axes of its reference; 0
+    without a push. None for either if it is not known.
     """
 
     individual: str
@@ -27,6 +29,8 @@ class LiveArm:
     reference: ReadBytes
     base: Callable[[], Pose]
     stamp: ReadBytes | None = None
+    velocity: ReadBytes | None = None
+    force: ReadBytes | None = None
 
 
 @dataclass(frozen=True, slots=True)

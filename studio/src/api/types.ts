@@ -79,14 +79,23 @@ export interface ArmSample {
   /** The velocities of the tool and of its reference, in m/s; what is built of a recording has none. */
   velocity?: [number, number, number];
   commanded?: [number, number, number];
+  /** The force on the tool that a push asks for now, in N; null without a push. */
+  commanded_force?: [number, number, number] | null;
 }
 
-/** What moves in a cell at one instant, by IRI. */
+/** A true contact force on a tool in N, and where it acts. */
+export interface ContactForce {
+  force: readonly [number, number, number];
+  point: readonly [number, number, number];
+}
+
+/** What moves in a cell at one instant, by IRI. `forces` are those on tools that are pressed; real cells have none. */
 export interface Sample {
   cell: string;
   time_s: number;
   arms: Record<string, ArmSample>;
   things: Record<string, PoseNumbers>;
+  forces?: Readonly<Record<string, ContactForce>>;
 }
 
 /** A message of the socket about cells and operations. */

@@ -1,4 +1,4 @@
-// Which recorded signals are plotted: the lengths of forces, of speeds and of commanded speeds, and contact forces.
+// Which recorded signals are plotted: the lengths of forces and speeds, as measured and as commanded, and contact forces.
 import { makeLine, type Kind, type SignalLine } from "../state/series";
 
 type Columns = readonly (ArrayLike<number | null> | undefined)[];
@@ -14,11 +14,11 @@ export class PlotColumns {
     signals.forEach(({ column }, at) => {
       const [device = "", origin = "", quantity = ""] = column.split("/");
       const vector = [at, at + 1, at + 2];
+      const isCommand = origin === "command";
       if (quantity === "contact_force_n") this.take("contact", device, [at]);
-      if (quantity === "force_x_n") this.take("force", device, vector);
+      if (quantity === "force_x_n") this.take(isCommand ? "commanded force" : "force", device, vector);
       if (quantity === "face_vx_m_s") this.take("speed", device, vector);
-      if (quantity === "tool_vx_m_s")
-        this.take(origin === "command" ? "commanded speed" : "speed", device, vector);
+      if (quantity === "tool_vx_m_s") this.take(isCommand ? "commanded speed" : "speed", device, vector);
     });
   }
 

@@ -4,17 +4,10 @@ import type { PoseNumbers as Numbers, Sample as ApiSample } from "../api/types";
 export type Vector = readonly [number, number, number];
 export type PoseNumbers = Readonly<Numbers>;
 
-/** A true contact force on a tool in N, and where it acts. */
-export interface ContactForce {
-  force: Vector;
-  point: Vector;
-}
-
-/** A sample of a cell; `joints` has the values of joints that are no arm's by name, `forces` those on tools by IRI.
+/** A sample of a cell; `joints` has the values of joints that are no arm's by name.
  *  One of a recording has the poses of all bodies that move in the world, by their names, instead of joints. */
 export interface Sample extends ApiSample {
   joints?: Readonly<Record<string, number>>;
-  forces?: Readonly<Record<string, ContactForce>>;
   bodies?: Readonly<Record<string, PoseNumbers>>;
 }
 

@@ -29,6 +29,16 @@ export function continuePlot(first: Plotted, then: Plotted): Plotted {
   return { lines, columns: [[...before, ...later], ...lines.map(({ name }) => column(name))] };
 }
 
+/** Return a plot without the lines that are known at no time: such as the force of pushes where nothing is pushed. */
+export function dropEmpty({ lines, columns }: Plotted): Plotted {
+  const isKnown = lines.map((_, at) => columns[at + 1]?.some((each) => each !== null) ?? false);
+  if (isKnown.every(Boolean)) return { lines, columns };
+  return {
+    lines: lines.filter((_, at) => isKnown[at]),
+    columns: columns.filter((_, at) => at === 0 || isKnown[at - 1]),
+  };
+}
+
 type Column = readonly (number | null)[];
 
 function columnOf({ lines, columns }: Plotted, name: string): Column | undefined {

@@ -10,7 +10,7 @@ export interface Line {
   isDashed?: boolean;
 }
 
-const KINDS = ["force", "contact", "speed", "commanded speed"] as const;
+const KINDS = ["force", "commanded force", "contact", "speed", "commanded speed"] as const;
 export type Kind = (typeof KINDS)[number];
 
 /** A line that can be chosen by its kind, and by what it is of: an arm or a tool. */
@@ -21,10 +21,10 @@ export interface SignalLine extends Line {
 
 /** Return the line of a kind of signal of a device, called alike live and in recordings. */
 export function makeLine(kind: Kind, of: string): SignalLine {
-  const unit = kind === "force" || kind === "contact" ? "N" : "m/s";
-  const isDashed = kind === "commanded speed";
-  const pair = `${isDashed ? "speed" : kind} ${of}`;
-  return { name: `${kind} ${kind === "force" ? "at" : "of"} ${of}`, unit, pair, isDashed, kind, of };
+  const measured = kind.replace("commanded ", "");
+  const unit = measured === "speed" ? "m/s" : "N";
+  const name = `${kind} ${measured === "force" ? "at" : "of"} ${of}`;
+  return { name, unit, pair: `${measured} ${of}`, isDashed: measured !== kind, kind, of };
 }
 
 /** Return the number of the colour of each line, from 0: those of a pair have the same one. */
@@ -51,6 +51,20 @@ export class Series {
 
   get length(): number {
     return this.count;
+  }
+
+  /** Return a series with these lines and the rows of this one; what it does not have was not known. */
+  withLines(lines: readonly SignalLine[]): Series {
+    const grown = new Series(lines, this.capacity);
+    const [times = [], ...columns] = this.columns();
+    const own = lines.map(({ name }) => columns[this.lines.findIndex((each) => each.name === name)]);
+    times.forEach((time, row) =>
+      grown.push(
+        time ?? NaN,
+        own.map((each) => each?.[row] ?? NaN),
+      ),
+    );
+    return grown;
   }
 
   /** Add a row; one that is not later than the last one is left out. */
@@ -91,26 +105,43 @@ function norm(vector: readonly number[]): number {
   return Math.hypot(...vector);
 }
 
-/** Return what is plotted of an arm live: the force at its wrist in N if it has a sensor, the speeds of its tool and of its reference in m/s. */
-export function measureArm({ arms }: Sample, arm: string): number[] {
-  const { wrench, velocity, commanded } = arms[arm] ?? {};
-  const vectors = [...(wrench == null ? [] : [wrench]), velocity, commanded];
-  return vectors.map((each) => (each === undefined ? NaN : norm(each.slice(0, 3))));
-}
+/** A line with its value now. */
+export type Measured = readonly [line: SignalLine, value: number];
 
-/** Return the lines of what `measureArm` measures of an arm. */
-export function armLines({ arms }: Sample, arm: string): SignalLine[] {
-  const kinds: Kind[] = [
-    ...(arms[arm]?.wrench == null ? [] : (["force"] as const)),
-    "speed",
-    "commanded speed",
+/**
+ * Return what is plotted of a sample: of each arm the force at its wrist if it has a sensor, the force that it is to push with
+ * while it pushes, and the speeds of its tool and of its reference; of each tool that is pressed, the force of its contacts.
+ */
+export function measure({ arms, forces = {} }: Sample): Measured[] {
+  const [armNames, tools] = [Object.keys(arms).sort(), Object.keys(forces).sort()];
+  const ofArms = armNames.flatMap((arm) => {
+    const { wrench, commanded_force, velocity, commanded } = arms[arm] ?? {};
+    const line = (kind: Kind, vector: readonly number[] | null | undefined): Measured[] =>
+      vector == null ? [] : [[makeLine(kind, localName(arm)), norm(vector.slice(0, 3))]];
+    return [
+      ...line("force", wrench),
+      ...line("commanded force", commanded_force),
+      ...line("speed", velocity),
+      ...line("commanded speed", commanded),
+    ];
+  });
+  return [
+    ...ofArms,
+    ...tools.map((tool): Measured => [makeLine("contact", localName(tool)), norm(forces[tool]?.force ?? [])]),
   ];
-  return kinds.map((each) => makeLine(each, localName(arm)));
 }
 
-/** Return the numbers of lines in the order in which they are shown: by device, each from what it feels to how it moves. */
+/**
+ * Return the numbers of lines in the order in which they are shown: by device, each from what it feels to how it moves. What is
+ * commanded is drawn over what is measured, so tools come before arms.
+ */
 export function byDevice(lines: readonly SignalLine[]): number[] {
-  const devices = [...new Set(lines.map((each) => each.of))];
+  const commanded = new Set(lines.filter((each) => each.isDashed).map((each) => each.of));
+  const named = [...new Set(lines.map((each) => each.of))];
+  const devices = [
+    ...named.filter((each) => !commanded.has(each)),
+    ...named.filter((each) => commanded.has(each)),
+  ];
   const rank = ({ of, kind }: SignalLine): number => devices.indexOf(of) * KINDS.length + KINDS.indexOf(kind);
   const ranked = lines.map((each, index) => ({ index, rank: rank(each) }));
   return ranked.sort((one, other) => one.rank - other.rank).map((each) => each.index);

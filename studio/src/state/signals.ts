@@ -2,8 +2,8 @@
 import { computed, effect, signal } from "@preact/signals";
 import { api, ApiError } from "../api/client";
 import { PlotColumns } from "../recording/plot_columns";
-import { between, continuePlot, hasGaps, type Plotted } from "./plotted";
-import { armLines, byDevice, measureArm, Series, type SignalLine } from "./series";
+import { between, continuePlot, dropEmpty, hasGaps, type Plotted } from "./plotted";
+import { byDevice, measure, Series, type SignalLine } from "./series";
 import { isOngoing, live, operationId, replay, sample, status } from "./studio";
 
 const CAPACITY = 6000;
@@ -33,13 +33,19 @@ const liveColumns = computed((): (number | null)[][] => {
 });
 
 const plotted = computed((): Plotted => {
-  if (replay.value !== null) return recorded.value ?? { lines: [], columns: [] };
+  if (replay.value !== null) return dropEmpty(recorded.value ?? { lines: [], columns: [] });
   const own = { lines: liveLines.value, columns: liveColumns.value };
-  return stored.value === null ? own : continuePlot(stored.value, own);
+  return dropEmpty(stored.value === null ? own : continuePlot(stored.value, own));
 });
 
-/** All lines that there are to choose from. */
-export const allLines = computed(() => plotted.value.lines);
+let linesBefore: readonly SignalLine[] = [];
+/** All lines that there are to choose from; the same array until they change. */
+export const allLines = computed(() => {
+  const { lines } = plotted.value;
+  if (namesOf(lines) !== namesOf(linesBefore)) linesBefore = lines;
+  return linesBefore;
+});
+const namesOf = (lines: readonly SignalLine[]): string => lines.map((each) => each.name).join();
 /** What is chosen: a device, and a kind of signal; empty for all. */
 export const chosenDevice = signal("");
 export const chosenKind = signal("");
@@ -71,21 +77,23 @@ function takeSample(): void {
   }
   if (now.time_s < lastTimeS) measuring = null; // The cell was reset, and its clock with it.
   lastTimeS = now.time_s;
-  const arms = Object.keys(now.arms).sort();
-  begin(arms.flatMap((arm) => armLines(now, arm)));
-  measuring?.add(
-    now.time_s,
-    arms.flatMap((arm) => measureArm(now, arm)),
-  );
+  const measured = measure(now);
+  const series = extend(measured.map(([line]) => line));
+  const values = new Map(measured.map(([line, value]) => [line.name, value]));
+  // A tool that was pressed and is no longer has no force; what else is not there is not known.
+  const value = ({ name, kind }: SignalLine): number => values.get(name) ?? (kind === "contact" ? 0 : NaN);
+  series.add(now.time_s, series.lines.map(value));
   revision.value = revision.peek() + 1;
 }
 
-/** Measure these lines from now on, if they are others than before. */
-function begin(lines: readonly SignalLine[]): void {
-  const names = (all: readonly SignalLine[]): string => all.map((each) => each.name).join();
-  if (measuring !== null && names(measuring.lines) === names(lines)) return;
-  measuring = new Series(lines, CAPACITY);
-  liveLines.value = lines;
+/** Measure these lines as well from now on; return what is measured. */
+function extend(lines: readonly SignalLine[]): Series {
+  const known = measuring?.lines ?? [];
+  const added = lines.filter(({ name }) => known.every((each) => each.name !== name));
+  if (measuring !== null && added.length === 0) return measuring;
+  liveLines.value = [...known, ...added];
+  measuring = measuring?.withLines(liveLines.value) ?? new Series(liveLines.value, CAPACITY);
+  return measuring;
 }
 
 /** Fill from the recording of the operation that is shown what the page missed of it, until it has ended and all is read. */

@@ -122,6 +122,13 @@ export const ENDS: readonly string[] = ["succeeded", "failed", "stopped", "inter
 /** Whether the operation that is shown goes on. */
 export const isOngoing = computed(() => status.value !== null && !ENDS.includes(status.value.state));
 
+/** The time of what is shown in s of the cell: the present while it goes on, else that of its last event. */
+export const shownTime = computed(() => {
+  const { task, time } = operation.value;
+  const goesOn = replay.value === null && isOngoing.value && task !== null;
+  return goesOn ? Math.max(time, sample.value?.time_s ?? 0) : time;
+});
+
 /** What goes on or waits in the cell that is shown, whoever started it. */
 export const ongoing = computed(() =>
   [...operations.value.values()].filter((each) => each.cell === cellName.value && !ENDS.includes(each.state)),

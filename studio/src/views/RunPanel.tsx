@@ -10,6 +10,7 @@ import {
   refusalOf,
   replay,
   shownRun,
+  shownTime,
   status,
 } from "../state/studio";
 import { describeRemaining, nameOperations } from "../state/activity";
@@ -193,7 +194,8 @@ function Decisions() {
 
 /** The plans of the operation: each step with its state, its values and its span in time. */
 function Plan() {
-  const { attempts, nodes, time, task } = operation.value;
+  const { attempts, nodes, task } = operation.value;
+  const time = shownTime.value;
   if (attempts.length === 0) return null;
   const begin = task?.time ?? 0;
   const whole = { from: begin, to: Math.max(time, begin + 0.1) };

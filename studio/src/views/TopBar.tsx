@@ -16,6 +16,7 @@ import {
   replay,
   session,
   shownRun,
+  shownTime,
   status,
 } from "../state/studio";
 import { formatTime } from "../state/text";
@@ -114,7 +115,7 @@ function Pace({ name, pace }: { name: string; pace: number | null }) {
 function OperationTitle() {
   const current = shownRun.value;
   if (current === null) return <span class="operation muted">nothing has run yet</span>;
-  const { time, task } = operation.value;
+  const { task } = operation.value;
   return (
     <span class="operation" title={replay.value === null ? status.value?.id : current.title}>
       <strong class="truncate">{current.title}</strong>
@@ -132,7 +133,7 @@ function OperationTitle() {
         />
       )}
       <span class="clock mono" title="How long it has run, in the time of the cell">
-        {task !== null && formatTime(Math.max(0, time - task.time))}
+        {task !== null && formatTime(Math.max(0, shownTime.value - task.time))}
       </span>
     </span>
   );

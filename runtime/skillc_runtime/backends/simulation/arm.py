@@ -78,7 +78,7 @@ class ModelledArm(Arm):
         self.limits = _limits(model, joints, actuator, facts)
         self.fixed_tool = _fixed_tool(model, name, gripper)
         self._hand = LastLink()
-        self._joints = np.zeros((6, count))
+        self._joints, self._velocity = np.zeros((6, count)), np.zeros(3)
         self._here = _blank(self._joints, self._hand.tool)
         self._state = _read_only(self._here)
         self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
@@ -125,6 +125,11 @@ class ModelledArm(Arm):
     def live_wrench(self) -> Array | None:
         """The wrench (6,) of a force-torque sensor, in base; not a copy. None without one."""
         return self._here.wrench if self._feels_force else None
+
+    @property
+    def live_velocity(self) -> Array:
+        """The velocity (3,) in m/s of the tool, in base, as it was measured last; not a copy."""
+        return self._velocity
 
     def state(self) -> ArmState:
         """Return the present state, in the arm's base frame."""
@@ -205,6 +210,7 @@ class ModelledArm(Arm):
             in_base=hand.in_base,
             jacobian=here.jacobian,
             wrench=here.wrench,
+            velocity=self._velocity,
             q=self._q,
             dq=self._dq,
             bias=self._bias,

@@ -67,7 +67,7 @@ class ArmSensing:
 
     Written, in the arm's base frame. joints (6, nv): Q rad, SPEED and BEFORE rad/s, others N m; in_base (8, 3): see
     `Hand`; jacobian (6, nv): of the tool centre point, [linear m; angular rad] per rad; wrench (6,): N and N m on the
-    tool, zeros without sensor.
+    tool, zeros without sensor; velocity (3,): m/s, of the tool centre point.
 
     Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; on_link (8, 3): see `Hand`. In the world:
     motion_axes (nv, 6), MuJoCo's `cdof`, and centre (3,) m, where they hold; position (3,) m and rotation (3, 3) of
@@ -80,6 +80,7 @@ class ArmSensing:
     in_base: OutMatrix
     jacobian: OutMatrix
     wrench: OutVector
+    velocity: OutVector
     q: Vector
     dq: Vector
     bias: Vector
@@ -120,7 +121,7 @@ def update_hand(arm: ArmSensing) -> None:
 
 @compiled
 def measure(arm: ArmSensing, noise: Vector) -> None:
-    """Compute the measurements: hand, Jacobian, speeds with noise (nv,) in rad/s, bias with payload, and wrench."""
+    """Compute the measurements: hand, Jacobian, velocity, wrench, bias with payload, speeds with noise (nv,) rad/s."""
     joints, J, axes = arm.joints, arm.jacobian, arm.base.rotation
     update_hand(arm)
     for j in range(arm.q.size):
@@ -130,6 +131,7 @@ def measure(arm: ArmSensing, noise: Vector) -> None:
         joints[BEFORE, j] = arm.dq[j]
     add_payload_bias(joints[BIAS], joints[CARRYING], arm.weight, axes, arm.in_base[LEVER], J)
     compute_wrench(arm.wrench, arm.gain, arm.readings, arm.in_base[3:6])
+    times(J[:3], joints[SPEED], arm.velocity)
 
 
 @compiled

@@ -45,4 +45,6 @@ def _describe_arm(individual: str, arm: ModelledArm, driver: CompliantArmDriver)
         wrench=None if wrench is None else wrench.tobytes,
         reference=driver.motion.copy_tool_reference,
         base=lambda: arm.base,
+        velocity=arm.live_velocity.tobytes,
+        force=driver.compliance.live_force.tobytes,
     )

@@ -13,7 +13,8 @@ import numpy as np
 
 from skillc_runtime.devices.live import LiveArm, LiveSignals
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.recording.signals.channels import WORLD, XYZ, Columns
+from skillc_runtime.motion.reference import ROTATION, TWIST
+from skillc_runtime.recording.signals.channels import COMMANDED_FORCE, WORLD, XYZ, Columns
 from skillc_runtime.recording.signals.signal import Signal
 
 BLOCK_ROWS = 400
@@ -165,24 +166,51 @@ def _reads(arm: LiveArm) -> Iterator[Callable[[], bytes]]:
     yield arm.reference
     if arm.wrench is not None:
         yield arm.wrench
+    if arm.velocity is not None:
+        yield arm.velocity
+    if arm.force is not None:
+        yield arm.force
     if arm.stamp is not None:
         yield arm.stamp
 
 
+def _widths(arm: LiveArm) -> tuple[int, ...]:
+    """Return how many numbers each of `_reads` has; 0 for those that the arm does not offer."""
+    optional = ((arm.wrench, 6), (arm.velocity, 3), (arm.force, 3), (arm.stamp, 1))
+    return (2 * arm.joints, 24, *(0 if read is None else width for read, width in optional))
+
+
 def _width(arm: LiveArm) -> int:
-    return 2 * arm.joints + 24 + (0 if arm.wrench is None else 6) + (arm.stamp is not None)
+    return sum(_widths(arm))
 
 
 def _convert_arm(arm: LiveArm, base: Pose, content: Array) -> Iterator[Array]:
-    """Yield the columns of an arm with its base at this pose."""
-    joints = 2 * arm.joints
-    yield content[:, :joints]
-    yield content[:, joints : joints + 3] @ base.rotation.T + base.position
-    yield content[:, joints + 12 : joints + 15] @ base.rotation.T  # the first half of the reference's twist
-    if arm.wrench is not None:
-        yield (content[:, joints + 24 : joints + 30].reshape(-1, 2, 3) @ base.rotation.T).reshape(-1, 6)
-    if arm.stamp is not None:
-        yield content[:, -1:]
+    """Yield the columns of an arm with its base at this pose; those of what it does not offer are empty."""
+    measured, rows, wrench, velocity, force, stamp = np.split(content, np.cumsum(_widths(arm))[:-1], axis=1)
+    reference = rows.reshape(-1, 8, 3)
+    yield measured
+    yield reference[:, 0] @ base.rotation.T + base.position
+    yield reference[:, TWIST][:, 0] @ base.rotation.T
+    yield _rotate(wrench, base.rotation)
+    yield _rotate(velocity, base.rotation)
+    yield _rotate(_find_commanded(force, reference), base.rotation)
+    yield stamp
+
+
+def _rotate(vectors: Array, rotation: Array) -> Array:
+    """Return rows of some vectors (3,) each in the parent frame of a frame with this rotation."""
+    return (vectors.reshape(len(vectors), -1, 3) @ rotation.T).reshape(vectors.shape)
+
+
+def _find_commanded(exerted: Array, reference: Array) -> Array:
+    """Return the forces (n, 3) in N on the tool, in base, that are commanded; NaN without a push. Empty if they are.
+
+    exerted (n, 3): N, along the axes of the reference, whose rows are (n, 8, 3).
+    """
+    if not exerted.size:
+        return exerted
+    forces = -np.einsum("nij,nj->ni", reference[:, ROTATION], exerted)
+    return np.where(exerted.any(axis=1, keepdims=True), forces, np.nan)
 
 
 def _describe_arm(columns: Columns, arm: LiveArm) -> Iterator[Signal]:
@@ -197,6 +225,11 @@ def _describe_arm(columns: Columns, arm: LiveArm) -> Iterator[Signal]:
         what = "on the tool, by the force-torque sensor"
         yield from columns.make("sensor", [f"force_{axis}" for axis in XYZ], "N", WORLD, f"force {what}")
         yield from columns.make("sensor", [f"torque_{axis}" for axis in XYZ], "N m", WORLD, f"torque {what}")
+    if arm.velocity is not None:
+        what = "velocity of the tool centre point, as measured"
+        yield from columns.make("estimate", [f"tool_v{axis}" for axis in XYZ], "m/s", WORLD, what)
+    if arm.force is not None:
+        yield from columns.make("command", [f"force_{axis}" for axis in XYZ], "N", WORLD, COMMANDED_FORCE)
     if arm.stamp is not None:
         yield from columns.make("sensor", ["measured"], "s", "", "when that was measured, by the arm's own clock")
 

@@ -29,6 +29,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 XYZ = ("x", "y", "z")
 WORLD = "world"
+COMMANDED_FORCE = "force on the tool that is asked for by a push; not known without one"
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,6 +127,8 @@ def _of_arm(columns: Columns, arm: ArmDriver, feels: bool) -> Iterator[Channel]:
     wrench += columns.make(origin, [f"torque_{axis}" for axis in XYZ], "N m", WORLD, f"torque on the tool, {how}")
     yield Channel(wrench, lambda: arm.measured.wrench)
     yield Channel(columns.pose("command", "tool", "the reference"), lambda: _pose_row(arm.motion.reference.pose))
+    pushed = columns.make("command", [f"force_{axis}" for axis in XYZ], "N", WORLD, COMMANDED_FORCE)
+    yield Channel(pushed, lambda: arm.compliance.commanded_force)
     frame = "compliance frame"
     stiff = columns.make("command", [f"stiffness_{axis}" for axis in XYZ], "N/m", frame, "stiffness that is asked for")
     turning = [f"turning_stiffness_{axis}" for axis in XYZ]
