@@ -78,7 +78,8 @@ def test_properties() -> None:
         "t:share a owl:DatatypeProperty, owl:FunctionalProperty ; rdfs:domain t:A ; rdfs:range xsd:float .\n"
         't:state a owl:DatatypeProperty ; rdfs:range [ a rdfs:Datatype ; owl:oneOf ( "On" "Off" ) ] .\n'
         't:normal a owl:DatatypeProperty ; rdfs:range skillc:Vector ; skillc:computedBy "m:normal" .\n'
-        "t:clean a owl:DatatypeProperty ; rdfs:range xsd:boolean .\n"
+        "t:clean a owl:DatatypeProperty ; rdfs:range xsd:boolean ;\n"
+        "    skillc:measure t:share ; skillc:threshold t:force .\n"
     )
     force, share, state, normal, clean = (
         found.properties[T + name] for name in ("force", "share", "state", "normal", "clean")
@@ -87,7 +88,7 @@ def test_properties() -> None:
     assert (share.type, share.functional) == (NumberType("Number"), True)
     assert (state.type, state.values) == (PlainType("Text"), ("On", "Off"))
     assert (normal.type, normal.computed_by) == (VectorType("Number"), "m:normal")
-    assert clean.type == PlainType("Bool")
+    assert (clean.type, clean.measure, clean.threshold) == (PlainType("Bool"), T + "share", T + "force")
 
 
 def test_a_broken_file_is_told_and_the_others_are_read() -> None:

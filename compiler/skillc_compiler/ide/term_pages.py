@@ -142,6 +142,8 @@ def _property(vocabulary: Vocabulary, term: PropertyTerm) -> str:
         term.comment,
         f"one of {', '.join(f'`{value}`' for value in term.values)}" if term.values else "",
         f"computed by `{term.computed_by}`" if term.computed_by else "",
+        f"judged from `{local_name(term.measure)}`" if term.measure else "",
+        f"needs `{local_name(term.threshold)}`" if term.threshold else "",
         f"`{vocabulary.short(term.iri)}`",
     )
 

@@ -102,10 +102,18 @@ def make_properties(terms: Terms) -> dict[str, PropertyTerm]:
                 bounds=typed.bounds,
                 functional=_is(terms, iri, "FunctionalProperty"),
                 computed_by=terms.graph.text(iri, f"{SKILLC}computedBy"),
+                measure=_other_property(terms, iri, "measure"),
+                threshold=_other_property(terms, iri, "threshold"),
                 comment=terms.graph.text(iri, COMMENT) or "",
                 source=terms.places.position(iri),
             )
     return found
+
+
+def _other_property(terms: Terms, iri: str, annotation: str) -> str | None:
+    """Return the first property that an annotation of a property names; None if it names none."""
+    named = map(terms.named, terms.graph.iris(iri, f"{SKILLC}{annotation}"))
+    return next((each for each in sorted(named) if terms.kinds.get(each) == PROPERTY), None)
 
 
 def find_deprecated(terms: Terms) -> dict[str, str]:

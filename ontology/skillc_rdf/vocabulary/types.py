@@ -139,7 +139,8 @@ class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
     """A data property.
 
     `values` is the finite set of values of a text property, () for any; `bounds` are those of a number. `computed_by`
-    names a Python function, "module:function", (world state, individual) -> value.
+    names a Python function, "module:function", (world state, individual) -> value. `measure` is the property of the
+    same individual with the number from which the value was judged, `threshold` the one with the number that it needs.
     """
 
     iri: str
@@ -149,6 +150,8 @@ class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
     bounds: Bounds | None = None
     functional: bool = True
     computed_by: str | None = None
+    measure: str | None = None
+    threshold: str | None = None
     comment: str = ""
     source: Position | None = None
 

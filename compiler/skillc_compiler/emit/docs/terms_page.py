@@ -108,6 +108,10 @@ def _facts(term: Term, links: LinkWriter) -> Iterator[Markup]:
                 yield Markup("one of {}").format(", ".join(term.values))
             if term.computed_by:
                 yield Markup("computed by <code>{}</code>").format(term.computed_by)
+            if term.measure:
+                yield Markup("judged from {}").format(links.term(term.measure))
+            if term.threshold:
+                yield Markup("needs {}").format(links.term(term.threshold))
         case FunctionTerm():
             parameters = (Markup("{}: {}").format(name, links.type(type_)) for name, type_ in term.parameters)
             yield Markup("({}) → {}").format(Markup(", ").join(parameters), links.type(term.result))

@@ -32,7 +32,7 @@ from skillc_runtime.world.eval.identity_cache import IdentityCache
 from skillc_runtime.world.eval.quantifiers import candidates
 from skillc_runtime.world.state.labelled import LabelledClass, LabelledFact, LabelledIdentity
 from skillc_runtime.world.state.labelling import label, label_property, label_relation
-from skillc_runtime.world.state.properties import property_of
+from skillc_runtime.world.state.properties import property_of, value_at
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
@@ -112,8 +112,15 @@ def _related(subject: str | None, relation: str, object_: str | None, state: Wor
 
 
 def _value(individual: str, property_: str, state: WorldState) -> Iterator[LabelledFact]:
+    """Yield the value of a property, and the numbers from which it was judged if they are known."""
+    words = state.vocabulary
     with suppress(EvaluationError):
-        yield label_property(individual, property_, property_of(state, individual, property_), state.vocabulary)
+        yield label_property(individual, property_, property_of(state, individual, property_), words)
+    term = words.properties[property_]
+    for judged_by in filter(None, (term.measure, term.threshold)):
+        number = value_at(state, individual, judged_by)
+        if number is not None:
+            yield label_property(individual, judged_by, number, words)
 
 
 def _deciding(condition: Exists | Forall, state: WorldState, bindings: _Names) -> list[str]:

@@ -32,6 +32,7 @@ from skillc_model.format_condition import format_relation
 from skillc_rdf.vocabulary.types import ValueType, Vocabulary, local_name
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import Bindings, compile_expression, describe_missing_value, type_of
+from skillc_runtime.world.state.properties import value_at
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.quantities import show_quantity
 from skillc_runtime.world.state.world_state import WorldState
@@ -163,7 +164,24 @@ class _Explainer:
     def _reading(self, expression: Expression, bindings: Bindings, type_: ValueType | None) -> str:
         """Return an expression with its value, such as `lab:Arm-1.deviceState is "Fault"`."""
         origin, shown = self._origin(expression, bindings), self._shown(expression, bindings, type_)
-        return f"{origin} is {shown}" if origin else shown
+        return f"{origin} is {shown}{self._judged_from(expression, bindings)}" if origin else shown
+
+    def _judged_from(self, expression: Expression, bindings: Bindings) -> str:
+        """Return the number from which a property was judged, beside its threshold: ` (coverage 0.98 of 1)`."""
+        if not isinstance(expression, PropertyOf):
+            return ""
+        term = self._state.vocabulary.properties[expression.property]
+        owner = str(compile_expression(expression.of)(self._state, bindings))
+        measured, needed = (self._number(owner, each) for each in (term.measure, term.threshold))
+        of = f" of {needed}" if needed else ""
+        return f" ({local_name(term.measure)} {measured}{of})" if term.measure and measured else ""
+
+    def _number(self, owner: str, property_: str | None) -> str:
+        """Return a number of an individual with its unit; empty if there is none."""
+        value = None if property_ is None else value_at(self._state, owner, property_)
+        if property_ is None or value is None:
+            return ""
+        return show_quantity(value, self._state.vocabulary.properties[property_].type)
 
     def _origin(self, expression: Expression, bindings: Bindings) -> str:
         """Return what has the value of an expression, such as `lab:Arm-1.deviceState`; empty for a mere value."""
