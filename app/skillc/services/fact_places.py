@@ -10,7 +10,7 @@ from typing import TypeAlias
 import pyoxigraph as ox
 
 from skillc.services.files import inspect_path
-from skillc_ontology.catalogue import sheet_files
+from skillc_ontology.catalogue import ROOT, sheet_files
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.turtle.statements import Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
@@ -70,13 +70,21 @@ class FactPlaces:
         if path.suffix != ".ttl" or inspect_path(path).kind != "file":
             return {}
         try:
-            return _by_subject([(self._scene, path.read_text(encoding="utf-8"))])
+            return _by_subject([(_name_file(path), path.read_text(encoding="utf-8"))])
         except (OSError, UnicodeDecodeError):
             return {}
 
     @cached_property
     def _sheet_statements(self) -> Statements:
-        return _by_subject(each for each in sheet_files() if each[0].endswith(".ttl"))
+        turtle = ((Path(name), text) for name, text in sheet_files() if name.endswith(".ttl"))
+        return _by_subject((_name_file(path), text) for path, text in turtle)
+
+
+def _name_file(path: Path) -> str:
+    """Return a file as users name it: a shipped scene by its name, others relative to the current folder if below."""
+    if path.parent == ROOT / "scenes":
+        return path.name
+    return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
 
 def _by_subject(files: Iterable[tuple[str, str]]) -> Statements:

@@ -28,6 +28,8 @@ HOW = {
     "inferred": "found in the world",
     "given": "an argument of the task",
 }
+OF_BODY = ("let", "loop", "output", "given")
+"""How names get their values that are not parameters of a call."""
 
 
 def format_overview(story: RunHistory, run: str) -> str:
@@ -193,7 +195,7 @@ def _trace(origin: ValueOrigin, owner: str = "") -> Iterator[str]:
     yield from _indented(map(_located, origin.facts))
     yield from _indented(_passed_over(origin.others))
     for name in origin.names:
-        yield from _indented(_trace(name, f" of {name.call}" if name.value is not None else ""))
+        yield from _indented(_trace(name, f" of {name.call}" if name.how not in OF_BODY else ""))
 
 
 def _describe_origin(origin: ValueOrigin) -> str:
@@ -203,7 +205,7 @@ def _describe_origin(origin: ValueOrigin) -> str:
         case "loop":
             how = "an item of the loop over"
         case "output":
-            how = f"the output of call {origin.by}"
+            return f"the output `{origin.text}` of call {origin.by}, {origin.source}" if origin.by else "an output"
         case _:
             how = HOW[origin.how]
     written = f"`{origin.text}`, " if origin.text else ""

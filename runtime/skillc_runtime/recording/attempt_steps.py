@@ -120,6 +120,7 @@ def _make_call(call: NodeRecord, number: str) -> RecordedCall:
         facts=call.facts,
         expressions=choice.expressions if choice is not None else {},
         out=choice.out if choice is not None else "",
+        outputs=call.end.outputs if call.end is not None else {},
         written=call.written,
         activity=choice.activity if choice is not None else "",
         highlights=choice.highlights if choice is not None else (),

@@ -60,7 +60,8 @@ class RecordedCall(_Part, frozen=True, kw_only=True):
     ran at the same time. `planned` if a planner bound its arguments, `fixed` if the call names its implementation.
     `unset` are the parameters that could not be inferred. `chain` leads from this call to the node that failed.
     `expressions` are those of its arguments and defaults, by parameter, and `written` the facts on which these rest
-    that were written during the run; `out` is the name that gets its output. `activity` and `highlights` are those of
+    that were written during the run; `outputs` are its outputs, of which `out` is the name that gets the first.
+    `activity` and `highlights` are those of
     a primitive.
     """
 
@@ -87,6 +88,7 @@ class RecordedCall(_Part, frozen=True, kw_only=True):
     facts: tuple[RecordedFact, ...] = ()
     expressions: dict[str, WrittenExpression] = {}
     out: str = ""
+    outputs: dict[str, LabelledValue] = {}
     written: tuple[RecordedFact, ...] = ()
     activity: str = ""
     highlights: tuple[Highlight, ...] = ()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, assert_never
 
 import msgspec
 
@@ -28,8 +28,8 @@ class ValueOrigin(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True)
 
     `call` is the number of the call of whose parameter or body it is a name, empty in a task. `how` is `passed` by the
     caller, `planned`, a `default`, `inferred`, a `let`, an item of a `loop`, the `output` of the call `by`, or `given`
-    to the task. `text` and `source` are the expression. A value that was inferred fulfils the `conditions`; `others`
-    are the individuals that `infer any` could have chosen as well.
+    to the task. `text` and `source` are the expression, of an output its name and the place of the call. A value that
+    was inferred fulfils the `conditions`; `others` are the individuals that `infer any` could have chosen as well.
     """
 
     name: str
@@ -61,7 +61,7 @@ class _Tracing:
         self._find_place = find_place
         self._outputs: dict[tuple[str, str], list[RecordedCall]] = {}  # the calls of a body that give a name its value
         for each in self._calls.values():
-            if each.out:
+            if each.out and each.outputs:
                 self._outputs.setdefault((_number_around(each), each.out), []).append(each)
 
     def trace(self, call: RecordedCall, parameter: str) -> ValueOrigin:
@@ -93,17 +93,26 @@ class _Tracing:
     def _trace_name(self, name: NameInExpression, call: RecordedCall) -> ValueOrigin:
         """Return where the value of a name in the body around a call comes from."""
         number = _number_around(call)
-        around = self._calls.get(number)
-        if name.how in ("let", "loop") and name.expression is not None:
-            origin = ValueOrigin(name=name.name, call=number, how="let" if name.how == "let" else "loop")
-            return self._add_expression(origin, name.expression, call)
-        if name.how == "parameter" and around is not None:
-            return self.trace(around, name.name)
-        before = [each for each in self._outputs.get((number, name.name), ()) if _ended_before(each, call)]
-        if before:
-            last = before[-1]
-            return ValueOrigin(name=name.name, call=number, how="output", by=last.number, source=last.source)
-        return ValueOrigin(name=name.name, call=number, how="given")
+        match name.how:
+            case "let" | "loop" | "given":
+                origin = ValueOrigin(name=name.name, call=number, how=name.how, value=name.value)
+                return origin if name.expression is None else self._add_expression(origin, name.expression, call)
+            case "parameter":
+                return self.trace(self._calls[number], name.name)
+            case "output":
+                return self._trace_output(name.name, number, call)
+            case _:
+                assert_never(name.how)
+
+    def _trace_output(self, name: str, number: str, call: RecordedCall) -> ValueOrigin:
+        """Return the output that gave a name its value in the body of call `number`, before a call in it started."""
+        origin = ValueOrigin(name=name, call=number, how="output")
+        before = [each for each in self._outputs.get((number, name), ()) if _ended_before(each, call)]
+        if not before:
+            return origin  # the recording began after that call
+        last = before[-1]
+        output, value = next(iter(last.outputs.items()))
+        return msgspec.structs.replace(origin, value=value, text=output, by=last.number, source=last.source)
 
     def _locate(self, fact: LabelledFact, call: RecordedCall) -> LocatedFact:
         written = next((each for each in call.written if each.fact == fact), None)

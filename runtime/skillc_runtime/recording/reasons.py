@@ -55,13 +55,14 @@ class WrittenExpression(msgspec.Struct, frozen=True, kw_only=True, omit_defaults
 class NameInExpression(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """A name of the enclosing body in an expression, and how it gets its value.
 
-    It is a `parameter` of the body, a `let` with its `expression`, an item of a `loop` over the `expression`, or the
-    `output` of a call.
+    It is a `parameter` of the body, a `let` with its `expression`, an item of a `loop` over the `expression`, the
+    `output` of a call, or `given` as an argument of the task. `value` is that of the argument or the item, if known.
     """
 
     name: str
-    how: Literal["parameter", "let", "loop", "output"]
+    how: Literal["parameter", "let", "loop", "output", "given"]
     expression: WrittenExpression | None = None
+    value: LabelledValue | None = None
 
 
 class UntriedImplementation(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):

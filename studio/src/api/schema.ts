@@ -1753,15 +1753,17 @@ export interface components {
          * NameInExpression
          * @description A name of the enclosing body in an expression, and how it gets its value.
          *
-         *         It is a `parameter` of the body, a `let` with its `expression`, an item of a `loop` over the `expression`, or the
-         *         `output` of a call.
+         *         It is a `parameter` of the body, a `let` with its `expression`, an item of a `loop` over the `expression`, the
+         *         `output` of a call, or `given` as an argument of the task. `value` is that of the argument or the item, if known.
          */
         NameInExpression: {
             name: string;
             /** @enum {unknown} */
-            how: "let" | "loop" | "output" | "parameter";
+            how: "given" | "let" | "loop" | "output" | "parameter";
             /** @default null */
             expression?: components["schemas"]["WrittenExpression"] | null;
+            /** @default null */
+            value?: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]) | null;
         };
         /**
          * WorldChanged
@@ -1982,8 +1984,8 @@ export interface components {
          *
          *         `call` is the number of the call of whose parameter or body it is a name, empty in a task. `how` is `passed` by the
          *         caller, `planned`, a `default`, `inferred`, a `let`, an item of a `loop`, the `output` of the call `by`, or `given`
-         *         to the task. `text` and `source` are the expression. A value that was inferred fulfils the `conditions`; `others`
-         *         are the individuals that `infer any` could have chosen as well.
+         *         to the task. `text` and `source` are the expression, of an output its name and the place of the call. A value that
+         *         was inferred fulfils the `conditions`; `others` are the individuals that `infer any` could have chosen as well.
          */
         ValueOrigin: {
             name: string;

@@ -9,14 +9,18 @@ from skillc_model.conditions import Expression, Literal
 from skillc_model.format_condition import format_expression
 from skillc_model.skills import Implementation
 from skillc_model.traversal import free_variables_in_order
-from skillc_rdf.vocabulary.types import Position
-from skillc_runtime.execution.tree.lexical_scope import LexicalScope
+from skillc_rdf.vocabulary.types import ListType, Position
+from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.loop_nodes import ForEachNode
 from skillc_runtime.execution.tree.node import Node
+from skillc_runtime.execution.tree.task_parameters import OriginalExpression, find_original
 from skillc_runtime.recording.reasons import NameInExpression, WrittenExpression
 from skillc_runtime.world.eval.deciding_facts import facts_read
+from skillc_runtime.world.eval.expressions import type_of, value_of
 from skillc_runtime.world.state.labelled import LabelledValue
 from skillc_runtime.world.state.labelled_text import format_value
+from skillc_runtime.world.state.labelling import label_value
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -38,7 +42,7 @@ def explain_arguments(
         if value is None:
             continue
         if written is not None:
-            found[each.name] = body.write(written, call.source, value)
+            found[each.name] = body.write(each.name, written, call.source, value)
         elif each.default is not None:
             facts = facts_read(each.default, body.state, bindings)
             text = _write(each.default, value, body.state)
@@ -49,37 +53,53 @@ def explain_arguments(
 class EnclosingBody:
     """The body in which a call stands; it knows what the names in its expressions stand for."""
 
-    def __init__(self, node: Node, scope: LexicalScope, state: WorldState) -> None:
-        self.state = state
+    def __init__(self, node: Node, scope: LexicalScope, context: TreeContext) -> None:
+        self.state = context.state
+        self._library = context.library
         self._scope = scope
         self._loops = {loop.variable: loop for loop in _loops_around(node)}
         owner = scope.implementation
         self._lets = {let.name: (let.value, owner.source) for let in owner.lets} if owner is not None else {}
         self._parameters = {each.name for each in owner.parameters} if owner is not None else frozenset[str]()
 
-    def write(self, expression: Expression, source: Position, value: LabelledValue | None = None) -> WrittenExpression:
-        """Return an expression with what it reads; a constant as its `value`, which has a unit."""
-        return self._write_in(self.state, expression, source, value)
+    def write(
+        self, name: str, expression: Expression, source: Position, value: LabelledValue | None = None
+    ) -> WrittenExpression:
+        """Return the expression that gives a name its value, with what it reads; a constant as its labelled `value`."""
+        return self._write_in(self.state, find_original(self._library, source, name, expression), source, value)
 
     def _write_in(
-        self, state: WorldState, expression: Expression, source: Position, value: LabelledValue | None = None
+        self, state: WorldState, original: OriginalExpression, source: Position, value: LabelledValue | None = None
     ) -> WrittenExpression:
-        names = free_variables_in_order(expression)
         return WrittenExpression(
-            text=_write(expression, value, state),
+            text=_write(original.expression, value, state),
             source=source,
-            facts=facts_read(expression, state, self._scope.frame),
-            names=tuple(self._explain(each) for each in names),
+            facts=facts_read(original.expression, state, {**self._scope.frame, **self._values_of(original)}),
+            names=tuple(self._explain(each, original) for each in free_variables_in_order(original.expression)),
         )
 
-    def _explain(self, name: str) -> NameInExpression:
+    def _explain(self, name: str, original: OriginalExpression) -> NameInExpression:
+        if name in original.given:
+            value, type_ = self._values_of(original)[name], original.given[name][1]
+            return NameInExpression(name=name, how="given", value=label_value(value, type_, self.state.vocabulary))
         if name in self._loops:
-            loop = self._loops[name]
-            return NameInExpression(name=name, how="loop", expression=self.write(loop.items, loop.source))
+            return self._explain_item(name, self._loops[name])
         if name in self._lets:
             read = self._scope.lets_read if self._scope.lets_read is not None else self.state
-            return NameInExpression(name=name, how="let", expression=self._write_in(read, *self._lets[name]))
+            expression, source = self._lets[name]
+            let = self._write_in(read, OriginalExpression(expression), source)
+            return NameInExpression(name=name, how="let", expression=let)
         return NameInExpression(name=name, how="parameter" if name in self._parameters else "output")
+
+    def _explain_item(self, name: str, loop: tree.ForEach) -> NameInExpression:
+        """Return the loop of a variable, with the present item if its type is known."""
+        type_, value = type_of(loop.items, self.state.vocabulary), self._scope.frame[name]
+        item = label_value(value, type_.element, self.state.vocabulary) if isinstance(type_, ListType) else None
+        items = self.write(name, loop.items, loop.source)
+        return NameInExpression(name=name, how="loop", expression=items, value=item)
+
+    def _values_of(self, original: OriginalExpression) -> Frame:
+        return {name: value_of(value, self.state, {}) for name, (value, _) in original.given.items()}
 
 
 def _write(expression: Expression, value: LabelledValue | None, state: WorldState) -> str:

@@ -285,7 +285,7 @@ class CallNode(Node):
 
     def _emit_choice(self, activation: Activation) -> None:
         if self.context.emit is not None:
-            body = EnclosingBody(self, self._scope, self.context.state)
+            body = EnclosingBody(self, self._scope, self.context)
             event = make_choice_event(
                 self.id, self.node, activation, self._arguments, self.rejected, body, self.context
             )
