@@ -14,6 +14,7 @@ from typing import TypeAlias
 
 from skillc.extras import install_command, missing_extras
 from skillc.services import scene_diagnostics, value_checks
+from skillc.services.angle_checks import check_angles
 from skillc.services.cell_checks.report import CellJudge, CellProblem, cell_problems, used_individuals
 from skillc.services.cell_checks.verdicts import judge_cell
 from skillc.services.task_scenes import TaskScenes
@@ -79,6 +80,7 @@ def check_tasks_in_scenes(
     valid = [(scene, str(path)) for path, scene in scenes.valid.items()]
     others = [] if unchecked else [each for scene, path in valid for each in _of_devices(scene, path)]
     others += (each for scene, path in valid for each in _of_individuals(library, scene, path))
+    others += (each for scene, path in valid for each in check_angles(scene, path))
     others = [each for each in others if (each.span.path, each.span.line) not in labelled]
     return [*errors, *others, *unchecked, *(_with_tasks(each, stopped) for found in cells.values() for each in found)]
 
