@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Iterator, Mapping
-from itertools import zip_longest
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from itertools import count
 from typing import Any
 
 import msgspec
 
 from skillc.contract.run_diff import Difference, Leaf, Part, RunDiff
+from skillc.services.run_diff.alignment import align
 from skillc.services.run_diff.calls import (
     compare_choices,
     compare_durations,
@@ -18,15 +18,14 @@ from skillc.services.run_diff.calls import (
     pair_calls,
 )
 from skillc.services.run_diff.difference import compare_mappings, find_difference
+from skillc.services.run_diff.objective import compare_objectives
 from skillc.services.run_diff.recorded import RecordedRunData
 from skillc.services.run_diff.signals import compare_signals
-from skillc_model.format_condition import format_condition, format_expression
-from skillc_model.tree import Call
-from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.recording.events import Disturbed, Requested, TaskStarted
 from skillc_runtime.recording.known_facts import format_status
 from skillc_runtime.recording.run_spec import RunRequest, TaskRequest
+from skillc_runtime.world.state.labelled import LabelledIri
 
 SETTINGS = tuple(
     each for each in RunRequest.__struct_fields__ if each not in (*TaskRequest.__struct_fields__, "step", "breakpoints")
@@ -36,28 +35,29 @@ SETTINGS = tuple(
 
 def compare_runs(first: RecordedRunData, second: RecordedRunData) -> RunDiff:
     """Return in what two runs differ."""
-    pairs = pair_calls(first.history, second.history)
+    calls = pair_calls(first.history, second.history)
     about, same = _about_run(first.start), _about_run(second.start)
     requests = _list_requests(first), _list_requests(second)
     differences = (
         *compare_mappings("settings", about, same),
+        *compare_objectives(first.start, second.start),
         *_compare_requests(*requests),
         *compare_plans(first.history, second.history),
-        *compare_choices(pairs),
+        *compare_choices(calls.pairs),
         *find_difference("outcomes", "task", (_describe_end(first), _describe_end(second))),
-        *compare_outcomes(pairs),
+        *compare_outcomes(calls),
         *_compare_measures(first.result, second.result),
-        *_by_size([*_compare_time(first, second), *compare_durations(pairs)]),
+        *_by_size([*_compare_time(first, second), *compare_durations(calls.pairs)]),
         *_by_size(compare_signals(first.signals or {}, second.signals or {})),
     )
     compared: dict[Part, int] = {
-        "settings": len(about),
+        "settings": len(about) + 1,
         "requests": max(map(len, requests)),
         "plan": min(len(each.history.attempts) for each in (first, second)),
-        "choices": len(pairs),
-        "outcomes": len(pairs) + 1,
+        "choices": len(calls.pairs),
+        "outcomes": len(calls.pairs) + 1,
         "measures": len(_list_works(first.result).keys() & _list_works(second.result).keys()),
-        "times": len(pairs) + 1,
+        "times": len(calls.pairs) + 1,
         "signals": len((first.signals or {}).keys() & (second.signals or {})),
     }
     return RunDiff((first.name, second.name), compared, differences, tuple(_list_notes(first, second)))
@@ -68,7 +68,6 @@ def _about_run(start: TaskStarted) -> dict[str, Leaf]:
     settings = {each: getattr(start.settings, each) for each in SETTINGS}
     return {
         "task": start.task,
-        "objective": _describe_objective(start),
         "minimise": start.minimise or None,
         "library": start.library,
         "library hash": start.hash[:12],
@@ -81,29 +80,13 @@ def _about_run(start: TaskStarted) -> dict[str, Leaf]:
     }
 
 
-def _describe_objective(start: TaskStarted) -> str:
-    """Return a goal or a call as an author writes it, another body as JSON; with local names: prefixes are not kept."""
-    if start.goal is not None:
-        text = format_condition(start.goal, Vocabulary())
-    elif isinstance(start.body, Call):
-        text = _describe_call(start.body)
-    else:
-        text = msgspec.json.encode(start.body).decode()
-    return re.sub(r"(?<![a-z])[a-z]+://[^\"\s]*[#/]", "", text)
-
-
-def _describe_call(call: Call) -> str:
-    given = ", ".join(f"{name}: {format_expression(each, Vocabulary())}" for name, each in call.arguments.items())
-    return f"{call.skill}{f'[{call.implementation}]' if call.implementation else ''}({given})"
-
-
 def _list_requests(run: RecordedRunData) -> list[str]:
     return [_describe_request(event) for event in run.events if isinstance(event, Requested | Disturbed)]
 
 
 def _compare_requests(first: list[str], second: list[str]) -> tuple[Difference, ...]:
     """Return the first request that differs: those after it depend on what it did."""
-    pairs = enumerate(zip_longest(first, second), 1)
+    pairs = enumerate(align(first, second, lambda each: each, lambda each: each.partition(" ")[0]), 1)
     return next(
         (found for number, pair in pairs if (found := find_difference("requests", f"request {number}", pair))), ()
     )
@@ -141,13 +124,22 @@ def _compare_measures(first: TaskResult, second: TaskResult) -> Iterator[Differe
 
 
 def _list_works(result: TaskResult) -> dict[str, dict[str, Leaf]]:
-    """Return the numbers of the pieces of work of a run, by name, as its report has them."""
+    """Return the numbers of the pieces of work of a run, by what was worked on, as its report has them."""
     found: dict[str, dict[str, Leaf]] = {}
     for kind, works in (("wiping", result.wipings), ("work", result.works), ("placement", result.placements)):
-        for number, work in enumerate(works, 1):
-            name = f"{work.__struct_config__.tag or kind} {number}"
+        for work in works:
+            name = _name_work(kind, work, found)
             found[name] = {f"{name}: {field}": each for field, each in _list_numbers(msgspec.to_builtins(work))}
     return found
+
+
+def _name_work(kind: str, work: msgspec.Struct, others: Collection[str]) -> str:
+    """Return the kind of a piece of work and what it was done on, with a number if it was done before."""
+    values = (getattr(work, each) for each in work.__struct_fields__)
+    on = next((f" of {value.label}" for value in values if isinstance(value, LabelledIri)), "")
+    name = f"{work.__struct_config__.tag or kind}{on}"
+    names = (name if number == 1 else f"{name}, {number}" for number in count(1))
+    return next(each for each in names if each not in others)
 
 
 def _list_numbers(value: Mapping[str, Any]) -> Iterator[tuple[str, Leaf]]:
