@@ -14,7 +14,15 @@ from skillc_compiler.resolve.type_names import BUILT_IN, resolve_type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
-from skillc_rdf.vocabulary.types import ClassTerm, FunctionTerm, PropertyTerm, RelationTerm, Signature, Vocabulary
+from skillc_rdf.vocabulary.types import (
+    THING,
+    ClassTerm,
+    FunctionTerm,
+    PropertyTerm,
+    RelationTerm,
+    Signature,
+    Vocabulary,
+)
 
 Term = TypeVar("Term", ClassTerm, RelationTerm, PropertyTerm)
 
@@ -35,7 +43,11 @@ def extend_vocabulary(
             match declaration:
                 case s.ClassDeclaration():
                     iri = _declared_iri("class", declaration.name, here, look_up)
-                    classes[iri] = _class(declaration, iri, classes.get(iri), look_up)
+                    term = _class(declaration, iri, classes.get(iri), look_up)
+                    if iri == THING:
+                        look_up.problems.append(_another_thing(declaration.name))
+                    else:
+                        classes[iri] = term
                 case s.RelationDeclaration():
                     iri = _declared_iri("relation", declaration.name, here, look_up)
                     relations[iri] = _relation(declaration, iri, relations.get(iri), look_up)
@@ -53,6 +65,15 @@ def extend_vocabulary(
         relations=_complete_inverses(relations),
         properties=properties,
         functions=functions,
+    )
+
+
+def _another_thing(name: s.Name) -> Diagnostic:
+    return Diagnostic(
+        "redeclared-term",
+        name.span,
+        f"`{name.text}` is already the class of all things, `owl:Thing`, to which nothing can be added",
+        help="choose another name",
     )
 
 
