@@ -35,7 +35,7 @@ OF_BODY = ("let", "loop", "output", "given")
 def format_overview(story: RunHistory, run: str) -> str:
     """Return the steps of a run, why there was more than one plan, and why the task failed; and what to ask next."""
     hint = f"Ask about a step, a skill or a parameter: `skillc why {run} {_example(story)}`"
-    return "\n".join((*overview_lines(story), "", hint))
+    return "\n".join((*overview_lines(story), *(("", hint) if any(story.calls) else ())))
 
 
 def overview_lines(story: RunHistory) -> list[str]:
