@@ -107,7 +107,8 @@ function focusDecision(from: Element | null, frames: number): void {
 function Item({ activity: { operation, attention, prompt } }: { activity: Activity }) {
   const isShown = operation.id === operationId.value && replay.value === null;
   const isUrgent = attention !== "goes on";
-  const said = prompt?.text ?? (operation.state === "planned" ? "" : nameOperations(describeReason(operation)));
+  const said =
+    prompt?.text ?? (operation.state === "planned" ? "" : nameOperations(describeReason(operation)));
   const left = prompt === null ? "" : describeLeft(prompt);
   const title = [describeOwned(operation), said, prompt === null ? "" : describeRemaining(prompt)]
     .filter((each) => each !== "")
