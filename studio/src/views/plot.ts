@@ -7,9 +7,11 @@ const FONT = "11px system-ui";
 const COLOURS = 8;
 
 /** Return a colour of the theme as the browser resolves it; canvas knows no variables. */
-export function themeColour(name: string): string {
+export const themeColour = (name: string): string => resolveColour(`var(--${name})`);
+
+function resolveColour(colour: string): string {
   const probe = document.createElement("span");
-  probe.style.color = `var(--${name})`;
+  probe.style.color = colour;
   document.body.append(probe);
   const found = getComputedStyle(probe).color;
   probe.remove();
@@ -27,7 +29,9 @@ export async function drawPlot(
   const { default: UPlot } = await import("uplot");
   const [ink, line, accent] = [themeColour("muted"), themeColour("line"), themeColour("accent")];
   const units = [...new Set(lines.map((each) => each.unit))];
-  const colours = colourLines(lines).map((each) => themeColour(`line${(each % COLOURS) + 1}`));
+  const colours = colourLines(lines).map((each, index) =>
+    lineColour(`var(--line${(each % COLOURS) + 1})`, lines[index]?.isDashed === true),
+  );
   // The marks of whole lines are full, those of dashed lines empty; the first series is the time.
   const fills = [
     "",
@@ -66,7 +70,7 @@ export async function drawPlot(
         label: each.name,
         scale: each.unit,
         stroke: colours[index] ?? ink,
-        width: 1.5,
+        width: each.isDashed === true ? 2 : 1.5,
         spanGaps,
         ...(each.isDashed === true ? { dash: [5, 3] } : {}),
         value: (_: uPlot, value: number | null) => format(value, each.unit),
@@ -76,6 +80,10 @@ export async function drawPlot(
   };
   return new UPlot(options, [[], ...lines.map(() => [])] as uPlot.AlignedData, element);
 }
+
+/** Dashed lines are nearer to the text than what they are compared with, so that they are seen in its noise. */
+const lineColour = (colour: string, isDashed: boolean): string =>
+  resolveColour(isDashed ? `color-mix(in oklab, ${colour} 50%, var(--ink))` : colour);
 
 const markStyle = (plot: uPlot, index: number): string =>
   plot.series[index]?.dash === undefined ? "solid" : "dashed";
