@@ -128,8 +128,9 @@ def measurements(count: int) -> list[list[float]]:
         axes, (centre, position, origin, weight) = chance.uniform(-1, 1, (7, 6)), chance.uniform(-1, 1, (4, 3))
         low_pass(readings, *chance.uniform(-20, 20, (2, 9)), 0.3)
         q, dq, bias, noise = chance.uniform(-1, 1, (4, 7))
+        velocity = np.zeros(3)
         sensing = ArmSensing(
-            joints, hand.in_base, J, wrench, q, dq, bias, hand.on_link, axes, centre, Pose(position, link),
+            joints, hand.in_base, J, wrench, velocity, q, dq, bias, hand.on_link, axes, centre, Pose(position, link),
             Pose(origin, base), weight, *chance.uniform(-9, 9, (4, 7)), chance.uniform(-1, 1, (6, 9)), readings,
         )  # fmt: skip
         measure(sensing, noise)
@@ -140,7 +141,7 @@ def measurements(count: int) -> list[list[float]]:
         add_payload_mass(mass, hand.lever, J, 0.3)
         kept = np.zeros(7)
         numbers = [update_holding(kept, *joints[:3], also, position) for also in (wrench, wrench * np.nan)]
-        seen = (hand.in_base, J, joints, wrench, mass, dose, sines, kept)
+        seen = (hand.in_base, J, joints, wrench, velocity, mass, dose, sines, kept)
         found.append([*np.concatenate([each.ravel() for each in seen]), *map(float, numbers)])
     return found
 
