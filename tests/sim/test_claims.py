@@ -94,7 +94,7 @@ def test_a_pad_as_it_should_be_keeps_its_contact() -> None:
 def test_an_obstacle_is_not_taken_for_the_surface() -> None:
     execution = wiped("clean_desk", lambda facts, seed: add_obstacles(draw_variation(facts, seed), facts))
     assert execution.status == "failed"
-    assert execution.failure is not None and "lab:Desk-1 is not clean" in execution.failure.message
+    assert execution.failure is not None and "lab:Desk-1.isClean is false" in execution.failure.message
     after = execution.backend.world.snapshot()
     coverage = after.value(LAB + "Desk-1", COVERAGE)
     assert isinstance(coverage, float) and 0.5 < coverage < 1.0, "what the eraser reached is clean all the same"

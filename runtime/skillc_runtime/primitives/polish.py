@@ -30,12 +30,8 @@ class InspectPolish(Primitive):
             raise SkillFailure(str(error)) from error
 
     def tick(self) -> Status:
-        """Measure, and write the results; SkillFailure with both numbers if the surface is not polished."""
+        """Measure, write the results, and return SUCCESS."""
         seen = self.cell.camera().rubbed_share(self._surface, self._time)
         polished = SetProperty(self._surface, IS_POLISHED, seen >= self._threshold)
         self.cell.world.commit([SetProperty(self._surface, POLISHED_SHARE, seen), polished], "Inspect", "idealised")
-        if not polished.value:
-            short = self.cell.world.snapshot().vocabulary.short(self._surface)
-            shares = f"{100 * seen:.2f} % was rubbed long enough, and at least {100 * self._threshold:g} % is wanted"
-            raise SkillFailure(f"{short} is not polished: {shares}")
         return Status.SUCCESS
