@@ -129,15 +129,13 @@ class ToyLink:
     def _ask(self, operation: int, value: float, kind: ConditionKind) -> None:
         """Send a request and wait for its condition; ControlRefused if it does not come."""
         self._send(operation, value, np.zeros(self._there.joints))
-        for _ in range(50):
+        for _ in range(5000):  # States that were sent before wait in the stream.
             self.condition = CONDITION[int(self._receive()[1])]
             if self.condition.kind == kind:
                 return
             if self.condition.kind not in ("ready", "protective-stop"):
                 break
-            if operation == TAKE:
-                self._send(operation, value, np.zeros(self._there.joints))
-        raise ControlRefused(self.condition.sentence)
+        raise ControlRefused(self.condition.sentence or "the toy does not answer the request")
 
     def _send(self, operation: int, value: float, values: Any) -> None:
         assert self._stream is not None
