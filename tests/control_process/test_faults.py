@@ -23,7 +23,7 @@ from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits
 
-pytestmark = pytest.mark.sim
+pytestmark = pytest.mark.robot
 SCENE = "iiwa_table"
 DEADLINE_S = 60.0
 """Wall time after which a test gives up."""

@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 
 from backends.kinematic_runs import library, prepare, shipped_tasks
-from control_process.toy_link import toy_cell
+from control_process.toy_link import MUCH_PATIENCE, toy_cell
 from skillc_ontology import catalogue
 from skillc_runtime.execution.execute import execute_task
 
-pytestmark = pytest.mark.sim
+pytestmark = pytest.mark.robot
 
 
 def run(task: str, check: Callable[[dict[str, Any]], None]) -> None:
@@ -22,7 +22,7 @@ def run(task: str, check: Callable[[dict[str, Any]], None]) -> None:
     assert name is not None
     scene = catalogue.scene_path(name)
     prepared = prepare(compiled, task, scene)
-    with toy_cell(scene.stem, state=prepared.assignment.state) as (toy, cell):
+    with toy_cell(scene.stem, state=prepared.assignment.state, patience=MUCH_PATIENCE) as (toy, cell):
         execution = execute_task(prepared, compiled, cell, [])
         assert execution.status == "succeeded", execution.failure
         assert cell.is_at_rest()
