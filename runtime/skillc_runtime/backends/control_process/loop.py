@@ -55,9 +55,12 @@ class ControlLoop:
         self._ending_since: float | None = None
         self._is_tree_silent = self._is_excused = False
 
+    def begin(self) -> None:
+        """Read and publish the first state."""
+        self._run_cycle()
+
     def run(self) -> None:
         """Run until the other side has gone and the arm is at rest; then give the arm back."""
-        self._link.read(self._measured)
         try:
             while not self._is_over():
                 self._run_cycle()
