@@ -91,7 +91,7 @@ def test_a_robot_that_is_frozen_is_named_and_goes_on_once_it_is_acknowledged(bot
     toy, cell = both
     swing(cell)
     os.kill(toy.process.pid, signal.SIGSTOP)
-    assert f"the toy robot at port {toy.port} has been silent for 3 s" in told(cell)
+    assert f"the toy robot at port {toy.port} has been silent for 2 s" in told(cell)
     os.kill(toy.process.pid, signal.SIGCONT)
     wait_until(lambda: is_still(toy))
     cell.stops.clear()
