@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -112,6 +113,35 @@ def test_cycles_are_recorded_with_what_was_lost_and_the_model_is_where_the_robot
     arm.motion.stop()
     wait_until(cell.is_at_rest)
     assert drawing.posture().joints[joint] == pytest.approx(float(np.asarray(report(toy)["q"])[0]), abs=1e-3)
+
+
+def test_lost_states_are_counted_and_a_motion_goes_on(both: tuple[Toy, DeviceCell]) -> None:
+    toy, cell = both
+    before = remote(cell).process.read().number("lost")
+    toy.ask("lose", 5)
+    swing(cell)
+    wait_until(lambda: remote(cell).process.read().number("lost") > before + 100)
+    toy.ask("lose", 0)
+    assert cell.stops.report is None
+    assert report(toy)["violations"] == []
+
+
+@pytest.mark.parametrize(("what", "on", "off"), [("delay", 12, 0), ("flip_speeds", True, False)])
+def test_what_makes_a_law_unstable_ends_at_rest(both: tuple[Toy, DeviceCell], what: str, on: Any, off: Any) -> None:
+    """Commands that come late, and speeds with the wrong sign, let an arm shake: it is stopped, or given back."""
+    toy, cell = both
+    swing(cell)
+    toy.ask(what, on)
+    wait_until(lambda: cell.stops.report is not None)
+    wait_until(lambda: is_still(toy))
+    time.sleep(0.3)
+    assert is_still(toy)
+    assert report(toy)["violations"] == []
+    if what == "delay":
+        wait_until(lambda: "did not come to rest, so control was given back" in str(cell.stops.report))
+    toy.ask(what, off)
+    cell.stops.clear()
+    swing(cell)
 
 
 def test_a_robot_that_is_frozen_is_named_and_goes_on_once_it_is_acknowledged(both: tuple[Toy, DeviceCell]) -> None:

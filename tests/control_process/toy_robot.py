@@ -11,6 +11,7 @@ import socket
 import sys
 import threading
 import time
+from collections import deque
 from collections.abc import Sequence
 from multiprocessing.connection import Connection, Listener
 from typing import Any
@@ -78,7 +79,8 @@ class Robot:
         self.judge = Judge(self.arm.limits, rate, self.cell.period_s)
         self.paced, self.condition, self.lose_every, self.cycle, self.silent = paced, 0, 0, 0, 0
         self.flip = 1.0
-        self.commands = 0
+        self.commands, self.delay = 0, 0
+        self.waiting: deque[Command] = deque()
         self.lock = threading.RLock()
         self._flange = self.cell.model.site(f"{self.cell.scene.names[self.facts.individual]}/flange").id
         gripper = None if self.facts.gripper is None else self.facts.gripper.individual
@@ -106,10 +108,13 @@ class Robot:
         if operation == COMMAND and self.condition == 1 and frame[1] in MADE:
             self.commands, self.silent = self.commands + 1, 0
             self.judge.check(float(frame[1]), frame[2:])
-            self.arm.command(MADE[float(frame[1])](frame[2:].copy()))
+            self.waiting.append(MADE[float(frame[1])](frame[2:].copy()))
+            while len(self.waiting) > self.delay:
+                self.arm.command(self.waiting.popleft())
         elif operation == TAKE and self.condition == 0:
             self.condition, self.silent = 1, 0
             self.judge.begin()
+            self.waiting.clear()
             self.arm.switch("torque" if frame[1] == 1.0 else "position" if frame[1] == 2.0 else "velocity")
         elif (operation == GIVE and self.condition == 1) or (operation == RECOVER and self.condition == 4):
             self.condition = 0
@@ -171,8 +176,11 @@ class Panel:
     def lose(self, every: int) -> None:
         self._robot.lose_every = every
 
-    def flip_speeds(self) -> None:
-        self._robot.flip = -1.0
+    def delay(self, cycles: int) -> None:
+        self._robot.delay = cycles
+
+    def flip_speeds(self, on: bool) -> None:
+        self._robot.flip = -1.0 if on else 1.0
 
     def report(self) -> dict[str, Any]:
         robot = self._robot

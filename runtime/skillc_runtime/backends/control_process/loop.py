@@ -29,6 +29,9 @@ from skillc_runtime.motion.arrays import OutVector
 BRAKING_S = 2.0
 """At the end an arm is controlled until it is at rest, or for this time."""
 
+REST_S = 1.0
+"""A stopped arm that has moved for longer is given back: its own controller brakes what the law makes shake."""
+
 LOST_S = 0.005
 """How often a loop without a device looks for calls, in s."""
 
@@ -51,7 +54,7 @@ class ControlLoop:
         self._publisher = Publisher(plan, memory, arm, self._measured, self._clock)
         self._phase: Phase = "connected"
         self._condition: Condition | None = None
-        self._seen = monotonic()
+        self._seen = self._rested = monotonic()
         self._ending_since: float | None = None
         self._is_tree_silent = self._is_excused = False
 
@@ -106,6 +109,15 @@ class ControlLoop:
             return
         self._check_gap(gap, self._seen - asked)
         link.write(self._arm.step(measured, self._clock.now_s))
+        if self._arm.stop is None or self._arm.driver.measured.still:
+            self._rested = self._seen
+        elif self._seen > self._rested + REST_S:
+            self._let_go(self._arm.stop)
+
+    def _let_go(self, stop: DeviceStop) -> None:
+        """Give back an arm that does not come to rest after a stop."""
+        self._arm.stop = DeviceStop(stop.kind, f"{stop.reason}; it did not come to rest, so control was given back")
+        self._give_back()
 
     def _check_gap(self, gap: float, waited: float) -> None:
         """Hold the arm if the loop has not run for too long, in s, before it asked the device or while it waited."""

@@ -213,11 +213,11 @@ class DeviceCell(Backend, Cell):
                     self._take_fault(fault)
 
     def _take_fault(self, fault: DeviceStop) -> None:
-        """Stop all devices for the first fault; an emergency stop that comes later is reported instead of it."""
+        """Stop all devices for the first fault; what is said of it later, or an emergency stop, is reported instead."""
         if self._fault is None:
             self._fault, self._is_told = fault, False
             self._abort(fault.reason)
-        elif fault.kind == "emergency-stop":
+        elif fault.kind == "emergency-stop" or fault.reason.startswith(self._fault.reason):
             self._fault = fault
 
     def _abort(self, reason: str) -> None:
