@@ -25,7 +25,7 @@ def _backends() -> list[object]:
 
     def mark(name: str) -> Any:
         if name.startswith("remote"):
-            return pytest.mark.robot
+            return (pytest.mark.robot, pytest.mark.long) if name.endswith("ur5e") else pytest.mark.robot
         return pytest.mark.sim if name.endswith(slow) else ()
 
     return [pytest.param(each, marks=mark(each)) for each in sorted(BACKENDS)]

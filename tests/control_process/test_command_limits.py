@@ -35,6 +35,7 @@ def follow(limits: CommandLimits, mode: str, wanted: list[float], cycles: int = 
     return np.array(told)
 
 
+@pytest.mark.slow
 @given(WANTED)
 def test_positions_keep_range_speed_acceleration_and_jerk(wanted: list[float]) -> None:
     limits = made()

@@ -21,6 +21,7 @@ for number in range(1, 20001):
 """
 
 
+@pytest.mark.slow
 def test_a_record_is_whole_whenever_it_is_read() -> None:
     file = make_memory(301)
     writer = subprocess.Popen([sys.executable, "-c", WRITER, str(file)], pass_fds=[file])

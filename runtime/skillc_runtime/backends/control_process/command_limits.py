@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf, sqrt
+from math import sqrt
 
 import numpy as np
 
@@ -38,11 +38,6 @@ class RateLimits:
 
     jerk: Array
     torque_rate: Array
-
-
-def no_rate_limits(joints: int) -> RateLimits:
-    """Return that commands of so many joints may change as fast as they like."""
-    return RateLimits(np.full(joints, inf), np.full(joints, inf))
 
 
 class CommandLimits:

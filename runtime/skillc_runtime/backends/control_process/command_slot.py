@@ -19,11 +19,6 @@ class CommandSlot(Motors):
         super().__init__(joints, modes, timestep_s)
         self.command_for_device = make_command(joints.q.size)
 
-    @property
-    def is_empty(self) -> bool:
-        """Whether nothing has been commanded since the mode was chosen."""
-        return bool(self.command_for_device.kind[0] == NOTHING)
-
     def _take(self, command: Command) -> None:
         if MODES[type(command)] != self.mode:
             self._refuse(command)

@@ -12,10 +12,10 @@ from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Reference
 
-Phase: TypeAlias = Literal["connected", "in-control", "lost", "ended"]
-"""What a control process does: it reads the device, has control of it, waits for it, or has ended."""
+Phase: TypeAlias = Literal["connected", "in-control", "lost"]
+"""What a control process does: it reads the device, has control of it, or waits for it to be connected again."""
 
-PHASES: Final[tuple[Phase, ...]] = ("connected", "in-control", "lost", "ended")
+PHASES: Final[tuple[Phase, ...]] = ("connected", "in-control", "lost")
 
 FIELDS: Final = {
     "time_s": "1", "stamp_s": "1", "phase": "1", "stopped": "1", "faulted": "1", "lost": "1", "late_s": "1",
