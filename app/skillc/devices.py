@@ -1,7 +1,7 @@
 """What devices are: the protocols that primitives use and back ends fulfil, and how simulated ones are disturbed."""
 
 from skillc_runtime.devices.arm import Arm
-from skillc_runtime.devices.backend import Backend, BackendStart, BackendUnavailable
+from skillc_runtime.devices.backend import Backend, BackendStart, BackendUnavailable, DeviceStop, StopPersists
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.capabilities import BackendCapabilities
@@ -16,6 +16,7 @@ __all__ = [
     "BackendStart",
     "BackendUnavailable",
     "Cell",
+    "DeviceStop",
     "Gripper",
     "LoseArm",
     "MobileBase",
@@ -23,5 +24,6 @@ __all__ = [
     "PoseCamera",
     "PressEmergencyStop",
     "Push",
+    "StopPersists",
     "Take",
 ]

@@ -65,6 +65,7 @@ def test_the_sheet_of_another_device_is_told_at_its_line(
             "joint-numbers",
             "jointAccelerations has 2 numbers",
         ),
+        ("skillc:armature", 'skillc:jointJerks "9 0" ; skillc:armature', "joint-numbers", "must be above 0"),
         ("robots/iiwa14.xml", "robots/ur5e.xml", "unfit-sheet", "its model has 6 joints, and its posture home 7"),
         ("robots/iiwa14.xml", "robots/gone.xml", "unfit-sheet", "no model robots/gone.xml"),
         ("robots/iiwa14.xml", "robots/ur5e.ttl", "unfit-sheet", "its model cannot be read"),

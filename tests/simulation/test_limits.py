@@ -73,7 +73,7 @@ def test_ranges_speeds_and_efforts_are_the_makers(arm: str) -> None:
 def test_an_arm_s_model_agrees_with_its_sheet(arm: str) -> None:
     built, said = model(arm), sheet(arm)
     np.testing.assert_array_equal(built.dof_armature, said.number("armature"))
-    for name in ("jointSpeeds", "jointAccelerations"):
+    for name in ("jointSpeeds", "jointAccelerations", "jointJerks"):
         if name == "jointSpeeds" or said.has(name):
             assert said.limits(name, built.nv).shape == (built.nv,)
     home = said.posture("home")

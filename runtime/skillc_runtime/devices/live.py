@@ -19,7 +19,8 @@ class LiveArm:
     sensor; None without one. reference (8, 3): the rows of `Reference`; NaN while the joints are controlled. stamp
     (1,): when that was measured, in s of the arm's own clock; None if it has none but the cell's. velocity (3,): m/s,
     of the tool as measured. force (3,): N that the tool is commanded to exert, along the axes of its reference; 0
-    without a push. None for either if it is not known.
+    without a push. None for either if it is not known. timing (2,): how many control periods have been lost so far,
+    and by how many s the last one was late; None if none can be.
     """
 
     individual: str
@@ -31,6 +32,7 @@ class LiveArm:
     stamp: ReadBytes | None = None
     velocity: ReadBytes | None = None
     force: ReadBytes | None = None
+    timing: ReadBytes | None = None
 
 
 @dataclass(frozen=True, slots=True)

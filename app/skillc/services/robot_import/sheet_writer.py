@@ -32,7 +32,7 @@ CONTROLLERS: Mapping[ControlKind, str] = {
     "velocity": "forward_dynamics_velocity",
 }
 """The controller of each kind of arm, which a scene names."""
-TEXTS = ("jointSpeeds", "jointAccelerations")
+TEXTS = ("jointSpeeds", "jointAccelerations", "jointJerks")
 """Properties that are texts: a number for each joint, separated by spaces."""
 MODELLED = ("reach", "shoulderHeight", *TEXTS, "jerkLimit")
 """Further properties that a user may state; the first three come from the model otherwise."""
@@ -102,6 +102,7 @@ def _groups(control: ControlKind) -> tuple[tuple[str, ...], ...]:
         ("reach", "shoulderHeight"),
         ("jointSpeeds",),
         ("jointAccelerations",),
+        ("jointJerks",),
         ("armature", "servoStiffness", "servoDamping", "forceTorqueTime"),
         COMMON[1:5],
         tuple(name for name in GAINS[control] if not name.startswith(("servo", "forceTorque"))),

@@ -172,11 +172,13 @@ def _reads(arm: LiveArm) -> Iterator[Callable[[], bytes]]:
         yield arm.force
     if arm.stamp is not None:
         yield arm.stamp
+    if arm.timing is not None:
+        yield arm.timing
 
 
 def _widths(arm: LiveArm) -> tuple[int, ...]:
     """Return how many numbers each of `_reads` has; 0 for those that the arm does not offer."""
-    optional = ((arm.wrench, 6), (arm.velocity, 3), (arm.force, 3), (arm.stamp, 1))
+    optional = ((arm.wrench, 6), (arm.velocity, 3), (arm.force, 3), (arm.stamp, 1), (arm.timing, 2))
     return (2 * arm.joints, 24, *(0 if read is None else width for read, width in optional))
 
 
@@ -186,7 +188,7 @@ def _width(arm: LiveArm) -> int:
 
 def _convert_arm(arm: LiveArm, base: Pose, content: Array) -> Iterator[Array]:
     """Yield the columns of an arm with its base at this pose; those of what it does not offer are empty."""
-    measured, rows, wrench, velocity, force, stamp = np.split(content, np.cumsum(_widths(arm))[:-1], axis=1)
+    measured, rows, wrench, velocity, force, stamp, timing = np.split(content, np.cumsum(_widths(arm))[:-1], axis=1)
     reference = rows.reshape(-1, 8, 3)
     yield measured
     yield reference[:, 0] @ base.rotation.T + base.position
@@ -195,6 +197,7 @@ def _convert_arm(arm: LiveArm, base: Pose, content: Array) -> Iterator[Array]:
     yield _rotate(velocity, base.rotation)
     yield _rotate(_find_commanded(force, reference), base.rotation)
     yield stamp
+    yield timing
 
 
 def _rotate(vectors: Array, rotation: Array) -> Array:
@@ -232,6 +235,9 @@ def _describe_arm(columns: Columns, arm: LiveArm) -> Iterator[Signal]:
         yield from columns.make("command", [f"force_{axis}" for axis in XYZ], "N", WORLD, COMMANDED_FORCE)
     if arm.stamp is not None:
         yield from columns.make("sensor", ["measured"], "s", "", "when that was measured, by the arm's own clock")
+    if arm.timing is not None:
+        yield from columns.make("sensor", ["lost_periods"], "", "", "control periods that were lost so far")
+        yield from columns.make("sensor", ["late"], "s", "", "by how much the control period began late")
 
 
 def _describe_tool(columns: Columns) -> Iterator[Signal]:

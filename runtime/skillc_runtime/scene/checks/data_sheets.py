@@ -21,6 +21,7 @@ from skillc_runtime.world.state.terms import (
     INSPECTION_CAMERA,
     INSPECTION_SHEET,
     JOINT_ACCELERATIONS,
+    JOINT_JERKS,
     JOINT_SPEEDS,
     JOINT_VALUES,
     MOBILE_ROBOT,
@@ -71,7 +72,7 @@ def _names(state: WorldState, classes: set[str]) -> str:
 def _joint_lists(state: WorldState, sheet: str) -> Iterator[SceneViolation]:
     """Yield lists of a sheet that are not numbers, one for each joint; the speeds define the number of joints."""
     postures = ((posture, JOINT_VALUES) for posture in sorted(state.objects(sheet, HAS_POSTURE)))
-    for owner, term in ((sheet, JOINT_SPEEDS), (sheet, JOINT_ACCELERATIONS), *postures):
+    for owner, term in ((sheet, JOINT_SPEEDS), (sheet, JOINT_ACCELERATIONS), (sheet, JOINT_JERKS), *postures):
         problem = _list_problem(state, sheet, owner, term)
         if problem is not None:
             yield SceneViolation(owner, term, "joint-numbers", *problem)
