@@ -79,6 +79,7 @@ OPENING_BIAS = SKILLC + "openingBias"
 OPENING_NOISE = SKILLC + "openingNoise"
 SENSING_PERIOD = SKILLC + "sensingPeriod"
 
+DRIVER_ADDRESS = SKIROS + "DriverAddress"
 COMPLIANT_CONTROLLER = SKIROS + "CompliantController"
 CONTAINER_STATE = SKIROS + "ContainerState"
 DEVICE_STATE = SKILLC + "deviceState"
