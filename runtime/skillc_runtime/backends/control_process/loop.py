@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from time import monotonic, sleep
 from typing import Any
 
@@ -159,29 +160,31 @@ class ControlLoop:
                 return self._arm.stop
             case "end", ():
                 return self.end()
-            case "take_control", ():
-                return self._call_slowly(self._take_control)
-            case "give_back", ():
-                return self._call_slowly(self._give_back)
-            case "recover", ():
-                return self._call_slowly(self._recover)
-            case "set_load", (load,):
-                return self._set_load(load)
-            case "tare", ():
-                return self._tare()
-        raise ValueError(f"nothing is called device.{call.name}")
-
-    def _call_slowly(self, function: Any) -> None:
-        """Call what may take longer than a period; the other side is told."""
+        slow: dict[str, Callable[..., None]] = {
+            "take_control": self._take_control,
+            "give_back": self._give_back,
+            "recover": self._recover,
+            "set_load": self._set_load,
+            "tare": self._tare,
+        }
         self._publisher.publish_at_once(self._phase, monotonic(), busy_until_s=monotonic() + 3 * CALL_S)
         self._is_excused = True
-        function()
+        slow[call.name](*call.arguments)
+        return None
 
     def _take_control(self) -> None:
+        """Take control; a device that refuses it counts as stopped, until somebody acknowledges that."""
         if self._arm.stop is not None:
             raise ControlRefused(self._arm.stop.reason)
         if self._phase == "in-control":
             return
+        try:
+            self._begin_control()
+        except ControlRefused as refusal:
+            self._arm.report(DeviceStop("protective-stop", str(refusal)))
+            raise
+
+    def _begin_control(self) -> None:
         self._link.read(self._measured)
         self._look_at_condition()
         condition = self._link.condition
@@ -212,12 +215,10 @@ class ControlLoop:
 
     def _set_load(self, load: ArmLoad | None) -> None:
         self._arm.arm.set_load(load)
-        self._is_excused = True
         self._link.set_load(self._arm.arm.hand, self._arm.arm.held)
 
     def _tare(self) -> None:
         if self._link.abilities.tares:
-            self._is_excused = True
             self._link.tare()
         else:
             self._arm.arm.tare()

@@ -19,7 +19,7 @@ from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
 from skillc_runtime.backends.control_process.rehearsal import rehearse
 from skillc_runtime.backends.control_process.shared_memory import map_memory
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
-from skillc_runtime.devices.arm import Mode
+from skillc_runtime.devices.arm import ArmLimits, Mode
 from skillc_runtime.motion.numerics.compiled import compile_imported
 from skillc_runtime.platforms.real_time import run_in_real_time
 
@@ -37,12 +37,13 @@ class ControlTask:
 class Connected:
     """A control process is connected to its device: period in s, abilities and the mode of its law.
 
-    real_time: whether it runs before all other processes.
+    limits: of its joints. real_time: whether it runs before all other processes.
     """
 
     period_s: float
     abilities: LinkAbilities
     mode: Mode
+    limits: ArmLimits
     real_time: bool
 
 
@@ -68,7 +69,7 @@ def main(connection: Connection, memory_file: int) -> int:
         return 1
     loop = ControlLoop(link, arm, Mailbox(connection), plan, memory)
     signal.signal(signal.SIGTERM, lambda *_: loop.end())
-    connection.send(Connected(link.period_s, link.abilities, arm.mode, run_in_real_time()))
+    connection.send(Connected(link.period_s, link.abilities, arm.mode, arm.arm.limits, run_in_real_time()))
     loop.run()
     return 0
 

@@ -61,7 +61,7 @@ class SharedRing:
     """The last rows (width,) that were written. `memory` is (1 + rows * width,)."""
 
     def __init__(self, memory: OutVector, width: int) -> None:
-        self._counter = memory[:1]
+        self._counter, self.width = memory[:1], width
         self._rows: OutMatrix = memory[1:].reshape(-1, width)
         self._taken = 0
 
