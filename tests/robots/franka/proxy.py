@@ -4,7 +4,8 @@
 
 "ready" is printed when it listens on ADDRESS. Lines on standard input: `drop SHARE` and `delay MS` of packets of both
 directions; `strict`: stop as a robot does that has had no command for `LOST_IN_ROW` states; `reflex ERROR` and
-`user-stop`, as a robot does it, which the simulated one does not; `release` ends the latter; `report` is answered with one line of JSON. The layouts of packets are those of libfranka's message types.
+`user-stop`, as a robot does it, which the simulated one does not; `release` ends the latter; `report` is answered with
+one line of JSON. The layouts of packets are those of libfranka's message types.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ REFLEX, USER_STOPPED = 4, 5
 MODES = {"reflex": REFLEX, "user-stop": USER_STOPPED}
 ABORTED = {REFLEX: 8, USER_STOPPED: 3}
 NOT_POSSIBLE = 5
-ERRORS = {"joint_velocity_violation": 3, "joint_reflex": 6, "cartesian_reflex": 7, "communication_constraints_violation": 25}
+ERRORS = {"joint_reflex": 6, "cartesian_reflex": 7, "communication_constraints_violation": 25}
 TAU, FINISHED, COMMAND = slice(314, 370), 370, 371
 Q, DQ, MODE = slice(596, 624), slice(652, 680), -5
 ERROR_FLAGS, REASON_FLAGS = -87, -46
@@ -259,7 +260,7 @@ class Proxy:
 
     def stop(self, mode: int, error: str = "") -> None:
         """Do as a robot that stops by itself."""
-        self.mode, self._error = mode, int(error) if error.isdigit() else ERRORS.get(error, 0)
+        self.mode, self._error = mode, ERRORS.get(error, 0)
         for relay in set(self._relays.values()):
             if relay.port == ROBOT:
                 relay.abort_motion(ABORTED[mode])

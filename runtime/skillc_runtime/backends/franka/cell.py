@@ -6,7 +6,6 @@ from collections.abc import Mapping
 
 from skillc_runtime.backends.control_process.opening import open_cell
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
-from skillc_runtime.backends.devices.grasp import Grasp
 from skillc_runtime.backends.franka.facts import describe, read_address
 from skillc_runtime.backends.franka.hand import FrankaHand
 from skillc_runtime.backends.franka.library import load_library
@@ -36,8 +35,8 @@ def make_devices(scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellD
     try:
         for facts in scene.arms:
             if facts.gripper is not None:
-                grasp = Grasp(scene, arms[facts.individual].set_load)
-                hands[facts.gripper.individual] = FrankaHand(facts.gripper, read_address(facts), grasp)
+                arm, hand = arms[facts.individual], facts.gripper
+                hands[hand.individual] = FrankaHand(hand, read_address(facts), arm)
     except BaseException:
         close()
         raise

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from skillc_runtime.backends.devices.grasp import Grasp
+from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.franka.hand_client import HandClient
 from skillc_runtime.backends.simulation.finger_sensor import NOISE_DEVIATIONS
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec
 from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
-from skillc_runtime.devices.gripper import Gripper
+from skillc_runtime.devices.gripper import CLOSED_FURTHER_M, Gripper
 from skillc_runtime.motion.pose import Pose
 
 CONNECT_S = 10.0
@@ -27,12 +27,13 @@ class FrankaHand(Gripper):
     process that waits for them is ended, and another one, which is ready, connects and stops them.
     """
 
-    def __init__(self, facts: GripperSpec, address: str, grasp: Grasp) -> None:
+    def __init__(self, facts: GripperSpec, address: str, arm: RemoteArmDriver) -> None:
         """Connect; nothing moves. BackendUnavailable, with what to do."""
-        self._facts, self._address, self._grasp = facts, address, grasp
+        self._facts, self._address, self._arm = facts, address, arm
         self._client = HandClient(address)
         self._spare = HandClient(address)
-        self._goal_m = 0.0
+        self._goal_m = self._held_at_m = 0.0
+        self._thing: str | None = None
         try:
             self._connect()
         except BackendUnavailable:
@@ -72,7 +73,8 @@ class FrankaHand(Gripper):
     @property
     def holding(self) -> str | None:
         """The IRI of the object that counts as held; None as soon as the fingers close further: it was lost."""
-        return self._grasp.holding(self.opening_m)
+        closed = self.opening_m < self._held_at_m - min(CLOSED_FURTHER_M, self._held_at_m / 2)
+        return None if closed else self._thing
 
     @property
     def fault(self) -> str | None:
@@ -103,11 +105,14 @@ class FrankaHand(Gripper):
         """Count an object as held; RuntimeError if the fingers are not blocked, or the scene has no body of it."""
         if not self.blocked:
             raise RuntimeError(f"nothing keeps the fingers of the hand at {self._address} from closing")
-        self._grasp.attach(thing, in_tool_centre, mass_kg, self.opening_m)
+        self._arm.hold(thing, in_tool_centre, mass_kg)
+        self._thing, self._held_at_m = thing, self.opening_m
 
     def detach(self) -> None:
         """Count nothing as held."""
-        self._grasp.detach()
+        if self._thing is not None:
+            self._thing = None
+            self._arm.set_load(None)
 
     def recover(self) -> None:
         """Connect again after a fault; StopPersists."""

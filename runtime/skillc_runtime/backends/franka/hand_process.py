@@ -12,7 +12,7 @@ from __future__ import annotations
 import json
 import os
 import select
-import sys
+from importlib import import_module
 from typing import Any, Final
 
 SENSING_S: Final = 0.02
@@ -22,9 +22,7 @@ ANY_WIDTH_M: Final = 1.0
 
 def main() -> None:
     """Carry out lines until there are no more."""
-    import pylibfranka
-
-    hand: Any = None
+    library, hand = import_module("pylibfranka"), None
     done, waiting = 0, b""
     print(json.dumps({"done": done}), flush=True)
     while True:
@@ -37,11 +35,11 @@ def main() -> None:
         try:
             for line in lines:
                 done += 1
-                hand = carry_out(pylibfranka, hand, *json.loads(line))
+                hand = carry_out(library, hand, *json.loads(line))
             said = read(hand)
-        except (RuntimeError, pylibfranka.FrankaException) as error:
+        except (RuntimeError, library.FrankaException) as error:
             print(json.dumps({"done": done, "error": str(error).removeprefix("libfranka: ")}), flush=True)
-            if isinstance(error, pylibfranka.NetworkException):
+            if isinstance(error, library.NetworkException):
                 return
         else:
             print(json.dumps({"done": done, **said}), flush=True)
@@ -71,4 +69,4 @@ def read(hand: Any) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -1,1 +1,0 @@
-"""Devices that need no real time, as several back ends use them: grippers, inputs and outputs."""
