@@ -21,6 +21,8 @@ import numpy as np
 from franky_sim import SimulationServer
 from franky_sim.mujoco_simulator import MujocoSimulator
 
+from robots.franka.priority import run_promptly
+
 HAND = "robot0_hand"
 
 
@@ -67,6 +69,7 @@ class Observer:
 
 
 def main(address: str, scene: str | None = None) -> None:
+    run_promptly()
     with MujocoSimulator() as simulator:
         simulator.add_robot()
         if scene is not None:

@@ -24,6 +24,7 @@ from typing import Any
 import numpy as np
 
 from robots.franka import limits
+from robots.franka.priority import run_promptly
 
 ROBOT, HAND = 1337, 1338
 HEADERS = {ROBOT: struct.Struct("<III"), HAND: struct.Struct("<HII")}
@@ -313,6 +314,7 @@ def _received(source: socket.socket) -> list[tuple[bytes, Any]]:
 
 
 if __name__ == "__main__":
+    run_promptly()
     proxy = Proxy(*sys.argv[1:])
     print("ready", flush=True)
     proxy.run()

@@ -35,6 +35,9 @@ SILENCE_S = 1.0
 RECOVERY_S = 1.5
 """How long a robot that recovers is waited for, in s."""
 
+TORQUE_STEP_N_M = 0.98
+"""The robot stops if a torque, without weight, changes by 1 N m from one command to the next, or from 0 at first."""
+
 LOAD_DENSITY = 1000.0
 """A held mass counts as a ball of this density in kg/m^3: the robot refuses a mass without inertia."""
 
@@ -71,6 +74,7 @@ class FrankaLink(RobotLink):
         self._torques = library.Torques
         self._robot: Any = None
         self._control: Any = None
+        self._sent = np.zeros(0)
         self._condition = Condition("wrong-mode", f"{description.name} is not connected")
 
     @property
@@ -110,10 +114,11 @@ class FrankaLink(RobotLink):
         state.wrench[:] = 0.0
 
     def write(self, command: CommandView) -> None:
-        """Send torques (nv,) in N m, without weight; a refusal changes `condition`."""
+        """Send torques (nv,) in N m, without weight, in steps that the robot takes; a refusal changes `condition`."""
+        np.clip(command.values, self._sent - TORQUE_STEP_N_M, self._sent + TORQUE_STEP_N_M, out=self._sent)
         with self._naming_silence():
             try:
-                self._control.writeOnce(self._torques(command.values.tolist()))
+                self._control.writeOnce(self._torques(self._sent.tolist()))
             except self._library.ControlException as error:
                 self._lose_control(error)
 
@@ -129,13 +134,15 @@ class FrankaLink(RobotLink):
         if self._control is not None:
             return
         with self._naming_silence():
-            if (condition := self._ask()).kind != "ready":
-                raise ControlRefused(f"{self._description.name} does not give control: {condition.sentence}")
+            state = self._robot.read_once()
+            self._condition = read_condition(state, controls=False)
+            if self._condition.kind != "ready":
+                raise ControlRefused(f"{self._description.name} does not give control: {self._condition.sentence}")
             try:
                 self._control = self._robot.start_torque_control()
             except (self._library.CommandException, self._library.ControlException) as error:
                 raise ControlRefused(f"{self._description.name} does not give control: {_sentence(error)}") from error
-        self._condition = IN_CONTROL
+        self._sent, self._condition = np.zeros(len(state.q)), IN_CONTROL
 
     def give_back(self) -> None:
         """End the torque control with a last command; the robot's own controller holds the arm then."""
