@@ -12,7 +12,7 @@ from typing import Any, Final
 
 PROGRAM: Final = "skillc_runtime.backends.franka.hand_process"
 
-IDLE_SILENCE_S: Final = 0.5
+IDLE_SILENCE_S: Final = 3.0
 MOVING_SILENCE_S: Final = 10.0
 """A hand that says nothing for longer does not answer: while nothing is to be done, and while fingers move, in s."""
 
