@@ -1,7 +1,9 @@
 """Runs franky-sim, a simulated robot that speaks the Franka Control Interface, with things around it.
 
-    python -m robots.franka.peer ADDRESS [SCENE]
+    python -m robots.franka.peer ADDRESS FRICTION [SCENE]
 
+FRICTION is the share of its friction in the joints that is left: a real robot closes a loop around the torque behind
+each gear, so that little of the gear's friction is felt; the simulated one applies what is commanded before the gear.
 SCENE is a MuJoCo model whose bodies and geoms are added. "ready" is printed when the robot answers. Lines on standard
 input are answered with one line of JSON: `pose BODY` (position in m), `force GEOM` (N that press on it), `log GEOM`
 (from now on, samples of a geom's normal force and of the hand), `save FILE` (writes them, (n, 8): time s, force N,
@@ -68,7 +70,7 @@ class Observer:
         return float(total)
 
 
-def main(address: str, scene: str | None = None) -> None:
+def main(address: str, friction: str, scene: str | None = None) -> None:
     run_promptly()
     with MujocoSimulator() as simulator:
         simulator.add_robot()
@@ -77,6 +79,7 @@ def main(address: str, scene: str | None = None) -> None:
                 simulator.worldbody.append(element)
         observer = Observer(simulator)
         with SimulationServer(simulator, hostname_candidates=[address]) as server:
+            simulator.model.dof_frictionloss[:] *= float(friction)
             server.run_async()
             print("ready", flush=True)
             for line in sys.stdin:

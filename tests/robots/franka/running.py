@@ -57,9 +57,9 @@ class Peer:
 
 
 @contextmanager
-def robot(scene: Path | None = None) -> Iterator[Peer]:
-    """Run a simulated robot, with the things of a MuJoCo model around it."""
-    peer = Peer("peer", own_address(), *([] if scene is None else [str(scene)]))
+def robot(scene: Path | None = None, friction: float = 0.1) -> Iterator[Peer]:
+    """Run a simulated robot, with the things of a MuJoCo model around it, and a share of its friction."""
+    peer = Peer("peer", own_address(), str(friction), *([] if scene is None else [str(scene)]))
     try:
         yield peer
     finally:
