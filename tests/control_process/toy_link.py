@@ -267,9 +267,7 @@ class ToyCamera:
 
 
 @contextmanager
-def toy_cell(
-    scene: str, paced: bool = False, state: WorldState | None = None
-) -> Iterator[tuple[Toy, DeviceCell]]:
+def toy_cell(scene: str, paced: bool = False, state: WorldState | None = None) -> Iterator[tuple[Toy, DeviceCell]]:
     """Yield a toy robot and its cell."""
     toy = Toy(scene, paced)
     try:

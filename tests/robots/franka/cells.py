@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
+from robots.franka.running import Peer
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.control_process.handshake import Patience
 from skillc_runtime.backends.control_process.opening import open_cell
+from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.franka.cell import make_devices
 from skillc_runtime.backends.franka.facts import describe
-from skillc_runtime.backends.real_time.device_cell import DeviceCell
+from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
 from skillc_runtime.recording.events import Listener
@@ -46,10 +50,30 @@ def own_scene(library_name: str, task_name: str, address: str, folder: Path) -> 
     return WorldModel(load_scene(folder / "cell.ttl", library(library_name).vocabulary))
 
 
+class PeersCamera:
+    """A camera that sees what the peer's things have wiped."""
+
+    def __init__(self, peer: Peer) -> None:
+        self._peer = peer
+
+    def inspect(self, surface: str) -> float:
+        """Return the share that is clean."""
+        return float(self._peer.ask("wiped"))
+
+    def rubbed_share(self, surface: str, seconds: float) -> float:
+        """Return the same: how long is not seen."""
+        return self.inspect(surface)
+
+
 @contextmanager
-def real_cell(world: WorldModel) -> Iterator[DeviceCell]:
-    """Open the cell of a world, and close it."""
-    cell = open_cell(world, describe, make_devices, PATIENCE)
+def real_cell(world: WorldModel, peer: Peer | None = None) -> Iterator[DeviceCell]:
+    """Open the cell of a world, with a camera that sees what a peer's things have wiped, and close it."""
+
+    def devices(scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
+        return replace(make_devices(scene, arms), inspection=None if peer is None else PeersCamera(peer))
+
+    cell = open_cell(world, describe, devices, PATIENCE)
+    cell._heartbeats._timeout = PATIENCE.tree_s
     try:
         yield cell
     finally:

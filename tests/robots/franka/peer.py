@@ -5,9 +5,9 @@
 FRICTION is the share of its friction in the joints that is left: a real robot closes a loop around the torque behind
 each gear, so that little of the gear's friction is felt; the simulated one applies what is commanded before the gear.
 SCENE is a MuJoCo model whose bodies and geoms are added. "ready" is printed when the robot answers. Lines on standard
-input are answered with one line of JSON: `pose BODY` (position in m), `force GEOM` (N that press on it), `log GEOM`
-(from now on, samples of a geom's normal force and of the hand), `save FILE` (writes them, (n, 8): time s, force N,
-position of the hand (3,) m, axis of the hand (3,)).
+input are answered with one line of JSON: `pose BODY` (position in m), `force GEOM` (N that press on it), `wipe GEOM
+BODY` (from now on, a body wipes the top of a box), `wiped` (the share of the top that was), `save FILE` (writes the
+samples, one a step: time s, N on the box, tilt of the body in rad).
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import sys
 import threading
 import xml.etree.ElementTree as ET
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -25,7 +26,36 @@ from franky_sim.mujoco_simulator import MujocoSimulator
 
 from robots.franka.priority import run_promptly
 
-HAND = "robot0_hand"
+CELL_M = 0.005
+FACE_M = np.array([0.05, 0.025])
+"""Half of the face that wipes."""
+LEAST_N = 1.0
+EVERY = 10
+
+
+class Wiping:
+    """Which share of the top of a box a body has wiped, and how."""
+
+    def __init__(self, model: Any, geom: str, body: str) -> None:
+        box = model.geom(geom)
+        self.geom, self._body = box.id, model.body(body).id
+        counts = np.round(2 * box.size[:2] / CELL_M).astype(int)
+        grid = np.stack(np.meshgrid(*((np.arange(n) + 0.5) * CELL_M - n * CELL_M / 2 for n in counts)), axis=-1)
+        self._cells = box.pos[:2] + grid.reshape(-1, 2)
+        self._wiped = np.zeros(len(self._cells), dtype=bool)
+        self.samples: list[tuple[float, float, float]] = []
+
+    def see(self, data: Any, force: float) -> None:
+        """Note a step with a force in N on the box."""
+        axes = data.xmat[self._body].reshape(3, 3)
+        self.samples.append((data.time, force, float(np.arccos(np.clip(axes[2, 2], -1.0, 1.0)))))
+        if force > LEAST_N and len(self.samples) % EVERY == 0:
+            there = (self._cells - data.xpos[self._body][:2]) @ axes[:2, :2]
+            self._wiped |= (np.abs(there) <= FACE_M).all(axis=1)
+
+    @property
+    def share(self) -> float:
+        return float(self._wiped.mean())
 
 
 class Observer:
@@ -33,32 +63,31 @@ class Observer:
 
     def __init__(self, simulator: MujocoSimulator) -> None:
         self._simulator, self._turn = simulator, threading.Lock()
-        self._logged: int | None = None
-        self._samples: list[np.ndarray] = []
+        self._wiping: Wiping | None = None
         simulator.register_pre_step_callback(lambda _: self._turn.acquire())
         simulator.register_post_step_callback(self._after_step)
 
-    def answer(self, question: str, name: str) -> object:
+    def answer(self, question: str, *names: str) -> object:
         model, data = self._simulator.model, self._simulator.data
         with self._turn:
             match question:
                 case "pose":
-                    return list(data.body(name).xpos)
+                    return list(data.body(*names).xpos)
                 case "force":
-                    return self._force(model.geom(name).id)
-                case "log":
-                    self._logged, self._samples = model.geom(name).id, []
+                    return self._force(model.geom(*names).id)
+                case "wipe":
+                    self._wiping = Wiping(model, *names)
+                case "wiped":
+                    assert self._wiping is not None
+                    return self._wiping.share
                 case "save":
-                    np.save(name, np.array(self._samples))
+                    assert self._wiping is not None
+                    np.save(names[0], np.array(self._wiping.samples))
             return None
 
     def _after_step(self, _: MujocoSimulator) -> None:
-        if self._logged is not None:
-            hand = self._simulator.data.body(HAND)
-            axis = hand.xmat.reshape(3, 3)[:, 2]
-            self._samples.append(
-                np.array([self._simulator.data.time, self._force(self._logged), *hand.xpos.copy(), *axis])
-            )
+        if self._wiping is not None:
+            self._wiping.see(self._simulator.data, self._force(self._wiping.geom))
         self._turn.release()
 
     def _force(self, geom: int) -> float:
@@ -83,8 +112,7 @@ def main(address: str, friction: str, scene: str | None = None) -> None:
             server.run_async()
             print("ready", flush=True)
             for line in sys.stdin:
-                question, _, name = line.strip().partition(" ")
-                print(json.dumps(observer.answer(question, name)), flush=True)
+                print(json.dumps(observer.answer(*line.split())), flush=True)
 
 
 if __name__ == "__main__":
