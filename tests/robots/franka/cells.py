@@ -27,6 +27,7 @@ from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 
 LAB = "http://example.org/lab#"
+SWITCHES_M = 0.003
 PATIENCE = Patience(tree_s=3.0, process_s=3.0, gap_s=3.0)
 """Machines that run tests are busy with others."""
 
@@ -65,12 +66,28 @@ class PeersCamera:
         return self.inspect(surface)
 
 
+class PeersButton:
+    """A button of a peer's that switches where its data sheet says."""
+
+    def __init__(self, peer: Peer) -> None:
+        self._peer = peer
+
+    @property
+    def switched(self) -> bool:
+        """Whether it is pressed so far that it has switched."""
+        return float(self._peer.ask("travel cap")) >= SWITCHES_M
+
+
 @contextmanager
 def real_cell(world: WorldModel, peer: Peer | None = None) -> Iterator[DeviceCell]:
-    """Open the cell of a world, with a camera that sees what a peer's things have wiped, and close it."""
+    """Open the cell of a world, with a camera and buttons that see a peer's things, and close it."""
 
     def devices(scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
-        return replace(make_devices(scene, arms), inspection=None if peer is None else PeersCamera(peer))
+        own = make_devices(scene, arms)
+        if peer is None:
+            return own
+        buttons = {each.individual: PeersButton(peer) for each in scene.fixtures}
+        return replace(own, inspection=PeersCamera(peer), buttons=buttons)
 
     cell = open_cell(world, describe, devices, PATIENCE)
     cell._heartbeats._timeout = PATIENCE.tree_s

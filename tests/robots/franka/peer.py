@@ -5,7 +5,8 @@
 FRICTION is the share of its friction in the joints that is left: a real robot closes a loop around the torque behind
 each gear, so that little of the gear's friction is felt; the simulated one applies what is commanded before the gear.
 SCENE is a MuJoCo model whose bodies and geoms are added. "ready" is printed when the robot answers. Lines on standard
-input are answered with one line of JSON: `pose BODY` (position in m), `force GEOM` (N that press on it), `wipe GEOM
+input are answered with one line of JSON: `pose BODY` (position in m), `force GEOM` (N that press on it), `travel JOINT`
+(m), `wipe GEOM
 BODY` (from now on, a body wipes the top of a box), `wiped` (the share of the top that was), `save FILE` (writes the
 samples, one a step: time s, N on the box, tilt of the body in rad).
 """
@@ -75,6 +76,8 @@ class Observer:
                     return list(data.body(*names).xpos)
                 case "force":
                     return self._force(model.geom(*names).id)
+                case "travel":
+                    return float(data.joint(*names).qpos[0])
                 case "wipe":
                     self._wiping = Wiping(model, *names)
                 case "wiped":
