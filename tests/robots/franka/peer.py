@@ -2,8 +2,9 @@
 
     python -m robots.franka.peer ADDRESS FRICTION [SCENE]
 
-FRICTION is the share of its friction in the joints that is left: a real robot closes a loop around the torque behind
-each gear, so that little of the gear's friction is felt; the simulated one applies what is commanded before the gear.
+FRICTION is the share of its friction in the joints that is left while torques are commanded: a real robot closes a
+loop around the torque behind each gear, so that little of the gear's friction is felt; the simulated one applies what
+is commanded before the gear. Its own position controller would not be stable with less friction.
 SCENE is a MuJoCo model whose bodies and geoms are added. "ready" is printed when the robot answers. Lines on standard
 input are answered with one line of JSON: `pose BODY` (position in m), `force GEOM` (N that press on it), `travel JOINT`
 (m), `wipe GEOM
@@ -23,9 +24,13 @@ from typing import Any
 import mujoco
 import numpy as np
 from franky_sim import SimulationServer
+from franky_sim.franka_robot_server import ControlMode
 from franky_sim.mujoco_simulator import MujocoSimulator
 
 from robots.franka.priority import run_promptly
+
+KP, KV = (4500.0, 4500.0, 3500.0, 3500.0, 2000.0, 2000.0, 500.0), (450.0, 450.0, 350.0, 350.0, 200.0, 200.0, 50.0)
+"""Gains of its own position controller: with those for the last joint that are usual there, it never comes to rest."""
 
 CELL_M = 0.005
 FACE_M = np.array([0.05, 0.025])
@@ -102,16 +107,28 @@ class Observer:
         return float(total)
 
 
+def ease_joints(simulator: MujocoSimulator, share: float) -> None:
+    """Leave a share of the friction in the joints while torques are commanded."""
+    own = simulator.model.dof_frictionloss.copy()
+    server = simulator.robots[0].server
+
+    def set_friction(_: MujocoSimulator) -> None:
+        is_eased = server._FrankaRobotServer__control_mode is ControlMode.TORQUE
+        simulator.model.dof_frictionloss[:] = share * own if is_eased else own
+
+    simulator.register_pre_step_callback(set_friction)
+
+
 def main(address: str, friction: str, scene: str | None = None) -> None:
     run_promptly()
     with MujocoSimulator() as simulator:
-        simulator.add_robot()
+        simulator.add_robot(kp=KP, kv=KV)
         if scene is not None:
             for element in ET.fromstring(Path(scene).read_text("utf-8")).iterfind("worldbody/*"):
                 simulator.worldbody.append(element)
         observer = Observer(simulator)
         with SimulationServer(simulator, hostname_candidates=[address]) as server:
-            simulator.model.dof_frictionloss[:] *= float(friction)
+            ease_joints(simulator, float(friction))
             server.run_async()
             print("ready", flush=True)
             for line in sys.stdin:
