@@ -40,7 +40,7 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     "number for a task": (lambda: skillc.run(42), "the task must be a text, not 42"),  # type: ignore[arg-type]
     "nothing": (lambda: skillc.run(), "name either a TASK"),
     "wrong seed": (lambda: skillc.run("contact:press_button", seed=1.5), "`seed` must be a whole number"),  # type: ignore[arg-type]
-    "wrong backend": (lambda: skillc.run("contact:press_button", backend="real"), "there are: kinematic, mujoco"),
+    "wrong backend": (lambda: skillc.run("contact:press_button", backend="real"), "kinematic, mujoco"),
     "wrong pace": (lambda: skillc.start("contact:press_button", pace="slow"), "`slow` is no pace"),
     "wrong folder": (lambda: skillc.run("contact:press_button", out="broken.skill"), "cannot write to"),
     "no recording": (lambda: skillc.open_run("."), "has no events.jsonl"),
