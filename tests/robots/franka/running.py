@@ -22,15 +22,20 @@ def own_address() -> str:
     return f"127.{36 + next(_numbers) % 64}.{low // 250 % 250 + 1}.{low % 250 + 1}"
 
 
+def run_module(module: str, *arguments: str) -> subprocess.Popen[str]:
+    """Start a module of this folder as a program that is talked to by lines."""
+    command = [sys.executable, "-m", f"robots.franka.{module}", *arguments]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join((str(TESTS), os.environ.get("PYTHONPATH", "")))}
+    pipe = subprocess.PIPE
+    return subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, env=environment)
+
+
 class Peer:
     """A process that answers lines."""
 
     def __init__(self, module: str, address: str, *arguments: str) -> None:
         self.address = address
-        command = [sys.executable, "-m", f"robots.franka.{module}", address, *arguments]
-        environment = os.environ | {"PYTHONPATH": os.pathsep.join((str(TESTS), os.environ.get("PYTHONPATH", "")))}
-        pipe = subprocess.PIPE
-        self.process = subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, env=environment)
+        self.process = run_module(module, address, *arguments)
         assert self._read() == "ready"
 
     def ask(self, line: str) -> Any:

@@ -13,7 +13,9 @@ import numpy as np
 import pytest
 
 from robots.franka.cells import LAB, carry_out, own_scene, real_cell
-from robots.franka.running import Peer, proxy, robot
+from robots.franka.running import Peer, proxy, robot, run_module
+from skillc_runtime.backends.control_process.link import make_state
+from skillc_runtime.backends.franka.link import FrankaDescription
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
 from skillc_runtime.devices.backend import StopPersists
 
@@ -90,6 +92,30 @@ def test_a_robot_that_dies_stops_the_cell_with_its_name(tmp_path: Path) -> None:
         assert simulated.address in cell.stops.report.reason
         with pytest.raises(StopPersists, match=r"cannot be used"):
             cell.stops.clear()
+
+
+def test_an_arm_whose_program_is_killed_in_mid_motion_comes_to_rest_and_is_given_back(
+    before: Peer, tmp_path: Path
+) -> None:
+    program = run_module("mover", before.address, str(tmp_path))
+    assert program.stdout is not None
+    assert program.stdout.readline() == "moving\n"
+    sleep(0.5)
+    program.kill()
+    program.communicate()
+    ends, last = monotonic() + 20.0, -1
+    while (commands := before.ask("report")["commands"]) != last:
+        assert monotonic() < ends, "the robot is still commanded"
+        last = commands
+        sleep(0.3)
+    link = FrankaDescription(before.address).make_link()
+    link.connect()
+    assert link.condition.kind == "ready"
+    state = make_state(7)
+    link.read(state)
+    assert np.abs(state.dq).max() < 0.02
+    link.close()
+    assert before.ask("report")["violations"] == []
 
 
 def test_a_button_is_pressed_within_limits(tmp_path: Path) -> None:
