@@ -7,9 +7,8 @@ from typing import Final
 from skillc_runtime.backends.franka.link import FrankaDescription
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.world.state.data_sheet import SheetError
-from skillc_runtime.world.state.terms import DRIVER_ADDRESS
+from skillc_runtime.world.state.terms import DRIVER_ADDRESS, FRANKA
 
-FRANKA: Final = "https://w3id.org/skillc/franka#"
 REFLEX_TORQUES, REFLEX_FORCES = FRANKA + "reflexTorques", FRANKA + "reflexForces"
 AXES: Final = 6
 
