@@ -8,12 +8,22 @@ import pytest
 
 from robots.franka.running import Peer, proxy, robot
 
-pytest.importorskip("franky_sim", reason="the robot of these tests is franky-sim: pip install franky-sim")
-pytest.importorskip("pylibfranka", reason="the back end `franka` needs pylibfranka: pip install 'skillc[franka]'")
+NEEDED = {
+    "franky_sim": "the robot of these tests is franky-sim: pip install franky-sim",
+    "pylibfranka": "the back end `franka` needs pylibfranka: pip install 'skillc[franka]'",
+}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def installed(request: pytest.FixtureRequest) -> None:
+    """Skip the tests of robots, and say why, where a package is missing."""
+    if "robot" in {mark.name for mark in getattr(request.module, "pytestmark", ())}:
+        for package, reason in NEEDED.items():
+            pytest.importorskip(package, reason=reason)
 
 
 @pytest.fixture(scope="module")
-def simulated() -> Iterator[Peer]:
+def simulated(installed: None) -> Iterator[Peer]:
     """A robot with nothing around it."""
     with robot() as peer:
         yield peer

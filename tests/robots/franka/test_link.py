@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Iterator
+from time import sleep
 from typing import Any
 
 import mujoco
@@ -163,6 +164,17 @@ def test_lost_and_late_packets_change_nothing_beyond_limits(link: FrankaLink, be
     report = before.ask("report")
     assert report["dropped"] > 10
     assert report["violations"] == []
+
+
+def test_a_robot_that_gets_no_commands_stops_and_says_why(link: FrankaLink, before: Peer) -> None:
+    link.take_control("torque")
+    before.tell("strict")
+    sleep(0.2)
+    assert hold(link, 500) == "protective-stop"
+    link.read(STATE)
+    assert "too many commands came late or not at all" in link.condition.sentence
+    link.recover()
+    assert link.condition.kind == "ready"
 
 
 def test_a_robot_that_is_silent_or_gone_is_lost_with_its_address() -> None:
