@@ -51,7 +51,7 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         "write what it makes true: `lab:Table-1.isClean == true`",
     ),
     "wrong seed": (lambda: skillc.run("contact:press_button", seed=1.5), "`seed` must be a whole number"),  # type: ignore[arg-type]
-    "wrong backend": (lambda: skillc.run("contact:press_button", backend="real"), "there are: kinematic, mujoco"),
+    "wrong backend": (lambda: skillc.run("contact:press_button", backend="real"), "kinematic, mujoco"),
     "wrong pace": (lambda: skillc.start("contact:press_button", pace="slow"), "`slow` is no pace"),
     "wrong folder": (lambda: skillc.run("contact:press_button", out="broken.skill"), "cannot write to"),
     "no recording": (lambda: skillc.open_run("."), "has no events.jsonl"),

@@ -49,7 +49,7 @@ def test_no_code_and_no_skill_knows_the_last_arm_by_name() -> None:
         path
         for folder in CODE
         for path in (ROOT / folder).rglob("*.py")
-        if path.parent.name != "franka" and path.name != "extras.py"  # The back end for an interface of that name.
+        if path.parent.name != "franka" and path.name not in ("extras.py", "terms.py")  # an interface of that name
     ]
     skills = [path for path in (ROOT / "skills_src").rglob("*.skill") if path.name != "tasks.skill"]
     assert len(code) > 500 and len(skills) > 10

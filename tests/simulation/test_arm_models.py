@@ -11,9 +11,14 @@ import pytest
 import skillc_ontology
 
 ROBOTS = Path(skillc_ontology.__file__).parent / "robots"
-TOTAL_MASS_KG = {"ur5e": 21.7, "iiwa14": 30.61, "panda": 16.691901}
+TOTAL_MASS_KG = {"ur5e": 21.7, "iiwa14": 30.61, "panda": 16.691901, "fr3": 17.891401}
 POSTURES = 200
-REACH_AT_ZERO_M = {"ur5e": (0.8172, 0.2329, 0.0628), "iiwa14": (0.0, 0.0, 1.306), "panda": (0.088, 0.0, 0.926)}
+REACH_AT_ZERO_M = {
+    "ur5e": (0.8172, 0.2329, 0.0628),
+    "iiwa14": (0.0, 0.0, 1.306),
+    "panda": (0.088, 0.0, 0.926),
+    "fr3": (0.088, 0.0, 0.926),
+}
 
 
 @pytest.mark.parametrize("robot", TOTAL_MASS_KG)

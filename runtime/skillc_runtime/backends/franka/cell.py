@@ -1,0 +1,51 @@
+"""The back end `franka`: cells whose arms are controlled through the Franka Control Interface."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from skillc_runtime.backends.control_process.opening import open_cell
+from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.franka.facts import describe, read_address
+from skillc_runtime.backends.franka.hand import FrankaHand
+from skillc_runtime.backends.franka.library import load_library
+from skillc_runtime.backends.real_time.device_cell import CellDevices
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.devices.backend import Backend, BackendStart
+from skillc_runtime.world.state.model import WorldModel
+
+
+def make_backend(world: WorldModel, start: BackendStart) -> Backend:
+    """Return the cell of a world model, its arms under control and at rest.
+
+    SheetError or FrameError if facts are missing, BackendUnavailable if a robot or pylibfranka is.
+    """
+    load_library()
+    return open_cell(world, describe, make_devices)
+
+
+def make_devices(scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
+    """Return the hands of the arms."""
+    hands: dict[str, FrankaHand] = {}
+
+    def close() -> None:
+        for hand in hands.values():
+            hand.close()
+
+    try:
+        for facts in scene.arms:
+            if facts.gripper is not None:
+                arm, hand = arms[facts.individual], facts.gripper
+                hands[hand.individual] = FrankaHand(hand, read_address(facts), arm)
+    except BaseException:
+        close()
+        raise
+
+    def recover() -> None:
+        for hand in hands.values():
+            hand.recover()
+
+    def find_fault() -> str | None:
+        return next((fault for hand in hands.values() if (fault := hand.fault) is not None), None)
+
+    return CellDevices(grippers=hands, find_fault=find_fault, recover=recover, close=close)

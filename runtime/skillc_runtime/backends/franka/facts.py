@@ -1,0 +1,51 @@
+"""Reads what the Franka Control Interface is told of an arm from the facts of the cell."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from skillc_runtime.backends.franka.link import FrankaDescription
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.terms import DRIVER_ADDRESS, FRANKA
+
+REFLEX_TORQUES, REFLEX_FORCES = FRANKA + "reflexTorques", FRANKA + "reflexForces"
+AXES: Final = 6
+
+
+def describe(facts: ArmSpec) -> FrankaDescription:
+    """Return where the robot of an arm is, and how it is set; SheetError if its address is missing."""
+    torques, forces = _numbers(facts, REFLEX_TORQUES, facts.home.size), _numbers(facts, REFLEX_FORCES, AXES)
+    if (torques is None) != (forces is None):
+        stated, missing = (REFLEX_FORCES, REFLEX_TORQUES) if torques is None else (REFLEX_TORQUES, REFLEX_FORCES)
+        short = facts.sheet.state.vocabulary.short
+        raise SheetError(f"{short(facts.individual)} states {short(stated)} and not {short(missing)}; state both")
+    return FrankaDescription(read_address(facts), torques, forces)
+
+
+def read_address(facts: ArmSpec) -> str:
+    """Return the address of the robot of an arm."""
+    state = facts.sheet.state
+    if isinstance(address := state.value(facts.individual, DRIVER_ADDRESS), str):
+        return address
+    short = state.vocabulary.short
+    raise SheetError(
+        f"{short(facts.individual)} has no {short(DRIVER_ADDRESS)}: state the address of the robot, such as "
+        f'{short(DRIVER_ADDRESS)} "192.168.1.2"'
+    )
+
+
+def _numbers(facts: ArmSpec, property_: str, count: int) -> tuple[float, ...] | None:
+    """Return numbers above 0 of an arm, or of its data sheet; None if neither states them."""
+    state = facts.sheet.state
+    found = state.value(facts.individual, property_) or state.value(facts.sheet.individual, property_)
+    if found is None:
+        return None
+    try:
+        numbers = tuple(map(float, str(found).split()))
+    except ValueError:
+        numbers = ()
+    if len(numbers) != count or min(numbers) <= 0.0:
+        short = state.vocabulary.short
+        raise SheetError(f"{short(property_)} of {short(facts.individual)} must be {count} numbers above 0: {found!r}")
+    return numbers

@@ -1,0 +1,150 @@
+"""A Franka Hand as a gripper: opened by moves, closed by grasps with a force."""
+
+from __future__ import annotations
+
+from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.franka.hand_client import HandClient
+from skillc_runtime.backends.simulation.finger_sensor import NOISE_DEVIATIONS
+from skillc_runtime.backends.simulation.scene_spec import GripperSpec
+from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
+from skillc_runtime.devices.gripper import CLOSED_FURTHER_M, Gripper
+from skillc_runtime.motion.pose import Pose
+
+CONNECT_S = 10.0
+"""How long the hand may take to answer first, with the start of its process, in s."""
+
+STOP_S = 2.0
+"""How long fingers may take to stop, in s."""
+
+HOMED_SHARE = 0.9
+"""Fingers that have not been homed do not know how far they open: they say less than this share of the data sheet's."""
+
+
+class FrankaHand(Gripper):
+    """The hand of one robot.
+
+    While its fingers move, the library can tell nothing of them, so `opening_m` is that from before. To stop them, the
+    process that waits for them is ended, and another one, which is ready, connects and stops them.
+    """
+
+    def __init__(self, facts: GripperSpec, address: str, arm: RemoteArmDriver) -> None:
+        """Connect; nothing moves. BackendUnavailable, with what to do."""
+        self._facts, self._address, self._arm = facts, address, arm
+        self._client = HandClient(address)
+        self._spare = HandClient(address)
+        self._goal_m = self._held_at_m = 0.0
+        self._thing: str | None = None
+        try:
+            self._connect()
+        except BackendUnavailable:
+            self.close()
+            raise
+
+    @property
+    def max_opening_m(self) -> float:
+        """The greatest distance between the fingers in m."""
+        return self._facts.max_opening_m
+
+    @property
+    def max_force_n(self) -> float:
+        """The greatest grasping force in N."""
+        return self._facts.max_force_n
+
+    @property
+    def opening_m(self) -> float:
+        """The distance between the fingers in m, as measured when they were at rest last."""
+        return self._client.opening_m
+
+    @property
+    def opening_error_m(self) -> float:
+        """The greatest error of the measured opening in m."""
+        return self._facts.opening_bias_m + NOISE_DEVIATIONS * self._facts.opening_noise_m
+
+    @property
+    def moving(self) -> bool:
+        """Whether the fingers still move towards the commanded opening."""
+        return self._client.busy
+
+    @property
+    def blocked(self) -> bool:
+        """Whether the fingers rest, wider than they were told to close."""
+        return not self.moving and self.opening_m > self._goal_m + self.opening_error_m
+
+    @property
+    def holding(self) -> str | None:
+        """The IRI of the object that counts as held; None as soon as the fingers close further: it was lost."""
+        closed = self.opening_m < self._held_at_m - min(CLOSED_FURTHER_M, self._held_at_m / 2)
+        return None if closed else self._thing
+
+    @property
+    def fault(self) -> str | None:
+        """Why the hand cannot go on; None while it can."""
+        return self._client.fault or None
+
+    def move(self, opening_m: float, force_n: float) -> None:
+        """Move the fingers to an opening in m, closing with a force in N; returns at once."""
+        if self.moving:
+            self.stop()
+        speed = self._facts.finger_speed_m_s
+        self._goal_m = min(max(opening_m, 0.0), self._facts.max_opening_m)
+        if self._goal_m < self.opening_m:
+            self._client.order("grasp", self._goal_m, speed, min(force_n, self._facts.max_force_n))
+        else:
+            self._client.order("move", min(self._goal_m, self._client.widest_m), speed)
+
+    def stop(self) -> None:
+        """Stop the fingers at their present opening."""
+        if self.moving:
+            self._replace_client()
+            self._client.order("connect", self._address)
+            self._client.order("stop")
+            self._client.wait(STOP_S)
+            self._goal_m = self.opening_m
+
+    def attach(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
+        """Count an object as held; RuntimeError if the fingers are not blocked, or the scene has no body of it."""
+        if not self.blocked:
+            raise RuntimeError(f"nothing keeps the fingers of the hand at {self._address} from closing")
+        self._arm.hold(thing, in_tool_centre, mass_kg)
+        self._thing, self._held_at_m = thing, self.opening_m
+
+    def detach(self) -> None:
+        """Count nothing as held."""
+        if self._thing is not None:
+            self._thing = None
+            self._arm.set_load(None)
+
+    def recover(self) -> None:
+        """Connect again after a fault; StopPersists."""
+        if self.fault is not None:
+            self._replace_client()
+            try:
+                self._connect()
+            except BackendUnavailable as error:
+                raise StopPersists(str(error)) from error
+
+    def close(self) -> None:
+        """Disconnect; the fingers go on with what they were told last."""
+        self._client.close()
+        self._spare.close()
+
+    def _replace_client(self) -> None:
+        self._client.close()
+        opening_m, widest_m = self._client.opening_m, self._client.widest_m
+        self._client, self._spare = self._spare, HandClient(self._address)
+        self._client.opening_m, self._client.widest_m = opening_m, widest_m
+
+    def _connect(self) -> None:
+        self._client.order("connect", self._address)
+        self._client.wait(CONNECT_S)
+        if self._client.fault or self._client.busy:
+            reason = self._client.error or f"it has not answered for {CONNECT_S:g} s"
+            raise BackendUnavailable(
+                f"the hand at {self._address} cannot be used ({reason}): is a Franka Hand set as end effector in Desk?"
+            )
+        if self._client.widest_m < HOMED_SHARE * self._facts.max_opening_m:
+            raise BackendUnavailable(
+                f"the hand at {self._address} says that it opens to {1e3 * self._client.widest_m:.0f} mm, not to "
+                f"{1e3 * self._facts.max_opening_m:.0f} mm: home it in Desk"
+            )
+        self._goal_m = self.opening_m

@@ -1,0 +1,139 @@
+"""Runs franky-sim, a simulated robot that speaks the Franka Control Interface, with things around it.
+
+    python -m robots.franka.peer ADDRESS FRICTION [SCENE]
+
+FRICTION is the share of its friction in the joints that is left while torques are commanded: a real robot closes a
+loop around the torque behind each gear, so that little of the gear's friction is felt; the simulated one applies what
+is commanded before the gear. Its own position controller would not be stable with less friction.
+SCENE is a MuJoCo model whose bodies and geoms are added. "ready" is printed when the robot answers. Lines on standard
+input are answered with one line of JSON: `pose BODY` (position in m), `force GEOM` (N that press on it), `travel JOINT`
+(m), `wipe GEOM
+BODY` (from now on, a body wipes the top of a box), `wiped` (the share of the top that was), `save FILE` (writes the
+samples, one a step: time s, N on the box, tilt of the body in rad).
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import threading
+import xml.etree.ElementTree as ET
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from franky_sim import SimulationServer
+from franky_sim.franka_robot_server import ControlMode
+from franky_sim.mujoco_simulator import MujocoSimulator
+
+from robots.franka.priority import run_promptly
+
+KP, KV = (4500.0, 4500.0, 3500.0, 3500.0, 2000.0, 2000.0, 500.0), (450.0, 450.0, 350.0, 350.0, 200.0, 200.0, 50.0)
+"""Gains of its own position controller: with those for the last joint that are usual there, it never comes to rest."""
+
+CELL_M = 0.005
+FACE_M = np.array([0.05, 0.025])
+"""Half of the face that wipes."""
+LEAST_N = 1.0
+EVERY = 10
+
+
+class Wiping:
+    """Which share of the top of a box a body has wiped, and how."""
+
+    def __init__(self, model: Any, geom: str, body: str) -> None:
+        box = model.geom(geom)
+        self.geom, self._body = box.id, model.body(body).id
+        counts = np.round(2 * box.size[:2] / CELL_M).astype(int)
+        grid = np.stack(np.meshgrid(*((np.arange(n) + 0.5) * CELL_M - n * CELL_M / 2 for n in counts)), axis=-1)
+        self._cells = box.pos[:2] + grid.reshape(-1, 2)
+        self._wiped = np.zeros(len(self._cells), dtype=bool)
+        self.samples: list[tuple[float, float, float]] = []
+
+    def see(self, data: Any, force: float) -> None:
+        """Note a step with a force in N on the box."""
+        axes = data.xmat[self._body].reshape(3, 3)
+        self.samples.append((data.time, force, float(np.arccos(np.clip(axes[2, 2], -1.0, 1.0)))))
+        if force > LEAST_N and len(self.samples) % EVERY == 0:
+            there = (self._cells - data.xpos[self._body][:2]) @ axes[:2, :2]
+            self._wiped |= (np.abs(there) <= FACE_M).all(axis=1)
+
+    @property
+    def share(self) -> float:
+        return float(self._wiped.mean())
+
+
+class Observer:
+    """Answers questions about the simulation, between two of its steps."""
+
+    def __init__(self, simulator: MujocoSimulator) -> None:
+        self._simulator, self._turn = simulator, threading.Lock()
+        self._wiping: Wiping | None = None
+        simulator.register_pre_step_callback(lambda _: self._turn.acquire())
+        simulator.register_post_step_callback(self._after_step)
+
+    def answer(self, question: str, *names: str) -> object:
+        model, data = self._simulator.model, self._simulator.data
+        with self._turn:
+            match question:
+                case "pose":
+                    return list(data.body(*names).xpos)
+                case "force":
+                    return self._force(model.geom(*names).id)
+                case "travel":
+                    return float(data.joint(*names).qpos[0])
+                case "wipe":
+                    self._wiping = Wiping(model, *names)
+                case "wiped":
+                    assert self._wiping is not None
+                    return self._wiping.share
+                case "save":
+                    assert self._wiping is not None
+                    np.save(names[0], np.array(self._wiping.samples))
+            return None
+
+    def _after_step(self, _: MujocoSimulator) -> None:
+        if self._wiping is not None:
+            self._wiping.see(self._simulator.data, self._force(self._wiping.geom))
+        self._turn.release()
+
+    def _force(self, geom: int) -> float:
+        model, data = self._simulator.model, self._simulator.data
+        found, total = np.zeros(6), 0.0
+        for index in np.flatnonzero((data.contact.geom == geom).any(axis=1)):
+            mujoco.mj_contactForce(model, data, index, found)
+            total += found[0]
+        return float(total)
+
+
+def ease_joints(simulator: MujocoSimulator, share: float) -> None:
+    """Leave a share of the friction in the joints while torques are commanded."""
+    own = simulator.model.dof_frictionloss.copy()
+    server = simulator.robots[0].server
+
+    def set_friction(_: MujocoSimulator) -> None:
+        is_eased = server._FrankaRobotServer__control_mode is ControlMode.TORQUE
+        simulator.model.dof_frictionloss[:] = share * own if is_eased else own
+
+    simulator.register_pre_step_callback(set_friction)
+
+
+def main(address: str, friction: str, scene: str | None = None) -> None:
+    run_promptly()
+    with MujocoSimulator() as simulator:
+        simulator.add_robot(kp=KP, kv=KV)
+        if scene is not None:
+            for element in ET.fromstring(Path(scene).read_text("utf-8")).iterfind("worldbody/*"):
+                simulator.worldbody.append(element)
+        observer = Observer(simulator)
+        with SimulationServer(simulator, hostname_candidates=[address]) as server:
+            ease_joints(simulator, float(friction))
+            server.run_async()
+            print("ready", flush=True)
+            for line in sys.stdin:
+                print(json.dumps(observer.answer(*line.split())), flush=True)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,60 @@
+"""What the facts of a cell must say of a robot is told before anything is connected; no robot and no library needed."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from skillc.services import libraries
+from skillc_ontology import catalogue
+from skillc_runtime.backends.franka.cell import make_backend
+from skillc_runtime.backends.franka.facts import describe
+from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
+from skillc_runtime.devices.backend import BackendStart, BackendUnavailable
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.model import WorldModel
+
+AT = 'skiros:DriverAddress "127.1.2.3" ;'
+
+
+def world(folder: Path, facts: str) -> WorldModel:
+    text = catalogue.scene_path("panda_desk").read_text("utf-8").replace("skillc:panda-sheet", "skillc:fr3-sheet")
+    text = text.replace("skillc:Panda ;", f"skillc:Fr3 ; {facts}")
+    text = "@prefix franka: <https://w3id.org/skillc/franka#> .\n" + text
+    (folder / "cell.ttl").write_text(text, "utf-8")
+    return WorldModel(load_scene(folder / "cell.ttl", libraries.load_vocabulary()))
+
+
+def test_the_address_and_the_reflex_are_those_of_the_arm_or_its_sheet(tmp_path: Path) -> None:
+    (arm,) = read_scene_spec(world(tmp_path, AT).snapshot()).arms
+    told = describe(arm)
+    assert told.name == "the robot at 127.1.2.3"
+    assert told.reflex_torques == (80.0, 80.0, 70.0, 70.0, 12.0, 12.0, 12.0)
+    (arm,) = read_scene_spec(world(tmp_path, f'{AT} franka:reflexForces "50 50 50 9 9 9" ;').snapshot()).arms
+    assert describe(arm).reflex_forces == (50.0, 50.0, 50.0, 9.0, 9.0, 9.0)
+
+
+@pytest.mark.parametrize(
+    ("facts", "says"),
+    [
+        ("", r"lab:Panda-1 has no skiros:DriverAddress: state the address of the robot"),
+        (
+            f'{AT} franka:reflexForces "50 50 50" ;',
+            r"must be 6 numbers above 0: '50 50 50'",
+        ),
+        (f'{AT} franka:reflexTorques "1 1 1 1 1 1 x" ;', "must be 7 numbers above 0"),
+    ],
+)
+def test_what_is_missing_or_wrong_is_told(tmp_path: Path, facts: str, says: str) -> None:
+    (arm,) = read_scene_spec(world(tmp_path, facts).snapshot()).arms
+    with pytest.raises(SheetError, match=says):
+        describe(arm)
+
+
+def test_without_the_library_it_is_said_how_to_install_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pylibfranka", None)
+    with pytest.raises(BackendUnavailable, match=r"needs pylibfranka.*pip install 'skillc\[franka\]'"):
+        make_backend(world(tmp_path, AT), BackendStart())
