@@ -27,7 +27,7 @@ class MeasuredArm:
 
     def __init__(self, base: Callable[[], Pose], contact_wrench: Callable[[], Array], state: ArmState) -> None:
         self.base, self.state = base, state
-        self._contact_wrench = contact_wrench
+        self._find_contact_wrench = contact_wrench
         self.felt_wrench: Callable[[], Array | None] = lambda: None
 
     @property
@@ -44,7 +44,12 @@ class MeasuredArm:
     def wrench(self) -> Array:
         """What is `felt`; where nothing measures it, the wrench (6,) of the environment that the law is to exert."""
         felt = self.felt
-        return self._in_world(self._contact_wrench()) if felt is None else felt
+        return self._in_world(self._find_contact_wrench()) if felt is None else felt
+
+    @property
+    def contact_wrench(self) -> Array:
+        """The wrench (6,) of the environment on the tool as the control law knows it, N and N m, base axes."""
+        return self._find_contact_wrench()
 
     @property
     def felt(self) -> Array | None:

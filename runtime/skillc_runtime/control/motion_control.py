@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from skillc_runtime.control.arm_task import ArmTask
-from skillc_runtime.control.feasibility import sample_offsets
 from skillc_runtime.control.motion_model import ArmMotionModel
-from skillc_runtime.control.workspace_check import check_motion_inside
 from skillc_runtime.devices.arm_driver import ToolMotion
 from skillc_runtime.motion.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array, Pose
@@ -86,10 +84,14 @@ class MotionControl:
 
     def model(self) -> ArmMotionModel:
         """Return the motions that the arm can make from where it is now, to be computed without it."""
-        task = self._task
-        state, start = task.measured.state, self.stopping_joints()
-        now, speed = task.controllers.joints_now(state), self._tool_speed_m_s
+        task, (start, now) = self._task, self.joints_ahead()
+        state, speed = task.measured.state, self._tool_speed_m_s
         return ArmMotionModel(task.kinematics, task.limits, task.workspace, state, task.base(), start, now, speed)
+
+    def joints_ahead(self) -> tuple[Array, Array]:
+        """Return the joints (nv,) in rad where they come to rest, and those from where a motion of the tool goes on."""
+        task = self._task
+        return self.stopping_joints(), task.controllers.joints_now(task.measured.state)
 
     def move_along(self, trajectory: Trajectory) -> None:
         """Move the tool along a trajectory in the world, slowed down if a joint would be too fast.
@@ -134,14 +136,14 @@ class MotionControl:
 
         It fades in for `fade` s. Raises Infeasible if a joint would be too fast, or the tool would leave its workspace.
         """
+        self._task.move_tool()
+        self.model().check_overlay(overlay, axes)
+        return self.add_checked_overlay(overlay, axes, fade)
+
+    def add_checked_overlay(self, overlay: Overlay, axes: Array, fade: float) -> int:
+        """Do the same for an overlay that the model has checked."""
         task, tool = self._task, self._task.move_tool()
-        in_base = task.base().rotation.T @ axes
-        state = task.measured.state
-        task.kinematics.check_overlay_feasible(overlay, in_base, task.limits, state)
-        if task.workspace is not None:
-            for offset in sample_offsets(overlay):
-                check_motion_inside(task.workspace, (state.tool.position, state.tool.position + in_base @ offset))
-        return tool.reference_generator.add(overlay, in_base, fade, task.now)
+        return tool.reference_generator.add(overlay, task.base().rotation.T @ axes, fade, task.now)
 
     def remove_overlay(self, handle: int) -> None:
         """Fade an overlay out."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from skillc_runtime.control.feasibility import sample_offsets
 from skillc_runtime.control.kinematics import Kinematics
 from skillc_runtime.control.safety import Workspace
 from skillc_runtime.control.workspace_check import check_motion_inside, sample_times
@@ -12,7 +13,7 @@ from skillc_runtime.devices.arm import ArmLimits, ArmState
 from skillc_runtime.devices.arm_driver import ToolMotion
 from skillc_runtime.motion.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.reference import Trajectory
+from skillc_runtime.motion.reference import Overlay, Trajectory
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,3 +63,14 @@ class ArmMotionModel:
             check_motion_inside(self.workspace, (local.at(float(time)).pose.position for time in times))
         slowed, joints = self.kinematics.slow_to_feasible(local, self.now, self.limits, self.state)
         return ToolMotion(slowed, self.now, joints)
+
+    def check_overlay(self, overlay: Overlay, axes: Array) -> None:
+        """Raise Infeasible if a joint would be too fast for an overlay, or the tool would leave its workspace.
+
+        axes (3, 3): along which it is, columns in the world.
+        """
+        in_base, place = self.base.rotation.T @ axes, self.state.tool.position
+        self.kinematics.check_overlay_feasible(overlay, in_base, self.limits, self.state)
+        if self.workspace is not None:
+            for offset in sample_offsets(overlay):
+                check_motion_inside(self.workspace, (place, place + in_base @ offset))

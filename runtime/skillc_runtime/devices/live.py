@@ -17,7 +17,8 @@ class LiveArm:
 
     measured (2, joints): angles in rad, speeds in rad/s. wrench (6,): N and N m, on the tool, by a force-torque
     sensor; None without one. reference (8, 3): the rows of `Reference`; NaN while the joints are controlled. stamp
-    (1,): when that was measured, in s of the arm's own clock; None if it has none but the cell's.
+    (1,): when that was measured, in s of the arm's own clock; None if it has none but the cell's. timing (2,): how many
+    control periods have been lost so far, and by how many s the last one was late; None if none can be.
     """
 
     individual: str
@@ -27,6 +28,7 @@ class LiveArm:
     reference: ReadBytes
     base: Callable[[], Pose]
     stamp: ReadBytes | None = None
+    timing: ReadBytes | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,7 @@ from skillc_runtime.devices.capabilities import BackendCapabilities
 from skillc_runtime.devices.cell import Cell, Watchdog
 from skillc_runtime.devices.device_map import DeviceMap, NoSuchDevice
 from skillc_runtime.devices.device_stopper import DeviceStopper, StoppableArm
+from skillc_runtime.devices.drawing import Drawing
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.live import LiveSignals
 from skillc_runtime.devices.sensors import Button, Camera
@@ -39,8 +40,10 @@ class CellDevices:
     """The devices of a cell, by IRI; each is called by one thread at a time.
 
     `live` is what is recorded of them in each period, by whoever calls its listeners; None for nothing.
-    `find_fault` returns why a device cannot go on, for example because it does not answer; None while all can. `close`
-    gives the devices back.
+    `drawing` is how their model looks; None without one. `find_fault` returns why a device cannot go on, for example
+    because it does not answer, or a stop that it has reported; None while all can. `recover` acknowledges that; it
+    raises StopPersists if somebody has to do more. `passed` is called whenever time has passed, in the thread of
+    `advance`. `close` gives the devices back.
     """
 
     arms: Mapping[str, StoppableArm] = field(default_factory=dict)
@@ -50,7 +53,10 @@ class CellDevices:
     buttons: Mapping[str, Button] = field(default_factory=dict)
     inspection: Camera | None = None
     live: LiveSignals | None = None
-    find_fault: Callable[[], str | None] = lambda: None
+    drawing: Drawing | None = None
+    find_fault: Callable[[], str | DeviceStop | None] = lambda: None
+    recover: Callable[[], None] = lambda: None
+    passed: Callable[[], None] = lambda: None
     close: Callable[[], None] = lambda: None
 
 
@@ -71,12 +77,12 @@ class DeviceCell(Backend, Cell):
         self._bases = DeviceMap("mobile base", devices.bases, names)
         self._cameras = DeviceMap("camera", devices.cameras, names)
         self._buttons = DeviceMap("button", devices.buttons, names)
-        self._capabilities = BackendCapabilities(live=devices.live)
+        self._capabilities = BackendCapabilities(live=devices.live, drawing=devices.drawing)
         self._stopper = DeviceStopper(devices.arms, devices.grippers, devices.bases, names)
         self._turn, self._closing = CellLock(), Event()
         self._began = self._due = monotonic()
         self._broken: str | None = None
-        self._fault: str | None = None
+        self._fault: DeviceStop | None = None
         self._is_told = True
         self._heartbeats = HeartbeatWatchdog()
         self._watchdog: Watchdog = locked(self._heartbeats, self._turn)
@@ -126,13 +132,14 @@ class DeviceCell(Backend, Cell):
     @property
     def report(self) -> DeviceStop | None:
         """The fault that a device has reported and nobody has acknowledged, or that is still there; None for none."""
-        return None if self._fault is None else DeviceStop("protective-stop", self._fault)
+        return self._fault
 
     def clear(self) -> None:
         """Forget a fault, because somebody has acknowledged it; StopPersists, and nothing has changed."""
         with self._turn:
+            self._devices.recover()
             if (fault := self._find_fault()) is not None:
-                raise StopPersists(fault)
+                raise StopPersists(fault.reason)
             self._fault = None
 
     def arm(self, individual: str) -> ArmDriver:
@@ -176,8 +183,9 @@ class DeviceCell(Backend, Cell):
             raise BackendBroken(self._broken or "the cell is closed")
         with self._turn:
             fault, is_told, self._is_told = self._fault, self._is_told, True
+        self._devices.passed()
         if fault is not None and not is_told:
-            raise BackendBroken(fault)
+            raise BackendBroken(fault.reason)
 
     def secure(self, devices: Collection[str] | None = None) -> Sequence[str]:
         """Stop devices, all if None, and pushes, and restore releases; return what was not in order."""
@@ -201,13 +209,21 @@ class DeviceCell(Backend, Cell):
             with self._turn:
                 if self._heartbeats.expired(self.now):
                     self._stopper.abort("the tree is not ticked any more")
-                if self._fault is None and (fault := self._find_fault()) is not None:
-                    self._fault, self._is_told = fault, False
-                    self._stopper.abort(fault)
+                if (fault := self._find_fault()) is not None:
+                    self._take_fault(fault)
 
-    def _find_fault(self) -> str | None:
+    def _take_fault(self, fault: DeviceStop) -> None:
+        """Stop all devices for the first fault; an emergency stop that comes later is reported instead of it."""
+        if self._fault is None:
+            self._fault, self._is_told = fault, False
+            self._stopper.abort(fault.reason)
+        elif fault.kind == "emergency-stop":
+            self._fault = fault
+
+    def _find_fault(self) -> DeviceStop | None:
         """Return why a device cannot go on; a look that fails is a fault as well, since nobody else would notice."""
         try:
-            return self._devices.find_fault()
+            fault = self._devices.find_fault()
         except Exception as error:  # noqa: BLE001  the boundary to the devices
-            return f"the look at the devices has failed: {error!r}"
+            fault = f"the look at the devices has failed: {error!r}"
+        return DeviceStop("protective-stop", fault) if isinstance(fault, str) else fault

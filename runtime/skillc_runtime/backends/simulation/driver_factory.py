@@ -30,6 +30,20 @@ def make_driver(facts: ArmSpec, arm: ModelledArm, period_s: float) -> CompliantA
 
     SheetError if it or a gain is missing, or the arm is outside its workspace.
     """
+    driver = CompliantArmDriver(read_setup(facts, arm, period_s))
+    if driver.outside_workspace_m > 0.0:
+        raise SheetError(
+            f"the tool of {facts.sheet.state.vocabulary.short(facts.individual)} starts "
+            f"{1e3 * driver.outside_workspace_m:.0f} mm outside the arm's workspace; enlarge that, or start elsewhere"
+        )
+    return driver
+
+
+def read_setup(facts: ArmSpec, arm: ModelledArm, period_s: float) -> ArmSetup:
+    """Return what the driver of an arm needs, and let the arm take the commands of its law.
+
+    SheetError if a fact is missing, or the arm cannot do what its law needs.
+    """
     jerk_limit = number_of(facts.sheet.state, facts.sheet.individual, JERK_LIMIT, inf)
     try:
         chosen = read_gains(facts.controller, facts.sheet.number)
@@ -38,13 +52,7 @@ def make_driver(facts: ArmSpec, arm: ModelledArm, period_s: float) -> CompliantA
     chosen = replace(chosen, limits=replace(chosen.limits, jerk_m_s3=jerk_limit))
     _switch_mode(facts, arm, chosen.law)
     virtual, limits = load_virtual_model(facts.model), read_safety_limits(facts)
-    driver = CompliantArmDriver(ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits))
-    if driver.outside_workspace_m > 0.0:
-        raise SheetError(
-            f"the tool of {facts.sheet.state.vocabulary.short(facts.individual)} starts "
-            f"{1e3 * driver.outside_workspace_m:.0f} mm outside the arm's workspace; enlarge that, or start elsewhere"
-        )
-    return driver
+    return ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits)
 
 
 def _switch_mode(facts: ArmSpec, arm: ModelledArm, law: LawGains) -> None:

@@ -167,10 +167,13 @@ def _reads(arm: LiveArm) -> Iterator[Callable[[], bytes]]:
         yield arm.wrench
     if arm.stamp is not None:
         yield arm.stamp
+    if arm.timing is not None:
+        yield arm.timing
 
 
 def _width(arm: LiveArm) -> int:
-    return 2 * arm.joints + 24 + (0 if arm.wrench is None else 6) + (arm.stamp is not None)
+    wrench, timing = (0 if arm.wrench is None else 6), (0 if arm.timing is None else 2)
+    return 2 * arm.joints + 24 + wrench + (arm.stamp is not None) + timing
 
 
 def _convert_arm(arm: LiveArm, base: Pose, content: Array) -> Iterator[Array]:
@@ -181,8 +184,8 @@ def _convert_arm(arm: LiveArm, base: Pose, content: Array) -> Iterator[Array]:
     yield content[:, joints + 12 : joints + 15] @ base.rotation.T  # the first half of the reference's twist
     if arm.wrench is not None:
         yield (content[:, joints + 24 : joints + 30].reshape(-1, 2, 3) @ base.rotation.T).reshape(-1, 6)
-    if arm.stamp is not None:
-        yield content[:, -1:]
+    first = joints + 24 + (0 if arm.wrench is None else 6)
+    yield content[:, first:]
 
 
 def _describe_arm(columns: Columns, arm: LiveArm) -> Iterator[Signal]:
@@ -199,6 +202,9 @@ def _describe_arm(columns: Columns, arm: LiveArm) -> Iterator[Signal]:
         yield from columns.make("sensor", [f"torque_{axis}" for axis in XYZ], "N m", WORLD, f"torque {what}")
     if arm.stamp is not None:
         yield from columns.make("sensor", ["measured"], "s", "", "when that was measured, by the arm's own clock")
+    if arm.timing is not None:
+        yield from columns.make("sensor", ["lost_periods"], "", "", "control periods that were lost so far")
+        yield from columns.make("sensor", ["late"], "s", "", "by how much the control period began late")
 
 
 def _describe_tool(columns: Columns) -> Iterator[Signal]:

@@ -1,0 +1,83 @@
+"""What the process of the tree asks of a control process: small calls only, which fit between two cycles.
+
+Poses, directions and motions are in the axes of the arm's base. What takes long, such as checking a motion, is computed
+by the process of the tree before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from types import MappingProxyType
+from typing import Any, Final, Literal, TypeAlias
+
+Part: TypeAlias = Literal["driver", "motion", "compliance", "device"]
+"""What is called: the driver of the arm, one of its parts, or the loop itself."""
+
+OFFERED: Final[Mapping[Part, frozenset[str]]] = MappingProxyType(
+    {
+        "driver": frozenset({"take_fault", "abort", "hold_still", "secure"}),
+        "motion": frozenset(
+            {
+                "stopping_pose", "joints_ahead", "follow_tool", "follow_joints", "stop", "pause", "resume",
+                "add_checked_overlay", "remove_overlay", "tracking_error_message", "hold_position",
+            }
+        ),
+        "compliance": frozenset(
+            {
+                "release", "restore", "release_rotation", "restore_rotation", "yields_along", "push", "push_off",
+                "start_push", "end_push", "push_force", "pause", "withdraw", "resume",
+            }
+        ),
+        "device": frozenset({"explain", "recover", "give_back", "take_control", "set_load", "tare", "end"}),
+    }
+)  # fmt: skip
+"""The names of the calls; all else is refused."""
+
+CALLS_A_CYCLE_SHARE = 0.2
+"""Share of a period after whose end, counted from its begin, no further call is taken in the same cycle."""
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A call with a number, by which its answer is known."""
+
+    number: int
+    part: Part
+    name: str
+    arguments: tuple[Any, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a call has returned, or the error that it has raised."""
+
+    number: int
+    value: Any = None
+    error: Exception | None = None
+
+
+class Mailbox:
+    """The end of a connection from which a control process takes calls, one at a time; `closed` if nobody calls."""
+
+    def __init__(self, connection: Connection) -> None:
+        self._connection, self.closed = connection, False
+
+    def take(self) -> Call | None:
+        """Return the next call; None if none waits. Nothing is waited for."""
+        try:
+            if self.closed or not self._connection.poll(0):
+                return None
+            call = self._connection.recv()
+        except (EOFError, OSError):
+            self.closed = True
+            return None
+        return call if isinstance(call, Call) else None
+
+    def answer(self, answer: Answer) -> None:
+        """Send an answer."""
+        try:
+            self._connection.send(answer)
+        except (OSError, ValueError):
+            self.closed = True

@@ -1,0 +1,170 @@
+"""The control process of one arm as the process of the tree sees it: started, called, watched, ended."""
+
+from __future__ import annotations
+
+import os
+import socket
+import subprocess
+import sys
+from contextlib import suppress
+from itertools import count
+from multiprocessing.connection import Connection
+from threading import Event, RLock, Thread
+from time import monotonic
+from typing import Any
+
+from skillc_runtime.backends.control_process.calls import Answer, Call, Part
+from skillc_runtime.backends.control_process.link import CALL_S
+from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
+from skillc_runtime.backends.control_process.process import Connected, ControlTask
+from skillc_runtime.backends.control_process.shared_memory import SharedRecord, SharedRing, make_memory, map_memory
+from skillc_runtime.backends.control_process.snapshot import Snapshot
+from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable
+from skillc_runtime.platforms.processes import INHERITS_SOCKETS
+
+START_S = 120.0
+"""How long a control process may take to connect; its first one on a machine compiles the laws."""
+
+BEAT_S = 0.02
+"""How often a control process is told that this one is alive, in s."""
+
+SILENCE_S = 0.2
+"""A control process that has published nothing for longer does not run."""
+
+ANSWER_S = 1.0
+"""How long the answer to a call is waited for, unless it is one to the device."""
+
+END_S = 5.0
+"""How long a control process may take to stop its arm and to end."""
+
+
+class ControlProcess:
+    """A running control process; `name` is the short name of its arm."""
+
+    def __init__(self, task: ControlTask) -> None:
+        """Start it and wait until it is connected to its device; the arm is not under control yet.
+
+        BackendUnavailable, SheetError and other errors that it raises, for which there can be no cell.
+        """
+        if not INHERITS_SOCKETS:
+            raise BackendUnavailable("robots are controlled by processes that share memory, on Linux and macOS only")
+        self.name, self._numbers, self._turn = task.names[task.facts.individual], count(1), RLock()
+        plan = MemoryPlan(task.facts.home.size)
+        self._plan, file = plan, make_memory(plan.size)
+        ours, theirs = socket.socketpair()
+        with theirs:
+            os.set_inheritable(theirs.fileno(), True)
+            self.process = _start(theirs.fileno(), file)
+        memory = map_memory(file)
+        self._beat, self._record = plan.beat(memory), SharedRecord(plan.record(memory))
+        self.ring = SharedRing(plan.ring(memory), plan.row_width)
+        self._connection = Connection(ours.detach())
+        self._broken: str | None = None
+        self._closing = Event()
+        self._beat[0] = monotonic()
+        self._thread = Thread(target=self._keep_beating, name=f"beat {self.name}", daemon=True)
+        self._thread.start()
+        self.connected = self._introduce(task)
+
+    @property
+    def joints(self) -> int:
+        """The number of joints."""
+        return self._plan.layout.joints
+
+    def read(self) -> Snapshot:
+        """Return a copy of what was published last."""
+        return Snapshot(self._plan.layout, self._record.read())
+
+    def call(self, part: Part, name: str, *arguments: Any, wait_s: float = ANSWER_S) -> Any:
+        """Return what a call returns, or raise what it raises; BackendBroken if there is no answer."""
+        with self._turn:
+            if (reason := self.find_silence()) is not None:
+                raise BackendBroken(reason)
+            call = Call(next(self._numbers), part, name, arguments)
+            try:
+                self._connection.send(call)
+                answer = self._receive(call, wait_s)
+            except (EOFError, OSError) as error:
+                raise BackendBroken(self.find_silence() or f"{self._who} does not answer: {error}") from error
+        if answer.error is not None:
+            raise answer.error
+        return answer.value
+
+    def call_device(self, name: str, *arguments: Any) -> Any:
+        """Do the same for a call that may take as long as the device wants."""
+        return self.call("device", name, *arguments, wait_s=4 * CALL_S)
+
+    def find_silence(self) -> str | None:
+        """Return why it can be called no more, or that it does not run at present; None if it runs."""
+        if self._broken is not None:
+            return self._broken
+        if (code := self.process.poll()) is not None:
+            how = f"by signal {-code}" if code < 0 else f"with exit code {code}"
+            self._broken = f"{self._who} has ended {how}"
+            return self._broken
+        snapshot = self.read()
+        silent_s = monotonic() - max(snapshot.number("time_s"), snapshot.number("busy_until_s"))
+        return f"{self._who} has not run for {silent_s:.2f} s" if silent_s > SILENCE_S else None
+
+    def close(self) -> None:
+        """Let it stop its arm, give the device back, and end; end it if it does not."""
+        self._broken = self._broken or f"{self._who} is closed"
+        with suppress(OSError):
+            self._connection.close()
+        try:
+            self.process.wait(END_S)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+        self._closing.set()
+        self._thread.join()
+
+    @property
+    def _who(self) -> str:
+        return f"the control process of {self.name}"
+
+    def _introduce(self, task: ControlTask) -> Connected:
+        try:
+            self._connection.send(list(sys.path))
+            self._connection.send(task)
+            if not self._connection.poll(START_S):
+                raise BackendUnavailable(f"{self._who} has not connected to {task.description.name} in {START_S:g} s")
+            answer = self._connection.recv()
+        except (EOFError, OSError) as error:
+            self.close()
+            raise BackendUnavailable(f"{self._who} has ended while it connected to {task.description.name}") from error
+        except BackendUnavailable:
+            self.process.kill()
+            self.close()
+            raise
+        if isinstance(answer, Exception):
+            self.close()
+            raise answer
+        connected: Connected = answer
+        return connected
+
+    def _receive(self, call: Call, wait_s: float) -> Answer:
+        """Return the answer to a call; those to earlier calls, which nobody waits for any more, are left out."""
+        until = monotonic() + wait_s
+        while self._connection.poll(max(0.0, until - monotonic())):
+            answer: Answer = self._connection.recv()
+            if answer.number == call.number:
+                return answer
+        raise BackendBroken(self.find_silence() or f"{self._who} has not answered {call.name} in {wait_s:g} s")
+
+    def _keep_beating(self) -> None:
+        while not self._closing.wait(BEAT_S):
+            self._beat[0] = monotonic()
+
+
+def _start(socket_file: int, memory_file: int) -> subprocess.Popen[bytes]:
+    """Start the program with two open files, in a session of its own, so that Ctrl-C does not reach it."""
+    program = "skillc_runtime.backends.control_process.process"
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    return subprocess.Popen(
+        [sys.executable, "-m", program, str(socket_file), str(memory_file)],
+        pass_fds=(socket_file, memory_file),
+        stdin=subprocess.DEVNULL,
+        start_new_session=True,
+        env=environment,
+    )

@@ -1,0 +1,224 @@
+"""The loop of a control process: it reads the device, commands it, watches both sides, and answers calls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from time import monotonic, sleep
+from typing import Any
+
+from skillc_runtime.backends.control_process.call_desk import CallDesk
+from skillc_runtime.backends.control_process.calls import CALLS_A_CYCLE_SHARE, Answer, Call, Mailbox
+from skillc_runtime.backends.control_process.controlled_arm import ControlledArm
+from skillc_runtime.backends.control_process.link import (
+    CALL_S,
+    Condition,
+    ControlRefused,
+    LinkLost,
+    RobotLink,
+    make_state,
+)
+from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
+from skillc_runtime.backends.control_process.pacing import CycleClock
+from skillc_runtime.backends.control_process.publisher import Publisher
+from skillc_runtime.backends.control_process.snapshot import Phase
+from skillc_runtime.control.watchdog import HEARTBEAT_TIMEOUT_S
+from skillc_runtime.devices.arm import ArmLoad
+from skillc_runtime.devices.backend import BackendUnavailable, DeviceStop, StopPersists
+from skillc_runtime.motion.arrays import OutVector
+
+LONGEST_GAP_S = 0.1
+"""An arm is held if its loop has not run for longer."""
+
+BRAKING_S = 2.0
+"""At the end an arm is controlled until it is at rest, or for this time."""
+
+LOST_S = 0.005
+"""How often a loop without a device looks for calls, in s."""
+
+
+class ControlLoop:
+    """Controls one arm through its link, which is connected, until nobody calls any more. Starts without control."""
+
+    def __init__(
+        self, link: RobotLink, arm: ControlledArm, mailbox: Mailbox, plan: MemoryPlan, memory: OutVector
+    ) -> None:
+        self._link, self._arm, self._mailbox, self._desk = link, arm, mailbox, CallDesk(arm)
+        self._beat = plan.beat(memory)
+        self._measured, self._clock = make_state(plan.layout.joints), CycleClock(link.period_s)
+        self._publisher = Publisher(plan, memory, arm, self._measured, self._clock)
+        self._phase: Phase = "connected"
+        self._condition: Condition | None = None
+        self._seen = monotonic()
+        self._ending_since: float | None = None
+        self._is_tree_silent = self._is_excused = False
+
+    def run(self) -> None:
+        """Run until the other side has gone and the arm is at rest; then give the arm back."""
+        self._link.read(self._measured)
+        try:
+            while not self._is_over():
+                self._run_cycle()
+                self._answer_calls()
+        finally:
+            self._link.close()
+
+    def end(self) -> None:
+        """Stop the arm, give it back when it is at rest, and end."""
+        if self._ending_since is None:
+            self._ending_since = monotonic()
+            self._arm.driver.abort("nobody is in charge of the arm any more")
+
+    def _is_over(self) -> bool:
+        if self._mailbox.closed:
+            self.end()
+        if self._ending_since is None:
+            return False
+        still = self._phase != "in-control" or self._arm.driver.at_rest
+        return still or self._seen > self._ending_since + BRAKING_S
+
+    def _run_cycle(self) -> None:
+        if self._phase == "lost":
+            sleep(LOST_S)
+            self._seen = monotonic()
+        else:
+            try:
+                self._serve_device()
+            except LinkLost as lost:
+                self._lose(str(lost))
+        self._watch_tree()
+        self._publisher.publish(self._phase, self._seen)
+
+    def _serve_device(self) -> None:
+        link, measured = self._link, self._measured
+        link.read(measured)
+        self._seen = monotonic()
+        waited = self._clock.advance(float(measured.stamp_s[0]), self._seen)
+        self._look_at_condition()
+        if self._phase != "in-control":
+            self._arm.look(measured, self._clock.now_s)
+            return
+        if waited > LONGEST_GAP_S and not self._is_excused:
+            self._stop(f"the loop of the arm has not run for {waited:.2f} s")
+        self._is_excused = False
+        link.write(self._arm.step(measured, self._clock.now_s))
+
+    def _look_at_condition(self) -> None:
+        """Stop when the device has left control by itself, and keep why; an emergency stop is kept in any case."""
+        condition = self._link.condition
+        if condition is self._condition:
+            return
+        self._condition = condition
+        kind: Any = condition.kind
+        if kind in ("protective-stop", "emergency-stop"):
+            self._arm.report(DeviceStop(kind, condition.sentence))
+        if self._phase == "in-control" and kind != "in-control":
+            self._phase = "connected"
+            reason = condition.sentence or "the device has taken control back"
+            self._arm.driver.hold_still(reason)
+            self._arm.report(DeviceStop("protective-stop", reason))
+
+    def _watch_tree(self) -> None:
+        silent_s = self._seen - self._beat[0]
+        if silent_s > HEARTBEAT_TIMEOUT_S and not self._is_tree_silent and self._ending_since is None:
+            reason = f"the process of the tree has been silent for {silent_s:.2f} s"
+            self._arm.driver.abort(reason)
+            self._arm.report(DeviceStop("protective-stop", reason))
+        self._is_tree_silent = silent_s > HEARTBEAT_TIMEOUT_S
+
+    def _lose(self, reason: str) -> None:
+        self._phase = "lost"
+        self._stop(reason)
+
+    def _stop(self, reason: str) -> None:
+        self._arm.driver.hold_still(reason)
+        self._arm.report(DeviceStop("protective-stop", reason))
+
+    def _answer_calls(self) -> None:
+        """Answer calls while the period is young; what waits longer is answered in the next one."""
+        until = self._seen + CALLS_A_CYCLE_SHARE * self._link.period_s
+        while (call := self._mailbox.take()) is not None:
+            answer = self._answer(call)
+            self._publisher.publish_at_once(self._phase, monotonic())
+            self._mailbox.answer(answer)
+            if monotonic() > until:
+                break
+
+    def _answer(self, call: Call) -> Answer:
+        try:
+            if call.part == "device":
+                return Answer(call.number, self._call_device(call))
+            return Answer(call.number, self._desk.call(call))
+        except LinkLost as lost:
+            self._lose(str(lost))
+            return Answer(call.number, error=ControlRefused(str(lost)))
+        except Exception as error:  # noqa: BLE001  the boundary to the other process, which raises it
+            return Answer(call.number, error=error)
+
+    def _call_device(self, call: Call) -> Any:
+        match call.name, call.arguments:
+            case "explain", ():
+                return self._arm.stop
+            case "end", ():
+                return self.end()
+        slow: dict[str, Callable[..., None]] = {
+            "take_control": self._take_control,
+            "give_back": self._give_back,
+            "recover": self._recover,
+            "set_load": self._set_load,
+            "tare": self._tare,
+        }
+        self._publisher.publish_at_once(self._phase, monotonic(), busy_until_s=monotonic() + 3 * CALL_S)
+        self._is_excused = True
+        slow[call.name](*call.arguments)
+        return None
+
+    def _take_control(self) -> None:
+        """Take control; a device that refuses it counts as stopped, until somebody acknowledges that."""
+        if self._arm.stop is not None:
+            raise ControlRefused(self._arm.stop.reason)
+        if self._phase == "in-control":
+            return
+        try:
+            self._begin_control()
+        except ControlRefused as refusal:
+            self._arm.report(DeviceStop("protective-stop", str(refusal)))
+            raise
+
+    def _begin_control(self) -> None:
+        self._link.read(self._measured)
+        self._look_at_condition()
+        condition = self._link.condition
+        if condition.kind not in ("ready", "in-control"):
+            raise ControlRefused(condition.sentence)
+        self._arm.begin(self._measured, self._clock.now_s)
+        self._link.take_control(self._arm.mode)
+        self._condition, self._phase = self._link.condition, "in-control"
+
+    def _give_back(self) -> None:
+        if self._phase == "in-control":
+            self._link.give_back()
+            self._condition, self._phase = self._link.condition, "connected"
+
+    def _recover(self) -> None:
+        """Connect again if the device was lost, acknowledge a stop, and take control; StopPersists."""
+        try:
+            if self._phase == "lost":
+                self._link.connect()
+                self._phase = "connected"
+            self._link.recover()
+            self._link.read(self._measured)
+            self._arm.recover()
+            self._take_control()
+        except (BackendUnavailable, ControlRefused, LinkLost) as error:
+            self._arm.report(DeviceStop("protective-stop", str(error)))
+            raise StopPersists(str(error)) from error
+
+    def _set_load(self, load: ArmLoad | None) -> None:
+        self._arm.arm.set_load(load)
+        self._link.set_load(self._arm.arm.hand, self._arm.arm.held)
+
+    def _tare(self) -> None:
+        if self._link.abilities.tares:
+            self._link.tare()
+        else:
+            self._arm.arm.tare()

@@ -1,0 +1,139 @@
+"""Opens a cell of real arms: a control process for each, and the other devices of its back end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack, suppress
+from dataclasses import replace
+from time import monotonic
+from typing import TypeAlias
+
+from skillc_runtime.backends.control_process.feed import FedArm, Feed
+from skillc_runtime.backends.control_process.ghost import Ghost
+from skillc_runtime.backends.control_process.host import ControlProcess
+from skillc_runtime.backends.control_process.link import ControlRefused, LinkDescription
+from skillc_runtime.backends.control_process.process import ControlTask
+from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.control_process.things import find_things
+from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec, read_scene_spec
+from skillc_runtime.devices.backend import BackendUnavailable, DeviceStop
+from skillc_runtime.devices.base import MobileBase
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import DEVICE_STATE
+
+DescribeLink: TypeAlias = Callable[[ArmSpec], LinkDescription]
+"""Returns the device of an arm from its facts; SheetError if one is missing."""
+
+MakeDevices: TypeAlias = Callable[[SceneSpec, Mapping[str, RemoteArmDriver]], CellDevices]
+"""Returns the devices of a cell besides its arms, which it gets by IRI: a gripper tells its arm what it holds
+(`RemoteArmDriver.hold`). `find_fault`, `recover` and `close` are those of these devices alone."""
+
+
+def open_cell(
+    world: WorldModel, describe: DescribeLink, make_devices: MakeDevices = lambda _scene, _arms: CellDevices()
+) -> DeviceCell:
+    """Return the cell of a world model, its arms under control and at rest.
+
+    An arm that gives no control is reported as a stop of the cell. BackendUnavailable if a device does not answer,
+    SheetError or FrameError if facts are missing or contradict each other or the device.
+    """
+    scene = read_scene_spec(world.snapshot())
+    if not scene.arms:
+        raise BackendUnavailable("the scene has no arm")
+    things = find_things(scene)
+    with ExitStack() as opened:
+        arms: dict[str, RemoteArmDriver] = {}
+        bases: dict[str, MobileBase] = {}
+        for facts in scene.arms:
+            process = ControlProcess(ControlTask(facts, scene.names, describe(facts)))
+            opened.callback(process.close)
+            arms[facts.individual] = RemoteArmDriver(facts, process, _find_base(scene, facts, bases), things)
+        others = make_devices(scene, arms)
+        opened.callback(others.close)
+        bases.update(others.bases)
+        for arm in arms.values():
+            with suppress(ControlRefused):
+                arm.take_control()
+        cell = _make_cell(world, scene, arms, others)
+        opened.pop_all()
+    world.commit([SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(arms)], "start of the cell", "reported")
+    return cell
+
+
+def _make_cell(
+    world: WorldModel, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver], others: CellDevices
+) -> DeviceCell:
+    ghost = Ghost(scene, {each: _joints_of(arm) for each, arm in arms.items()}, others.grippers, others.bases)
+    fed = {
+        each.individual: FedArm(arms[each.individual].process, arms[each.individual].base, each.force_torque)
+        for each in scene.arms
+    }
+    feed = Feed(fed, ghost.bodies)
+    together = _Together(tuple(arms.values()), others, feed)
+    cell = DeviceCell(
+        world,
+        replace(
+            others,
+            arms=arms,
+            live=feed.live,
+            drawing=ghost,
+            find_fault=together.find_fault,
+            recover=together.recover,
+            passed=together.passed,
+            close=together.close,
+        ),
+    )
+    feed.begin(monotonic() - cell.now)
+    return cell
+
+
+class _Together:
+    """The arms of a cell and its other devices, as a cell watches and ends them."""
+
+    def __init__(self, arms: Sequence[RemoteArmDriver], others: CellDevices, feed: Feed) -> None:
+        self._arms, self._others, self._feed = arms, others, feed
+
+    def find_fault(self) -> DeviceStop | str | None:
+        """Return the worst stop of an arm, or what the other devices report."""
+        stops = [stop for arm in self._arms if (stop := arm.find_stop()) is not None]
+        emergency = (stop for stop in stops if stop.kind == "emergency-stop")
+        return next(emergency, next(iter(stops), None)) or self._others.find_fault()
+
+    def recover(self) -> None:
+        """Acknowledge the stops of all devices; StopPersists."""
+        self._others.recover()
+        for arm in self._arms:
+            if arm.find_stop() is not None:
+                arm.recover()
+
+    def passed(self) -> None:
+        """Hand over what was recorded."""
+        self._feed.hand_over()
+        self._others.passed()
+
+    def close(self) -> None:
+        """Give all devices back."""
+        for arm in self._arms:
+            arm.close()
+        self._others.close()
+
+
+def _find_base(scene: SceneSpec, facts: ArmSpec, bases: Mapping[str, MobileBase]) -> Callable[[], Pose]:
+    """Return how to find an arm's base in the world; it moves with the mobile base that carries it, if there is one."""
+    carrier = next((each for each in scene.bases if each.individual == facts.robot), None)
+    if carrier is None:
+        return lambda: facts.base
+    mounted = carrier.pose.inverse() @ facts.base
+
+    def find() -> Pose:
+        base = bases.get(carrier.individual)
+        return facts.base if base is None else base.pose @ mounted
+
+    return find
+
+
+def _joints_of(arm: RemoteArmDriver) -> Callable[[], Array]:
+    return lambda: arm.measured.q

@@ -1,0 +1,78 @@
+"""The program of a control process: it builds the arm, connects to its device, and runs the loop.
+
+It is started with the numbers of a connected socket and of the memory that it shares. The first message is the path of
+modules, the second a `ControlTask`; the answer is `Connected`, or the error for which there can be no cell.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+
+from skillc_runtime.backends.control_process.calls import Mailbox
+from skillc_runtime.backends.control_process.controlled_arm import ControlledArm
+from skillc_runtime.backends.control_process.link import LinkAbilities, LinkDescription
+from skillc_runtime.backends.control_process.loop import ControlLoop
+from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
+from skillc_runtime.backends.control_process.rehearsal import rehearse
+from skillc_runtime.backends.control_process.shared_memory import map_memory
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
+from skillc_runtime.devices.arm import ArmLimits, Mode
+from skillc_runtime.motion.numerics.compiled import compile_imported
+from skillc_runtime.platforms.real_time import run_in_real_time
+
+
+@dataclass(frozen=True, slots=True)
+class ControlTask:
+    """What a control process is to do: the facts of an arm, the short names of individuals, and its device."""
+
+    facts: ArmSpec
+    names: dict[str, str]
+    description: LinkDescription
+
+
+@dataclass(frozen=True, slots=True)
+class Connected:
+    """A control process is connected to its device: period in s, abilities and the mode of its law.
+
+    limits: of its joints. real_time: whether it runs before all other processes.
+    """
+
+    period_s: float
+    abilities: LinkAbilities
+    mode: Mode
+    limits: ArmLimits
+    real_time: bool
+
+
+def main(connection: Connection, memory_file: int) -> int:
+    """Run a control process; return its exit code."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    sys.path[:] = connection.recv()
+    task: ControlTask = connection.recv()
+    plan = MemoryPlan(task.facts.home.size)
+    memory = map_memory(memory_file)
+    try:
+        compile_imported()
+        link = task.description.make_link()
+        link.connect()
+        try:
+            arm = ControlledArm(task.facts, task.names, link.abilities, link.period_s)
+            rehearse(task.facts, task.names, link)
+        except BaseException:
+            link.close()
+            raise
+    except Exception as error:  # noqa: BLE001  the boundary to the other process, which raises it
+        connection.send(error)
+        return 1
+    loop = ControlLoop(link, arm, Mailbox(connection), plan, memory)
+    signal.signal(signal.SIGTERM, lambda *_: loop.end())
+    connection.send(Connected(link.period_s, link.abilities, arm.mode, arm.arm.limits, run_in_real_time()))
+    loop.run()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(Connection(int(sys.argv[1])), int(sys.argv[2])))
