@@ -27,7 +27,7 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Bool, Float64MultiArray
+from std_msgs.msg import Bool, Float64, Float64MultiArray
 from std_srvs.srv import Trigger
 from trajectory_msgs.msg import JointTrajectory
 
@@ -331,6 +331,12 @@ class Peer:
         self._running.publish(Bool(data=True))
         self.serve("stop_program", lambda: self._run_program(False))
         self.serve("resend_program", lambda: self._run_program(True))
+        self._shares = {
+            each: self.publisher(
+                f"{self.cell.scene.names[each].rpartition(':')[2].replace('-', '_')}/clean_share", Float64
+            )
+            for each in self.cell.coverage
+        }
         self.ended, self._next_call = False, 0.0
 
     def subscribe(self, topic: str, kind: Any, take: Callable[[Any], None]) -> None:
@@ -413,6 +419,8 @@ class Peer:
         self.send(self._states, message)
         for base in self.bases:
             base.publish()
+        for surface, publisher in self._shares.items():
+            publisher.publish(Float64(data=float(self.cell.coverage[surface].wiped_share)))
         for tool in self.cell.scene.tools:
             force = self._pressing_n(tool.individual)
             self.report.greatest_force_n = max(self.report.greatest_force_n, force)

@@ -12,8 +12,9 @@ from skillc_runtime.backends.control_process.opening import open_cell
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.real_time.device_cell import CellDevices
 from skillc_runtime.backends.ros2.base import Ros2Base
-from skillc_runtime.backends.ros2.facts import Timing, read_arm, read_base, read_gripper
+from skillc_runtime.backends.ros2.facts import Timing, read_arm, read_base, read_gripper, read_inspected
 from skillc_runtime.backends.ros2.gripper import Ros2Gripper
+from skillc_runtime.backends.ros2.inspection import Ros2Inspection
 from skillc_runtime.backends.ros2.link import Ros2Description
 from skillc_runtime.backends.ros2.receiver import Feed, Receiver
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
@@ -47,9 +48,10 @@ def describe(facts: ArmSpec) -> Ros2Description:
 
 
 def make_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
-    """Return the grippers and the mobile bases; BackendUnavailable if one of them does not answer."""
+    """Return grippers, mobile bases and inspection; BackendUnavailable if one of them does not answer."""
     hands = [(each.individual, each.gripper) for each in scene.arms if each.gripper is not None]
-    if not hands and not scene.bases:
+    inspected = read_inspected(state)
+    if not hands and not scene.bases and not inspected:
         return CellDevices()
     with ExitStack() as opened:
         receiver = Receiver("skillc_devices")
@@ -66,6 +68,7 @@ def make_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteA
             near_m = number_of(state, sheet, ARRIVAL_TOLERANCE, ARRIVAL_TOLERANCE_M)
             bases[each.individual] = base = Ros2Base(interface, each.pose, near_m, receiver)
             firsts.append((base.feed, interface.timing, interface.name))
+        inspection = Ros2Inspection(inspected, receiver) if inspected else None
         receiver.begin()
         for feed, timing, who in firsts:
             receiver.await_first(feed, timing, who)
@@ -79,6 +82,7 @@ def make_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteA
     return CellDevices(
         grippers=grippers,
         bases=bases,
+        inspection=inspection,
         find_fault=find_fault,
         close=receiver.close,
     )

@@ -8,7 +8,7 @@ from typing import Final, TypeVar
 
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
-from skillc_runtime.world.state.terms import FORCE_TORQUE_SENSOR, HAS_SENSOR, ROS2, SKIROS
+from skillc_runtime.world.state.terms import FORCE_TORQUE_SENSOR, HAS_SENSOR, ROS2, SKIROS, SURFACE
 from skillc_runtime.world.state.world_state import WorldState
 
 ARRAY, TRAJECTORY = "std_msgs/msg/Float64MultiArray", "trajectory_msgs/msg/JointTrajectory"
@@ -279,6 +279,12 @@ def read_base(state: WorldState, robot: str) -> BaseInterface:
         timing=facts.timing(1.0),
         quality=facts.quality(),
     )
+
+
+def read_inspected(state: WorldState) -> dict[str, str]:
+    """Return the topics that tell how clean surfaces are, by the IRI of the surface."""
+    topics = ((each, DeviceFacts(state, each).topic("cleanShareTopic")) for each in sorted(state.instances(SURFACE)))
+    return {surface: topic for surface, topic in topics if topic}
 
 
 def _read_tool(facts: DeviceFacts) -> ToolTopics | None:

@@ -61,6 +61,7 @@ class Ros2Link:
         self._mode: LinkMode = "tool" if interface.tool is not None else interface.mode
         self._wrench = np.zeros(6)
         self._stamp_s, self._next_look = np.nan, 0.0
+        self._first_s: float | None = None
 
     @property
     def period_s(self) -> float:
@@ -214,8 +215,15 @@ class Ros2Link:
         while (message := self._states.take()) is not None:
             if self._order.read(message):
                 new, self._state_seen = True, monotonic()
-                self._stamp_s = message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec or self._state_seen
+                self._stamp_s = self._date(message.header.stamp)
         return new and not self._order.missing
+
+    def _date(self, stamp: Any) -> float:
+        """Return when a message was measured, in s since the first one; now for one without a stamp."""
+        measured = stamp.sec + 1e-9 * stamp.nanosec or self._state_seen
+        if self._first_s is None:
+            self._first_s = measured
+        return measured - self._first_s
 
     def _take_wrench(self, message: Any) -> None:
         force, torque = message.wrench.force, message.wrench.torque

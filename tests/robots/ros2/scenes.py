@@ -1,0 +1,38 @@
+"""Shipped scenes with the facts that the simulated robots of these tests need."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from skillc_ontology import catalogue
+
+ROS2 = "@prefix ros2: <https://w3id.org/skillc/ros2#> .\n"
+SLOW = "ros2:updateRate 125.0 ; ros2:stateTimeout 1.0"
+"""Machines that run tests beside each other are slow: a robot may be silent for longer than a real one."""
+
+
+def whiteboard(folder: Path) -> Path:
+    """Write the scene of the UR5e at the whiteboard, for ROS 2; return the file."""
+    facts = f"""
+lab:Ur5e-1 {SLOW} .
+lab:Wsg-1 ros2:effortTopic "gripper_controller/max_effort" ; ros2:stateTimeout 2.0 .
+lab:Heron-1 ros2:stateTimeout 2.0 .
+lab:Whiteboard-1 ros2:cleanShareTopic "Whiteboard_1/clean_share" .
+"""
+    return _write("ur5e_whiteboard", facts, folder)
+
+
+def table(folder: Path, more: str = "") -> Path:
+    """Write the scene of the iiwa at the table, for ROS 2; return the file."""
+    facts = f"""
+lab:Iiwa-1 {SLOW} ; ros2:carriesWeight false {more}.
+lab:Robotiq-1 ros2:effortTopic "gripper_controller/max_effort" ; ros2:stateTimeout 2.0 .
+lab:Table-1 ros2:cleanShareTopic "Table_1/clean_share" .
+"""
+    return _write("iiwa_table", facts, folder)
+
+
+def _write(scene: str, facts: str, folder: Path) -> Path:
+    path = folder / f"{scene}.ttl"
+    path.write_text(ROS2 + catalogue.scene_path(scene).read_text("utf-8") + facts, "utf-8")
+    return path
