@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
+from functools import partial
 from typing import Protocol
 
 from skillc_runtime.devices.arm_driver import ArmDriver
@@ -51,10 +52,20 @@ class DeviceStopper:
         )
 
     def abort(self, reason: str) -> None:
-        """Stop all devices; arms report the reason as a fault."""
-        for arm in self._arms.values():
-            arm.abort(reason)
-        self.stop()
+        """Stop all devices; arms report the reason as a fault.
+
+        One that raises an error keeps no other from being stopped; the first error is raised then.
+        """
+        errors = []
+        stops: list[Callable[[], None]] = [partial(arm.abort, reason) for arm in self._arms.values()]
+        stops += [partial(self.stop, (each,)) for each in (*self._grippers, *self._bases)]
+        for stop in stops:
+            try:
+                stop()
+            except Exception as error:  # noqa: BLE001  the boundary to the devices
+                errors.append(error)
+        if errors:
+            raise errors[0]
 
     def stop(self, devices: Collection[str] | None = None) -> None:
         """Stop grippers and bases."""

@@ -16,7 +16,7 @@ CURRENT, FUTURE = 1, 2
 
 
 def run_in_real_time() -> bool:
-    """Ask for real-time priority and locked memory, and stop garbage collection; tell whether the priority was given."""
+    """Ask for real-time priority and locked memory, and stop garbage collection; tell if the priority was given."""
     gc.collect()
     gc.freeze()
     gc.disable()

@@ -14,22 +14,19 @@ from time import monotonic
 from typing import Any
 
 from skillc_runtime.backends.control_process.calls import Answer, Call, Part
+from skillc_runtime.backends.control_process.handshake import Connected, ControlTask
 from skillc_runtime.backends.control_process.link import CALL_S
 from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
-from skillc_runtime.backends.control_process.process import Connected, ControlTask
 from skillc_runtime.backends.control_process.shared_memory import SharedRecord, SharedRing, make_memory, map_memory
 from skillc_runtime.backends.control_process.snapshot import Snapshot
 from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable
 from skillc_runtime.platforms.processes import INHERITS_SOCKETS
 
-START_S = 120.0
+START_S = 300.0
 """How long a control process may take to connect; its first one on a machine compiles the laws."""
 
 BEAT_S = 0.02
 """How often a control process is told that this one is alive, in s."""
-
-SILENCE_S = 0.2
-"""A control process that has published nothing for longer does not run."""
 
 ANSWER_S = 1.0
 """How long the answer to a call is waited for, unless it is one to the device."""
@@ -65,6 +62,7 @@ class ControlProcess:
         self._thread = Thread(target=self._keep_beating, name=f"beat {self.name}", daemon=True)
         self._thread.start()
         self.connected = self._introduce(task)
+        self._patience_s = max(task.patience.process_s, self.connected.abilities.silence_s + BEAT_S)
 
     @property
     def joints(self) -> int:
@@ -104,7 +102,7 @@ class ControlProcess:
             return self._broken
         snapshot = self.read()
         silent_s = monotonic() - max(snapshot.number("time_s"), snapshot.number("busy_until_s"))
-        return f"{self._who} has not run for {silent_s:.2f} s" if silent_s > SILENCE_S else None
+        return f"{self._who} has not run for {silent_s:.2f} s" if silent_s > self._patience_s else None
 
     def close(self) -> None:
         """Let it stop its arm, give the device back, and end; end it if it does not."""

@@ -9,6 +9,7 @@ from typing import Any
 from skillc_runtime.backends.control_process.call_desk import CallDesk
 from skillc_runtime.backends.control_process.calls import CALLS_A_CYCLE_SHARE, Answer, Call, Mailbox
 from skillc_runtime.backends.control_process.controlled_arm import ControlledArm
+from skillc_runtime.backends.control_process.handshake import Patience
 from skillc_runtime.backends.control_process.link import (
     CALL_S,
     Condition,
@@ -21,13 +22,9 @@ from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
 from skillc_runtime.backends.control_process.pacing import CycleClock
 from skillc_runtime.backends.control_process.publisher import Publisher
 from skillc_runtime.backends.control_process.snapshot import Phase
-from skillc_runtime.control.watchdog import HEARTBEAT_TIMEOUT_S
 from skillc_runtime.devices.arm import ArmLoad
 from skillc_runtime.devices.backend import BackendUnavailable, DeviceStop, StopPersists
 from skillc_runtime.motion.arrays import OutVector
-
-LONGEST_GAP_S = 0.1
-"""An arm is held if its loop has not run for longer."""
 
 BRAKING_S = 2.0
 """At the end an arm is controlled until it is at rest, or for this time."""
@@ -40,10 +37,16 @@ class ControlLoop:
     """Controls one arm through its link, which is connected, until nobody calls any more. Starts without control."""
 
     def __init__(
-        self, link: RobotLink, arm: ControlledArm, mailbox: Mailbox, plan: MemoryPlan, memory: OutVector
+        self,
+        link: RobotLink,
+        arm: ControlledArm,
+        mailbox: Mailbox,
+        plan: MemoryPlan,
+        memory: OutVector,
+        patience: Patience,
     ) -> None:
         self._link, self._arm, self._mailbox, self._desk = link, arm, mailbox, CallDesk(arm)
-        self._beat = plan.beat(memory)
+        self._beat, self._patience = plan.beat(memory), patience
         self._measured, self._clock = make_state(plan.layout.joints), CycleClock(link.period_s)
         self._publisher = Publisher(plan, memory, arm, self._measured, self._clock)
         self._phase: Phase = "connected"
@@ -89,18 +92,24 @@ class ControlLoop:
         self._publisher.publish(self._phase, self._seen)
 
     def _serve_device(self) -> None:
-        link, measured = self._link, self._measured
+        link, measured, asked = self._link, self._measured, monotonic()
+        gap = asked - self._seen
         link.read(measured)
         self._seen = monotonic()
-        waited = self._clock.advance(float(measured.stamp_s[0]), self._seen)
+        self._clock.advance(float(measured.stamp_s[0]), self._seen)
         self._look_at_condition()
         if self._phase != "in-control":
             self._arm.look(measured, self._clock.now_s)
             return
-        if waited > LONGEST_GAP_S and not self._is_excused:
-            self._stop(f"the loop of the arm has not run for {waited:.2f} s")
-        self._is_excused = False
+        self._check_gap(gap, self._seen - asked)
         link.write(self._arm.step(measured, self._clock.now_s))
+
+    def _check_gap(self, gap: float, waited: float) -> None:
+        """Hold the arm if the loop has not run for too long, in s, before it asked the device or while it waited."""
+        if self._is_excused:
+            self._is_excused = False
+        elif max(gap, waited - self._link.abilities.silence_s) > self._patience.gap_s:
+            self._stop(f"the loop of the arm has not run for {max(gap, waited):.2f} s")
 
     def _look_at_condition(self) -> None:
         """Stop when the device has left control by itself, and keep why; an emergency stop is kept in any case."""
@@ -119,11 +128,11 @@ class ControlLoop:
 
     def _watch_tree(self) -> None:
         silent_s = self._seen - self._beat[0]
-        if silent_s > HEARTBEAT_TIMEOUT_S and not self._is_tree_silent and self._ending_since is None:
+        if silent_s > self._patience.tree_s and not self._is_tree_silent and self._ending_since is None:
             reason = f"the process of the tree has been silent for {silent_s:.2f} s"
             self._arm.driver.abort(reason)
             self._arm.report(DeviceStop("protective-stop", reason))
-        self._is_tree_silent = silent_s > HEARTBEAT_TIMEOUT_S
+        self._is_tree_silent = silent_s > self._patience.tree_s
 
     def _lose(self, reason: str) -> None:
         self._phase = "lost"

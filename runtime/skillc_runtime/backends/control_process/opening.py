@@ -10,9 +10,9 @@ from typing import TypeAlias
 
 from skillc_runtime.backends.control_process.feed import FedArm, Feed
 from skillc_runtime.backends.control_process.ghost import Ghost
+from skillc_runtime.backends.control_process.handshake import USUAL_PATIENCE, ControlTask, Patience
 from skillc_runtime.backends.control_process.host import ControlProcess
 from skillc_runtime.backends.control_process.link import ControlRefused, LinkDescription
-from skillc_runtime.backends.control_process.process import ControlTask
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.control_process.things import find_things
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
@@ -33,7 +33,10 @@ MakeDevices: TypeAlias = Callable[[SceneSpec, Mapping[str, RemoteArmDriver]], Ce
 
 
 def open_cell(
-    world: WorldModel, describe: DescribeLink, make_devices: MakeDevices = lambda _scene, _arms: CellDevices()
+    world: WorldModel,
+    describe: DescribeLink,
+    make_devices: MakeDevices = lambda _scene, _arms: CellDevices(),
+    patience: Patience = USUAL_PATIENCE,
 ) -> DeviceCell:
     """Return the cell of a world model, its arms under control and at rest.
 
@@ -48,7 +51,7 @@ def open_cell(
         arms: dict[str, RemoteArmDriver] = {}
         bases: dict[str, MobileBase] = {}
         for facts in scene.arms:
-            process = ControlProcess(ControlTask(facts, scene.names, describe(facts)))
+            process = ControlProcess(ControlTask(facts, scene.names, describe(facts), patience))
             opened.callback(process.close)
             arms[facts.individual] = RemoteArmDriver(facts, process, _find_base(scene, facts, bases), things)
         others = make_devices(scene, arms)

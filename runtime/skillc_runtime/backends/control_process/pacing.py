@@ -34,18 +34,14 @@ class CycleClock:
         self._period, self._stamp, self._seen = period_s, float("nan"), float("nan")
         self.now_s, self.lost, self.late_s = 0.0, 0, 0.0
 
-    def advance(self, stamp_s: float, seen_s: float) -> float:
-        """Begin a cycle with a state stamped `stamp_s` by the device, at `seen_s` of the machine's clock.
-
-        Return the time in s since the cycle before, by the device if it has a clock; 0 for the first one.
-        """
+    def advance(self, stamp_s: float, seen_s: float) -> None:
+        """Begin a cycle with a state stamped `stamp_s` by the device, at `seen_s` of the machine's clock."""
         waited, passed = seen_s - self._seen, stamp_s - self._stamp
         self._stamp, self._seen = stamp_s, seen_s
         if not waited >= 0.0:
-            return 0.0
+            return
         self.late_s = waited - self._period
         measured = passed if passed > 0.0 else waited
         periods = max(1, round(measured / self._period))
         self.lost += periods - 1 + (passed == 0.0)
         self.now_s += periods * self._period
-        return waited

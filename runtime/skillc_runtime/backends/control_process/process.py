@@ -8,43 +8,17 @@ from __future__ import annotations
 
 import signal
 import sys
-from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
 from skillc_runtime.backends.control_process.calls import Mailbox
 from skillc_runtime.backends.control_process.controlled_arm import ControlledArm
-from skillc_runtime.backends.control_process.link import LinkAbilities, LinkDescription
+from skillc_runtime.backends.control_process.handshake import Connected, ControlTask
 from skillc_runtime.backends.control_process.loop import ControlLoop
 from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
 from skillc_runtime.backends.control_process.rehearsal import rehearse
 from skillc_runtime.backends.control_process.shared_memory import map_memory
-from skillc_runtime.backends.simulation.scene_spec import ArmSpec
-from skillc_runtime.devices.arm import ArmLimits, Mode
 from skillc_runtime.motion.numerics.compiled import compile_imported
 from skillc_runtime.platforms.real_time import run_in_real_time
-
-
-@dataclass(frozen=True, slots=True)
-class ControlTask:
-    """What a control process is to do: the facts of an arm, the short names of individuals, and its device."""
-
-    facts: ArmSpec
-    names: dict[str, str]
-    description: LinkDescription
-
-
-@dataclass(frozen=True, slots=True)
-class Connected:
-    """A control process is connected to its device: period in s, abilities and the mode of its law.
-
-    limits: of its joints. real_time: whether it runs before all other processes.
-    """
-
-    period_s: float
-    abilities: LinkAbilities
-    mode: Mode
-    limits: ArmLimits
-    real_time: bool
 
 
 def main(connection: Connection, memory_file: int) -> int:
@@ -67,7 +41,7 @@ def main(connection: Connection, memory_file: int) -> int:
     except Exception as error:  # noqa: BLE001  the boundary to the other process, which raises it
         connection.send(error)
         return 1
-    loop = ControlLoop(link, arm, Mailbox(connection), plan, memory)
+    loop = ControlLoop(link, arm, Mailbox(connection), plan, memory, task.patience)
     signal.signal(signal.SIGTERM, lambda *_: loop.end())
     connection.send(Connected(link.period_s, link.abilities, arm.mode, arm.arm.limits, run_in_real_time()))
     loop.run()

@@ -102,8 +102,8 @@ class RemoteArmDriver:
         """
         if thing not in self._things:
             raise RuntimeError(
-                f"{thing.rpartition('#')[2]} cannot be held: it had no body when the cell was opened. A thing to handle "
-                "needs a pose and skiros:SizeX, SizeY and SizeZ in the scene"
+                f"{thing.rpartition('#')[2]} cannot be held: it had no body when the cell was opened. A thing to "
+                "handle needs a pose and skiros:SizeX, SizeY and SizeZ in the scene"
             )
         self.set_load(self._things[thing].load(in_tool_centre, mass_kg))
 

@@ -200,15 +200,17 @@ class DeviceCell(Backend, Cell):
         self._closing.set()
         self._thread.join(CLOSE_S)
         with self._turn:
-            self._stopper.abort(self._broken)
-            self._devices.close()
+            try:
+                self._stopper.abort(self._broken)
+            finally:
+                self._devices.close()
 
     def _watch(self) -> None:
         """Stop all devices when their client is silent, or when one of them cannot go on."""
         while not self._closing.wait(LOOK_S):
             with self._turn:
                 if self._heartbeats.expired(self.now):
-                    self._stopper.abort("the tree is not ticked any more")
+                    self._abort("the tree is not ticked any more")
                 if (fault := self._find_fault()) is not None:
                     self._take_fault(fault)
 
@@ -216,9 +218,17 @@ class DeviceCell(Backend, Cell):
         """Stop all devices for the first fault; an emergency stop that comes later is reported instead of it."""
         if self._fault is None:
             self._fault, self._is_told = fault, False
-            self._stopper.abort(fault.reason)
+            self._abort(fault.reason)
         elif fault.kind == "emergency-stop":
             self._fault = fault
+
+    def _abort(self, reason: str) -> None:
+        """Stop all devices; one that cannot be stopped is a fault."""
+        try:
+            self._stopper.abort(reason)
+        except Exception as error:  # noqa: BLE001  the boundary to the devices
+            fault = DeviceStop("protective-stop", f"{reason}; a device could not be stopped: {error!r}")
+            self._fault, self._is_told = fault, False
 
     def _find_fault(self) -> DeviceStop | None:
         """Return why a device cannot go on; a look that fails is a fault as well, since nobody else would notice."""
