@@ -9,6 +9,7 @@ from contextlib import aclosing
 from typing import Any
 
 import msgspec
+from msgspec import structs
 
 from skillc.client.async_cell import AsyncCell
 from skillc.client.async_server import AsyncServer
@@ -56,12 +57,12 @@ class CellBridge:
 
     async def show_motion(self) -> None:
         """Publish joints, wrenches and markers until the server ends."""
-        model = await self._cell.model()
+        model, still = await self._cell.model(), await self._cell.poses()
         names = {arm: tuple(map(_plain_joint, each.joints)) for arm, each in model.arms.items()}
         names |= await self._find_names({model.individuals[arm].label: arm for arm in model.arms})
         async with aclosing(self._cell.samples(RATE_HZ)) as samples:
             async for sample in samples:
-                self._topics.show(sample, model, names)
+                self._topics.show(structs.replace(sample, things=still | sample.things), model, names)
 
     def take(self, status: CellStatus | OperationStatus) -> None:
         """Publish how the cell is now, and follow the tree of each operation that goes on."""

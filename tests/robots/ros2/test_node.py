@@ -116,10 +116,7 @@ def test_a_goal_is_started_paused_resumed_and_stopped(seen: Watcher) -> None:
 
 
 def test_what_is_refused_is_answered_with_the_reason(seen: Watcher) -> None:
-    assert (
-        "no such task" in str(seen.order(command="start", task="dance", id="a")["message"])
-        or seen.last["answer"]["message"]
-    )
+    assert "dance" in seen.order(command="start", task="dance", id="a")["message"]
     assert "this is no order" in seen.order(command="dance")["message"]
     refusal = seen.call("pause")
     assert refusal is not None
