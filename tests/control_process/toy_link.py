@@ -36,10 +36,12 @@ from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCel
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
 from skillc_runtime.devices.gripper import CLOSED_FURTHER_M
+from skillc_runtime.motion.numerics.compiled import compile_imported
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import AT
+from skillc_runtime.world.state.world_state import WorldState
 
 PATIENCE = Patience(tree_s=2.0, process_s=2.0, gap_s=2.0)
 """Machines that run tests are busy with others."""
@@ -145,15 +147,17 @@ class ToyLink:
 
     def _receive(self) -> Any:
         assert self._stream is not None
+        data = b""
         try:
-            data = self._stream.recv(self._size, socket.MSG_WAITALL)
+            while len(data) < self._size:
+                if not (more := self._stream.recv(self._size - len(data))):
+                    raise LinkLost(f"{self._there.name} has closed the connection")
+                data += more
         except TimeoutError as error:
             silence_s = self.abilities.silence_s
             raise LinkLost(f"{self._there.name} has been silent for {silence_s:g} s") from error
         except OSError as error:
             raise LinkLost(f"{self._there.name} is not there any more: {error}") from error
-        if len(data) < self._size:
-            raise LinkLost(f"{self._there.name} has closed the connection")
         return np.frombuffer(data)
 
 
@@ -180,8 +184,13 @@ class Toy:
         )
         return ToyDescription(self.port, facts.home.size, abilities, 0.001)
 
-    def open(self) -> DeviceCell:
-        return open_cell(self.world(), self.describe, self._make_devices, PATIENCE)
+    def open(self, state: WorldState | None = None) -> DeviceCell:
+        """Open its cell with a state of the world; by default with that of its scene."""
+        compile_imported()
+        world = self.world() if state is None else WorldModel(state)
+        cell = open_cell(world, self.describe, self._make_devices, PATIENCE)
+        cell._heartbeats._timeout = PATIENCE.tree_s
+        return cell
 
     def world(self) -> WorldModel:
         moved = [AddRelation(LAB + "Heron-1", AT, LAB + "Store")] if self.scene == "ur5e_whiteboard" else []
@@ -258,11 +267,13 @@ class ToyCamera:
 
 
 @contextmanager
-def toy_cell(scene: str, paced: bool = False) -> Iterator[tuple[Toy, DeviceCell]]:
+def toy_cell(
+    scene: str, paced: bool = False, state: WorldState | None = None
+) -> Iterator[tuple[Toy, DeviceCell]]:
     """Yield a toy robot and its cell."""
     toy = Toy(scene, paced)
     try:
-        cell = toy.open()
+        cell = toy.open(state)
         try:
             yield toy, cell
         finally:
