@@ -22,10 +22,30 @@ lab:Whiteboard-1 ros2:cleanShareTopic "Whiteboard_1/clean_share" .
     return _write("ur5e_whiteboard", facts, folder)
 
 
-def table(folder: Path, more: str = "") -> Path:
+CARTESIAN = """
+lab:Wrist-1 a skillc:ForceTorqueSensor .
+skillc:iiwa14-sheet skillc:forceTorqueTime 0.001 .
+lab:Iiwa-1 skillc:hasSensor lab:Wrist-1 ;
+    ros2:targetPoseTopic "cartesian_controller/reference_pose" ;
+    skiros:CartesianStiffnessTopic "cartesian_controller/set_cartesian_stiffness" ;
+    skiros:CartesianWrenchTopic "cartesian_controller/set_cartesian_wrench" ;
+    skiros:LinkedToFrameId "base_link" ; skiros:MoveItTCPLink "flange" .
+"""
+"""The facts of an arm whose compliant law runs on the robot's side."""
+
+
+def cartesian_table(folder: Path) -> Path:
+    """Write the scene of an iiwa whose law runs on the robot's side, for ROS 2; return the file."""
+    path = table(folder)
+    text = path.read_text("utf-8").replace('CompliantController "impedance"', 'CompliantController "on_robot"')
+    path.write_text(text + CARTESIAN, "utf-8")
+    return path
+
+
+def table(folder: Path) -> Path:
     """Write the scene of the iiwa at the table, for ROS 2; return the file."""
     facts = f"""
-lab:Iiwa-1 {SLOW} ; ros2:carriesWeight false {more}.
+lab:Iiwa-1 {SLOW} ; ros2:carriesWeight false .
 lab:Robotiq-1 ros2:effortTopic "gripper_controller/max_effort" ; ros2:stateTimeout 2.0 .
 lab:Table-1 ros2:cleanShareTopic "Table_1/clean_share" .
 """

@@ -21,7 +21,7 @@ from skillc_runtime.backends.ros2.inspection import Ros2Inspection
 from skillc_runtime.backends.ros2.link import Ros2Description
 from skillc_runtime.backends.ros2.receiver import Feed, Receiver
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
-from skillc_runtime.control.gains import UnknownController, read_gains
+from skillc_runtime.control.gains import RobotGains, UnknownController, read_gains
 from skillc_runtime.devices.backend import Backend, BackendStart
 from skillc_runtime.motion.numerics.compiled import compile_imported
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
@@ -53,10 +53,11 @@ def describe(facts: ArmSpec) -> Ros2Description:
     """Return how ROS 2 drives an arm; SheetError if a fact is missing or wrong."""
     state = facts.sheet.state
     try:
-        mode = read_gains(facts.controller, facts.sheet.number).law.mode
+        law = read_gains(facts.controller, facts.sheet.number).law
     except UnknownController as error:
         raise SheetError(f"{state.vocabulary.short(facts.individual)}: {error}") from error
-    return Ros2Description(read_arm(state, facts.individual, _joints_of(str(facts.model)), mode), str(facts.model))
+    joints, on_robot = _joints_of(str(facts.model)), isinstance(law, RobotGains)
+    return Ros2Description(read_arm(state, facts.individual, joints, law.mode, on_robot), str(facts.model))
 
 
 def make_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 
@@ -142,9 +142,11 @@ class FlangeTurn:
         return data.site_xpos[site].copy(), data.site_xmat[site].reshape(3, 3).copy()
 
 
-def make_commands(facts: ArmInterface, model: str, session: Session) -> Commands:
-    """Return what the facts of an arm say that it is commanded through."""
-    turn = FlangeTurn(model)
+JointCommands: TypeAlias = ArrayCommands | TrajectoryCommands
+
+
+def make_joint_commands(facts: ArmInterface, session: Session, turn: FlangeTurn) -> JointCommands:
+    """Return what the joints of an arm are commanded through."""
     if facts.command_type == TRAJECTORY:
         return TrajectoryCommands(facts, session, turn)
     return ArrayCommands(facts, session, turn)

@@ -52,6 +52,7 @@ class ToolTopics:
     """The topics of a Cartesian controller on the robot's side: target pose, stiffness and wrench; empty for none.
 
     frame: the frame of the arm's base. of_flange: whether the pose is that of the flange, else of the tool.
+    along_flange: whether stiffness and wrench are along the axes of the flange, else along those of the base.
     """
 
     pose: str
@@ -59,6 +60,7 @@ class ToolTopics:
     wrench: str
     frame: str
     of_flange: bool
+    along_flange: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,10 +215,13 @@ class DeviceFacts:
         return self.state.value(self._owner(property_), property_)
 
 
-def read_arm(state: WorldState, arm: str, joints: tuple[str, ...], mode: Mode) -> ArmInterface:
-    """Read how ROS 2 drives an arm whose model has `joints`, and whose law gives commands of a mode; SheetError."""
+def read_arm(state: WorldState, arm: str, joints: tuple[str, ...], mode: Mode, on_robot: bool = False) -> ArmInterface:
+    """Read how ROS 2 drives an arm whose model has `joints`, and whose law gives commands of a mode; SheetError.
+
+    on_robot: the law runs on the robot's side, and takes targets of the tool.
+    """
     facts = DeviceFacts(state, arm)
-    tool = _read_tool(facts)
+    tool = _read_tool(facts) if on_robot else None
     controller = facts.skiros("JointConfigurationController") or ("" if tool else CONTROLLERS[mode])
     kinds = {ARRAY: ARRAY, TRAJECTORY: TRAJECTORY}
     command_type = facts.choice("commandType", kinds, ARRAY)
@@ -287,17 +292,21 @@ def read_inspected(state: WorldState) -> dict[str, str]:
     return {surface: topic for surface, topic in topics if topic}
 
 
-def _read_tool(facts: DeviceFacts) -> ToolTopics | None:
-    """Return the topics of a Cartesian controller on the robot's side, if the arm states where its targets go."""
-    pose = facts.topic("targetPoseTopic")
+def _read_tool(facts: DeviceFacts) -> ToolTopics:
+    """Return the topics of a Cartesian controller on the robot's side; SheetError if no topic takes its targets."""
+    pose = facts.topic("targetPoseTopic") or facts.full_name(facts.skiros("CartesianGoalAction"))
     if not pose:
-        return None
+        raise SheetError(
+            f"the law of {facts.name} runs on the robot's side: state the topic of its target poses as "
+            "ros2:targetPoseTopic"
+        )
     return ToolTopics(
         pose=pose,
         stiffness=facts.full_name(facts.skiros("CartesianStiffnessTopic")),
         wrench=facts.full_name(facts.skiros("CartesianWrenchTopic")),
         frame=facts.skiros("LinkedToFrameId") or "base_link",
         of_flange=facts.skiros("MoveItTCPLink") in ("", "flange", "tool0"),
+        along_flange=facts.choice("complianceFrame", {"base": False, "flange": True}, False),
     )
 
 

@@ -19,10 +19,11 @@ from skillc_runtime.backends.control_process.link import (
     PointMass,
     StateView,
 )
-from skillc_runtime.backends.ros2.commands import Commands, make_commands
+from skillc_runtime.backends.ros2.commands import Commands, FlangeTurn, make_joint_commands
 from skillc_runtime.backends.ros2.facts import ArmInterface
 from skillc_runtime.backends.ros2.joint_states import JointOrder
 from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
+from skillc_runtime.backends.ros2.tool_commands import ToolCommands
 from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
 
 LOOK_S = 0.1
@@ -73,7 +74,7 @@ class Ros2Link:
         """What the arm can do by its facts, and by its first state."""
         facts, effort = self._facts, self._order.values[2]
         return LinkAbilities(
-            modes=(self._mode,),
+            modes=("tool", "position") if self._mode == "tool" else (self._mode,),
             wrench="none" if facts.wrench is None else "without-weight",
             measures_effort=facts.mode == "torque" and bool(np.isfinite(effort).all()),
             carries_weight=facts.carries_weight,
@@ -176,7 +177,15 @@ class Ros2Link:
         self._running: Subscription | None = None
         if facts.services.running:
             self._running = session.subscribe(facts.services.running, "std_msgs/msg/Bool", True, latched=True)
-        self._commands: Commands = make_commands(facts, self._model, session)
+        self._commands = self._make_commands(session)
+
+    def _make_commands(self, session: Session) -> Commands:
+        facts, turn = self._facts, FlangeTurn(self._model)
+        joints = make_joint_commands(facts, session, turn) if facts.command else None
+        if facts.tool is not None:
+            return ToolCommands(facts, facts.tool, joints, turn, session)
+        assert joints is not None, "an arm without a Cartesian controller has a topic for its joints"
+        return joints
 
     def _open_session(self) -> Session:
         if self._session is None:
