@@ -41,7 +41,9 @@ from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.devices.arm import Command, JointPosition, JointVelocity, Torque
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER
 
 BEHIND_S = 0.05
 """A peer that has not been run in time makes up for this much, and loses the rest."""
@@ -142,6 +144,7 @@ class Arm:
             if model.joint(j).name.startswith(prefix)
         ]
         self.names = [peer.options.joint_names.get(each, each) for each in names]
+        self._flange = model.site(prefix + "flange").id
         self._limits, self._last, self._last_at = self._arm.limits, None, 0.0
         self._law = CartesianImpedance(len(names)) if peer.options.control == "cartesian" else None
         control, has_sensor = peer.options.control, facts.force_torque
@@ -167,7 +170,7 @@ class Arm:
         """Return what the active controller commands; the last command counts until there is another one."""
         if self._law is not None:
             state = self._arm.state()
-            return Torque(self._law.torques(state, self._arm.flange_at(state.q)))
+            return Torque(self._law.torques(state, self._find_flange()))
         if self._goal is not None:
             start, goal, begin, span = self._goal
             share = min(1.0, (now - begin) / span)
@@ -184,9 +187,14 @@ class Arm:
             self._publish_wrench(state)
         return self.names, state.q.tolist(), state.dq.tolist(), state.effort.tolist()
 
+    def _find_flange(self) -> Pose:
+        """Return the flange in the base."""
+        data = self._peer.cell.data
+        return self._arm.base.inverse() @ Pose(data.site_xpos[self._flange], data.site_xmat[self._flange].reshape(3, 3))
+
     def _publish_wrench(self, state: Any) -> None:
         """Publish the wrench of the environment at the flange, along its axes."""
-        flange = self._arm.flange_at(state.q)
+        flange = self._find_flange()
         force, moment = state.wrench[:3], state.wrench[3:]
         moment = moment + np.cross(state.tool.position - flange.position, force)
         message = WrenchStamped()
@@ -318,7 +326,12 @@ class Peer:
         reality = {"reality": lambda scene, _: exact_variation(scene)} if options.exact else {}
         steps = round(1000.0 / options.rate_hz)
         vocabulary = load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
-        world = WorldModel(load_scene(Path(options.scene), vocabulary))
+        state = load_scene(Path(options.scene), vocabulary)
+        remote = [each for each in state.instances(ARM_DEVICE) if state.value(each, COMPLIANT_CONTROLLER) == "on_robot"]
+        # The drivers of the cell are not used; they are made for a law that MuJoCo has.
+        world = WorldModel(
+            state.with_changes([SetProperty(each, COMPLIANT_CONTROLLER, "impedance") for each in remote])
+        )
         self.cell = PeerCell(world, options.seed, steps_per_command=steps, **reality)
         self.arms = {each.individual: Arm(each.individual, self) for each in self.cell.scene.arms}
         self.cell.commands = {name: arm.command for name, arm in self.arms.items()}

@@ -86,7 +86,7 @@ class ControlledArm:
             fill_tool(out, self.arm.tool_on_flange)
         if self.link_mode == "tool" and (target := self.driver.tool_target) is not None:
             fill_target(out, *target)
-            self._limits.begin(self.mode, measured.q, bias)
+            self._limits.continue_from(self.mode, measured.q, bias)
             self._report_driver()
             return out
         try:
