@@ -54,11 +54,11 @@ def require_server() -> None:
         raise click.UsageError("`skillc serve` needs Linux or macOS: processes of Windows inherit no sockets")
 
 
-def require_ros2() -> None:
-    """Raise UsageError if there is no ROS 2, neither a sourced one nor its wheels."""
+def require_ros2(what: str) -> None:
+    """Raise UsageError if there is no ROS 2, neither a sourced one nor its wheels; `what` is what needs it."""
     if find_spec("rclpy") is None:
         raise click.UsageError(
-            "--ros2 needs ROS 2: source the set-up file of an installed one in this terminal, with the Python that it "
+            f"{what} needs ROS 2: source the set-up file of an installed one in this terminal, with the Python that it "
             f"was built for, or install its wheels (Linux on x86-64): {install_command('ros2')}"
         )
 

@@ -56,7 +56,7 @@ def describe(facts: ArmSpec) -> Ros2Description:
         law = read_gains(facts.controller, facts.sheet.number).law
     except UnknownController as error:
         raise SheetError(f"{state.vocabulary.short(facts.individual)}: {error}") from error
-    joints, on_robot = _joints_of(str(facts.model)), isinstance(law, RobotGains)
+    joints, on_robot = joints_of(str(facts.model)), isinstance(law, RobotGains)
     return Ros2Description(read_arm(state, facts.individual, joints, law.mode, on_robot), str(facts.model))
 
 
@@ -73,7 +73,7 @@ def make_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteA
         bases: dict[str, Ros2Base] = {}
         firsts: list[tuple[Feed, Timing, str]] = []
         for arm, hand in hands:
-            found = read_gripper(state, hand.individual, _joints_of(str(hand.model)))
+            found = read_gripper(state, hand.individual, joints_of(str(hand.model)))
             grippers[hand.individual] = gripper = Ros2Gripper(hand, found, arms[arm], receiver)
             firsts.append((gripper.feed, found.timing, found.name))
         for each in scene.bases:
@@ -101,7 +101,7 @@ def make_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteA
     )
 
 
-def _joints_of(file: str) -> tuple[str, ...]:
+def joints_of(file: str) -> tuple[str, ...]:
     """Return the names of the joints of a model, in its order."""
     model = mujoco.MjModel.from_xml_path(file)
     return tuple(model.joint(number).name for number in range(model.njnt))

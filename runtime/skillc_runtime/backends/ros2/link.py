@@ -19,8 +19,9 @@ from skillc_runtime.backends.control_process.link import (
     PointMass,
     StateView,
 )
-from skillc_runtime.backends.ros2.commands import Commands, FlangeTurn, make_joint_commands
+from skillc_runtime.backends.ros2.commands import Commands, make_joint_commands
 from skillc_runtime.backends.ros2.facts import ArmInterface
+from skillc_runtime.backends.ros2.flange import FlangeTurn
 from skillc_runtime.backends.ros2.joint_states import JointOrder
 from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
 from skillc_runtime.backends.ros2.tool_commands import ToolCommands

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from skillc_runtime.backends.control_process.link import CommandKind, CommandView, Condition
-from skillc_runtime.backends.ros2.commands import FlangeTurn, JointCommands, Target
+from skillc_runtime.backends.ros2.commands import JointCommands, Target
 from skillc_runtime.backends.ros2.facts import ArmInterface, ToolTopics
+from skillc_runtime.backends.ros2.flange import FlangeTurn
 from skillc_runtime.backends.ros2.session import Session
 from skillc_runtime.motion.arrays import OutVector
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
