@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Client
 from pathlib import Path
+from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -34,7 +35,7 @@ from skillc_runtime.backends.control_process.opening import open_cell
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
-from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
+from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable, StopPersists
 from skillc_runtime.devices.gripper import CLOSED_FURTHER_M
 from skillc_runtime.motion.numerics.compiled import compile_imported
 from skillc_runtime.motion.pose import Pose
@@ -43,7 +44,7 @@ from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import AT
 from skillc_runtime.world.state.world_state import WorldState
 
-PATIENCE = Patience(tree_s=2.0, process_s=2.0, gap_s=2.0)
+PATIENCE = Patience(tree_s=5.0, process_s=5.0, gap_s=3.0)
 """Machines that run tests are busy with others."""
 
 SAYS = {
@@ -162,25 +163,44 @@ class ToyLink:
 
 
 class Toy:
-    """A running toy robot; `ask` calls its panel."""
+    """A running toy robot; `ask` calls its panel. `running` are the ports of one that somebody else has started."""
 
-    def __init__(self, scene: str, paced: bool = False) -> None:
+    def __init__(self, scene: str, paced: bool = False, running: tuple[int, int] | None = None) -> None:
+        self.scene, self._turn = scene, Lock()
+        if running is None:
+            self._start(scene, paced)
+        else:
+            self.port, self.panel_port = running
+        self._panel = Client(("127.0.0.1", self.panel_port))
+
+    def _start(self, scene: str, paced: bool) -> None:
         command = [sys.executable, "-m", "control_process.toy_robot", scene, "paced" if paced else "patient"]
         tests = Path(__file__).parent.parent
-        self.scene = scene
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=tests, env=_with_path())
         assert self.process.stdout is not None
-        self.port, panel = map(int, self.process.stdout.readline().split())
-        self._panel = Client(("127.0.0.1", panel))
+        self.port, self.panel_port = map(int, self.process.stdout.readline().split())
 
     def ask(self, name: str, *arguments: Any) -> Any:
-        self._panel.send((name, arguments))
-        return self._panel.recv()
+        """Return what a call of the panel returns; BackendBroken if there is no answer."""
+        with self._turn:
+            return self._ask(name, *arguments)
+
+    def _ask(self, name: str, *arguments: Any) -> Any:
+        try:
+            if self._panel.closed:
+                self._panel = Client(("127.0.0.1", self.panel_port))
+            self._panel.send((name, arguments))
+            if self._panel.poll(PATIENCE.tree_s):
+                return self._panel.recv()
+        except (EOFError, OSError) as error:
+            raise BackendBroken("the panel of the toy is not there any more") from error
+        self._panel.close()
+        raise BackendBroken("the panel of the toy does not answer")
 
     def describe(self, facts: Any) -> ToyDescription:
         modes = facts.modes
         abilities = LinkAbilities(
-            modes, wrench="without-weight" if facts.force_torque else "none", measures_effort=True, silence_s=2.0
+            modes, wrench="without-weight" if facts.force_torque else "none", measures_effort=True, silence_s=3.0
         )
         return ToyDescription(self.port, facts.home.size, abilities, 0.001)
 
@@ -208,7 +228,8 @@ class Toy:
             for each in scene.arms
             if each.gripper is not None
         }
-        return CellDevices(grippers=hands, inspection=ToyCamera(self))
+        buttons = {each.individual: ToyButton(self, each.individual) for each in scene.fixtures}
+        return CellDevices(grippers=hands, buttons=buttons, inspection=ToyCamera(self))
 
 
 class ToyGripper:
@@ -253,6 +274,17 @@ class ToyGripper:
         return None if closed or not self._thing else self._thing
 
 
+class ToyButton:
+    """A button beside a toy robot."""
+
+    def __init__(self, toy: Toy, individual: str) -> None:
+        self._toy, self._individual = toy, individual
+
+    @property
+    def switched(self) -> bool:
+        return bool(self._toy.ask("switched", self._individual))
+
+
 class ToyCamera:
     """The camera of a toy robot."""
 
@@ -267,9 +299,7 @@ class ToyCamera:
 
 
 @contextmanager
-def toy_cell(
-    scene: str, paced: bool = False, state: WorldState | None = None
-) -> Iterator[tuple[Toy, DeviceCell]]:
+def toy_cell(scene: str, paced: bool = False, state: WorldState | None = None) -> Iterator[tuple[Toy, DeviceCell]]:
     """Yield a toy robot and its cell."""
     toy = Toy(scene, paced)
     try:

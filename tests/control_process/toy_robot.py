@@ -186,6 +186,9 @@ class Panel:
         assert hand is not None
         return hand.opening_m, hand.moving, hand.blocked
 
+    def switched(self, button: str) -> bool:
+        return self._robot.cell.button(button).switched
+
     def rubbed_share(self, surface: str, seconds: float) -> float:
         return self._robot.cell.camera().rubbed_share(surface, seconds)
 

@@ -200,10 +200,8 @@ class DeviceCell(Backend, Cell):
         self._closing.set()
         self._thread.join(CLOSE_S)
         with self._turn:
-            try:
-                self._stopper.abort(self._broken)
-            finally:
-                self._devices.close()
+            self._abort(self._broken)
+            self._devices.close()
 
     def _watch(self) -> None:
         """Stop all devices when their client is silent, or when one of them cannot go on."""

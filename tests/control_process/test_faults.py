@@ -1,0 +1,232 @@
+"""Either side killed or paused, stops, and a robot that somebody else has: the arm ends at rest, with the cause."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from control_process.toy_link import Toy, toy_cell
+from simulation.cells import ARM
+from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.real_time.device_cell import DeviceCell
+from skillc_runtime.devices.arm_driver import ArmDriver
+from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable, StopPersists
+from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.segments import MotionLimits
+
+pytestmark = pytest.mark.sim
+SCENE = "iiwa_table"
+DEADLINE_S = 60.0
+"""Wall time after which a test gives up."""
+
+
+@pytest.fixture(scope="module")
+def shared() -> Iterator[tuple[Toy, DeviceCell]]:
+    with toy_cell(SCENE) as made:
+        yield made
+
+
+@pytest.fixture
+def both(shared: tuple[Toy, DeviceCell]) -> tuple[Toy, DeviceCell]:
+    """A robot and its cell, in order and at rest: each test leaves them so."""
+    _, cell = shared
+    cell.secure()
+    wait_until(cell.is_at_rest)
+    assert cell.stops.report is None
+    return shared
+
+
+def wait_until(holds: Callable[[], bool]) -> None:
+    until = time.monotonic() + DEADLINE_S
+    while not holds():
+        assert time.monotonic() < until
+        time.sleep(0.01)
+
+
+def swing(cell: DeviceCell) -> ArmDriver:
+    """Begin a slow motion of the tool; return its arm once it moves."""
+    arm = cell.arm(ARM[SCENE])
+    start = arm.motion.stopping_pose()
+    way = -0.2 if start.position[1] > 0.0 else 0.2
+    goal = Pose(start.position + np.array([0.0, way, 0.0]), start.rotation)
+    arm.motion.move_along(path_through([start, goal], MotionLimits(speed=0.03, acceleration=0.5)))
+    wait_until(lambda: float(np.linalg.norm(arm.measured.velocity[:3])) > 0.02 or cell.stops.report is not None)
+    assert cell.stops.report is None
+    return arm
+
+
+def remote(cell: DeviceCell) -> RemoteArmDriver:
+    arm = cell._arms[ARM[SCENE]]
+    assert isinstance(arm, RemoteArmDriver)
+    return arm
+
+
+def report(toy: Toy) -> dict[str, object]:
+    found: dict[str, object] = toy.ask("report")
+    return found
+
+
+def is_still(toy: Toy) -> bool:
+    return bool(np.abs(np.asarray(report(toy)["dq"])).max() < 0.02)
+
+
+def told(cell: DeviceCell) -> str:
+    """Return why the cell breaks the next time that a run waits for it."""
+    wait_until(lambda: cell.stops.report is not None)
+    with pytest.raises(BackendBroken) as broken:
+        cell.advance(0.01)
+    return str(broken.value)
+
+
+def test_a_robot_that_is_frozen_is_named_and_goes_on_once_it_is_acknowledged(both: tuple[Toy, DeviceCell]) -> None:
+    toy, cell = both
+    swing(cell)
+    os.kill(toy.process.pid, signal.SIGSTOP)
+    assert f"the toy robot at port {toy.port} has been silent for 3 s" in told(cell)
+    os.kill(toy.process.pid, signal.SIGCONT)
+    wait_until(lambda: is_still(toy))
+    cell.stops.clear()
+    assert cell.stops.report is None
+    swing(cell)
+    assert report(toy)["violations"] == []
+
+
+def test_a_control_process_that_is_paused_is_named_and_goes_on_at_rest(both: tuple[Toy, DeviceCell]) -> None:
+    toy, cell = both
+    swing(cell)
+    process = remote(cell).process.process
+    os.kill(process.pid, signal.SIGSTOP)
+    assert "the control process of lab:Iiwa-1 has not run for" in told(cell)
+    wait_until(lambda: is_still(toy))
+    os.kill(process.pid, signal.SIGCONT)
+    wait_until(lambda: remote(cell).process.find_silence() is None)
+    time.sleep(0.2)
+    assert is_still(toy)
+    cell.stops.clear()
+    swing(cell)
+    assert report(toy)["violations"] == []
+
+
+@pytest.mark.parametrize(
+    ("kind", "says"), [("protective-stop", "the toy has stopped by itself"), ("emergency-stop", "release it")]
+)
+def test_a_stop_of_the_robot_is_one_of_the_cell(both: tuple[Toy, DeviceCell], kind: str, says: str) -> None:
+    toy, cell = both
+    swing(cell)
+    toy.ask("condition", kind)
+    assert says in told(cell)
+    assert cell.stops.report is not None
+    assert cell.stops.report.kind == kind
+    assert is_still(toy) or cell.is_at_rest()
+    if kind == "emergency-stop":
+        with pytest.raises(StopPersists, match="release it"):
+            cell.stops.clear()
+        toy.ask("condition", "ready")
+    wait_until(lambda: is_still(toy))
+    cell.stops.clear()
+    assert cell.stops.report is None
+    swing(cell)
+
+
+def test_somebody_else_takes_control(both: tuple[Toy, DeviceCell]) -> None:
+    toy, cell = both
+    swing(cell)
+    toy.ask("condition", "not-in-control")
+    assert "the panel of the toy has control" in told(cell)
+    with pytest.raises(StopPersists, match="press Release"):
+        cell.stops.clear()
+    toy.ask("condition", "ready")
+    wait_until(lambda: is_still(toy))
+    cell.stops.clear()
+    swing(cell)
+
+
+def test_a_robot_that_is_gone_cannot_be_acknowledged() -> None:
+    with toy_cell(SCENE) as (toy, cell):
+        swing(cell)
+        toy.process.kill()
+        assert "the toy robot" in told(cell)
+        with pytest.raises(StopPersists, match=r"does not answer.*start it"):
+            cell.stops.clear()
+        assert cell.is_at_rest()
+
+
+def test_a_control_process_that_is_killed_is_named() -> None:
+    with toy_cell(SCENE) as (toy, cell):
+        swing(cell)
+        remote(cell).process.process.kill()
+        assert "the control process of lab:Iiwa-1 has ended by signal 9" in told(cell)
+        wait_until(lambda: is_still(toy))
+        assert cell.is_at_rest()
+        with pytest.raises(BackendBroken, match="has ended by signal 9"):
+            cell.arm(ARM[SCENE]).motion.stopping_pose()
+
+
+def test_a_robot_in_a_wrong_mode_opens_stopped() -> None:
+    toy = Toy(SCENE)
+    try:
+        toy.ask("condition", "wrong-mode")
+        cell = toy.open()
+        try:
+            wait_until(lambda: cell.stops.report is not None)
+            assert "turn the key" in str(cell.stops.report)
+            assert report(toy)["commands"] == 0
+            toy.ask("condition", "ready")
+            cell.stops.clear()
+            swing(cell)
+        finally:
+            cell.close()
+    finally:
+        toy.close()
+
+
+def test_a_robot_that_is_not_there_is_named_with_what_to_do() -> None:
+    toy = Toy(SCENE)
+    toy.close()
+    with pytest.raises(BackendUnavailable, match=r"the toy robot at port .* does not answer.*start it"):
+        toy.open()
+
+
+TREE = """
+import sys, time
+from control_process.test_faults import SCENE, Toy, swing
+cell = Toy(SCENE, running=(int(sys.argv[1]), int(sys.argv[2]))).open()
+swing(cell)
+print("moves", flush=True)
+while True:
+    cell.watchdog.beat("tree", cell.now)
+    time.sleep(0.01)
+"""
+
+
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGSTOP])
+def test_the_process_of_the_tree_is_killed_or_paused(how: signal.Signals) -> None:
+    tests = Path(__file__).parent.parent
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tests), *filter(None, sys.path)])}
+    toy = Toy(SCENE)
+    command = [sys.executable, "-c", TREE, str(toy.port), str(toy.panel_port)]
+    tree = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment, cwd=tests)
+    try:
+        assert tree.stdout is not None
+        assert tree.stdout.readline() == "moves\n"
+        assert report(toy)["condition"] == "in-control"
+        tree.send_signal(how)
+        if how == signal.SIGKILL:
+            wait_until(lambda: report(toy)["condition"] == "ready" and is_still(toy))
+        else:
+            wait_until(lambda: is_still(toy))
+            assert report(toy)["condition"] == "in-control"
+        assert report(toy)["violations"] == []
+    finally:
+        tree.kill()
+        tree.wait()
+        toy.close()
