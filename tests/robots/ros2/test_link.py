@@ -92,7 +92,7 @@ def test_a_silent_robot_is_lost_by_the_name_of_its_topic_and_found_again(there: 
     with link_of(facts()) as link:
         there.pause()
         try:
-            with pytest.raises(LinkLost, match=r"/joint_states has been silent for 1\.\d\d s"):
+            with pytest.raises(LinkLost, match=r"/joint_states has been silent for \d\.\d\d s"):
                 wait_until(link, lambda: False)
         finally:
             there.go_on()

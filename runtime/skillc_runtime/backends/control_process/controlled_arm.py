@@ -78,6 +78,7 @@ class ControlledArm:
         self._check_joints(measured)
         with suppress(ControlError):  # The driver has commanded the arm to hold then, and `broken` says why.
             self.driver.step(now)
+        self._report_driver()
         slot, out, bias = self.arm.slot.command_for_device, self._out, self.driver.measured.state.bias
         out.buffer[:] = slot.buffer
         if out.kind[0] == NOTHING:
@@ -87,7 +88,6 @@ class ControlledArm:
         if self.link_mode == "tool" and (target := self.driver.tool_target) is not None:
             fill_target(out, *target)
             self._limits.continue_from(self.mode, measured.q, bias)
-            self._report_driver()
             return out
         try:
             self._limits.apply(self.mode, out.values, bias)
@@ -96,7 +96,6 @@ class ControlledArm:
             self.report(DeviceStop("protective-stop", str(error)))
         if self._carries_weight and self.mode == "torque":
             out.values[:] -= self.arm.weight_torques
-        self._report_driver()
         return out
 
     def look(self, measured: StateView, now: float) -> None:
