@@ -9,6 +9,9 @@ from skillc_runtime.devices.arm import ArmState, Command, JointPosition
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
 
+AWAY_RAD = 0.01
+"""Joints that have moved no further are where they were: a motion that is computed meanwhile still starts there."""
+
 
 class RobotLaw:
     """A law that commands no joints: `ToolTarget` has what the robot is told; joints are where they are measured."""
@@ -31,10 +34,12 @@ class RobotLaw:
         self._look(state)
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:
-        """Return the measured joints (nv,) in rad, from which a motion of the joints continues."""
+        """Return the joints (nv,) in rad from which a motion of the joints continues; the robot is told the target."""
         self._look(state)
-        return JointPosition(state.q.copy())
+        return JointPosition(self._limit.q.copy())
 
     def _look(self, state: ArmState) -> None:
         self._felt[:], self._tool = state.wrench, state.tool
-        self._limit.q[:], self._limit.dq[:] = state.q, 0.0
+        if np.abs(state.q - self._limit.q).max() > AWAY_RAD:
+            self._limit.q[:] = state.q
+        self._limit.dq[:] = 0.0

@@ -12,7 +12,7 @@ import numpy as np
 from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.motion.pose import Array, Pose, log
 
-MASS = np.array([8.0, 8.0, 8.0, 0.4, 0.4, 0.4])
+MASS = np.array([8.0, 8.0, 8.0, 0.02, 0.02, 0.02])
 """What the damping assumes of the inertia at the flange: kg and kg m^2."""
 FARTHEST_M, FARTHEST_RAD = 0.08, 0.4
 
@@ -40,6 +40,10 @@ class CartesianImpedance:
         """Take the wrench to exert on the environment, N and N m."""
         self.push = _six(message.wrench)
 
+    def take_posture(self, q: Array, flange: Pose) -> None:
+        """Take a posture (nv,) in rad, with the flange in it: a redundant arm goes there as a whole."""
+        self._rest, self.target = q, flange
+
     def torques(self, state: ArmState, flange: Pose) -> Array:
         """Return the torques (nv,) in N m; `flange` is in the base."""
         if self.target is None or self._rest is None:
@@ -55,7 +59,7 @@ class CartesianImpedance:
         )
         damping = np.maximum(2 * np.sqrt(self.stiffness * MASS), [60.0, 60.0, 60.0, 2.0, 2.0, 2.0])
         wrench = -self.stiffness * error - damping * (J @ state.dq) + self.push
-        posture = 10.0 * (self._rest - state.q) - 6.0 * state.dq
+        posture = 60.0 * (self._rest - state.q) - 14.0 * state.dq
         kept = posture - J.T @ np.linalg.solve(J @ J.T + 1e-6 * np.eye(6), J @ posture)
         tau: Array = J.T @ wrench + kept + state.bias
         return tau

@@ -161,6 +161,7 @@ class Arm:
         if control in topics:
             peer.subscribe(*topics[control])
         if self._law is not None:
+            peer.subscribe("cartesian_controller/joint_trajectory", JointTrajectory, self._take_posture)
             peer.subscribe("cartesian_controller/reference_pose", PoseStamped, self._law.take_pose)
             peer.subscribe("cartesian_controller/set_cartesian_stiffness", WrenchStamped, self._law.take_stiffness)
             peer.subscribe("cartesian_controller/set_cartesian_wrench", WrenchStamped, self._law.take_wrench)
@@ -207,6 +208,12 @@ class Arm:
         values = np.array(message.data)
         self._check(values)
         self._last = values
+
+    def _take_posture(self, message: JointTrajectory) -> None:
+        order = [list(message.joint_names).index(each) for each in self.names]
+        q = np.array(message.points[-1].positions)[order]
+        assert self._law is not None
+        self._law.take_posture(q, self._arm.flange_at(q))
 
     def _take_trajectory(self, message: JointTrajectory) -> None:
         point = message.points[-1]

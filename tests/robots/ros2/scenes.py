@@ -29,6 +29,8 @@ lab:Iiwa-1 skillc:hasSensor lab:Wrist-1 ;
     ros2:targetPoseTopic "cartesian_controller/reference_pose" ;
     skiros:CartesianStiffnessTopic "cartesian_controller/set_cartesian_stiffness" ;
     skiros:CartesianWrenchTopic "cartesian_controller/set_cartesian_wrench" ;
+    skiros:JointConfigurationController "cartesian_controller" ;
+    ros2:commandType "trajectory_msgs/msg/JointTrajectory" ;
     skiros:LinkedToFrameId "base_link" ; skiros:MoveItTCPLink "flange" .
 """
 """The facts of an arm whose compliant law runs on the robot's side."""

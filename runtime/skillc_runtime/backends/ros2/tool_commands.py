@@ -75,7 +75,7 @@ class ToolCommands:
 
     def find_obstacle(self) -> Condition | None:
         """Return why commands would have no effect, or contend with those of others."""
-        targets = [each for each in (self._pose, self._stiffness, self._wrench) if each is not None]
+        targets = [each for each in (self._pose, self._stiffness, self._wrench, self._joints) if each is not None]
         return next((found for each in targets if (found := each.find_obstacle()) is not None), None)
 
     def _message_axes(self, flange: Pose) -> Array:
