@@ -56,7 +56,8 @@ class CellBridge:
             return OrderAnswer(False, f"the server has not answered within {ANSWER_S:g} s", found.operation, found.id)
 
     async def show_motion(self) -> None:
-        """Publish joints, wrenches and markers until the server ends."""
+        """Publish what the cell can do, and then joints, wrenches and markers until the server ends."""
+        self._topics.tell("library", msgspec.json.encode(await self._cell.library()))
         model, still = await self._cell.model(), await self._cell.poses()
         names = {arm: tuple(map(_plain_joint, each.joints)) for arm, each in model.arms.items()}
         names |= await self._find_names({model.individuals[arm].label: arm for arm in model.arms})

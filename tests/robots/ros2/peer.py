@@ -176,7 +176,7 @@ class Arm:
             start, goal, begin, span = self._goal
             share = min(1.0, (now - begin) / span)
             return JointPosition(start + share * (goal - start))
-        if self._last is None:
+        if self._last is None or self._peer.options.control == "trajectory":
             return None
         kind = {"position": JointPosition, "velocity": JointVelocity, "effort": Torque}[self._peer.options.control]  # type: ignore[index]
         return kind(self._last)

@@ -61,10 +61,24 @@ def go_up(cell: DeviceCell, way_m: float = 0.1, limits: MotionLimits = LIMITS) -
     return goal.position
 
 
-def test_joints_tool_and_fingers_move_with_jitter_and_loss(tmp_path: Path) -> None:
-    channel = {"jitter_s": 0.004, "loss": 0.05, "seed": 3}
-    with robot(SCENE, tmp_path, rate_hz=125, joint_names=IN_ROS, reverse=True, **channel) as there:
-        with opened() as cell:
+WAYS = {
+    "position": "",
+    "trajectory": """lab:Arm-1 skiros:JointConfigurationController "joint_trajectory_controller" ;
+        ros2:commandType "trajectory_msgs/msg/JointTrajectory" .""",
+    "velocity": "",
+}
+"""Facts that the controllers of the robot need."""
+
+
+@pytest.mark.parametrize("control", WAYS)
+def test_joints_tool_and_fingers_move_with_jitter_and_loss(control: str, tmp_path: Path) -> None:
+    scene, text = tmp_path / "cell.ttl", SCENE.read_text("utf-8")
+    if control == "velocity":
+        text = text.replace('"forward_dynamics"', '"forward_dynamics_velocity"')
+    scene.write_text(f"{text}\n{WAYS[control]}\n", "utf-8")
+    channel = {"control": control, "jitter_s": 0.004, "loss": 0.05, "seed": 3}
+    with robot(scene, tmp_path, rate_hz=125, joint_names=IN_ROS, reverse=True, **channel) as there:
+        with opened(scene) as cell:
             arm, hand = cell.arm(ARM), cell.gripper(HAND)
             assert cell.stops.report is None
             goal = arm.measured.q + np.array([0.2, 0.0, 0.0, 0.0, 0.0, -0.3])

@@ -23,6 +23,7 @@ KINDS = {
     "joint_states": "sensor_msgs/msg/JointState",
     "Ur5e_1/wrench": "geometry_msgs/msg/WrenchStamped",
     "markers": "visualization_msgs/msg/MarkerArray",
+    "library": "std_msgs/msg/String",
     "status": "std_msgs/msg/String",
     "tree": "std_msgs/msg/String",
     "answer": "std_msgs/msg/String",
@@ -36,7 +37,9 @@ class Watcher:
     def __init__(self) -> None:
         self.session = Session("watcher")
         self._topics: dict[str, Subscription] = {
-            name: self.session.subscribe(CELL + name, kind, reliable=True, latched=name in ("status", "tree"))
+            name: self.session.subscribe(
+                CELL + name, kind, reliable=True, latched=name in ("library", "status", "tree")
+            )
             for name, kind in KINDS.items()
         }
         self._orders = self.session.publish(CELL + "order", "std_msgs/msg/String", reliable=True)
@@ -97,6 +100,7 @@ def test_joints_have_the_names_of_the_facts_and_things_are_drawn(seen: Watcher) 
     assert seen.wait_for("Ur5e_1/wrench").header.frame_id == "Ur5e_1_base"
     drawn = {each.ns for each in seen.wait_for("markers").markers}
     assert {"lab:Eraser-1", "lab:Whiteboard-1"} <= drawn
+    assert "clean_whiteboard" in json.dumps(seen.last["library"])
 
 
 def test_a_goal_is_started_paused_resumed_and_stopped(seen: Watcher) -> None:

@@ -19,7 +19,9 @@ from skillc_runtime.devices.gripper import CLOSED_FURTHER_M, Gripper
 from skillc_runtime.motion.pose import Pose
 
 STILL_M, STILL_S = 0.0005, 0.25
-"""Fingers that have moved no further for this time are at rest; so long, at least, they count as moving."""
+"""Fingers that have moved no further for this time are at rest."""
+BEGIN_S, REPEAT_S = 0.5, 0.05
+"""How long fingers may take to begin to move, and how often their command is repeated until then, in s."""
 NEAR_M = 0.002
 SERVICE_S = 5.0
 
@@ -41,7 +43,8 @@ class Ros2Gripper(Gripper):
             if topic
         }
         self._opening_m = self._goal_m = self._rested_at_m = facts.first_opening_m
-        self._moved_s = self._commanded_s = -np.inf
+        self._moved_s = self._commanded_s = self._sent_s = -np.inf
+        self._force_n = facts.max_force_n
         self._is_idle = True
         self._thing: str | None = None
         self._held_at_m = 0.0
@@ -71,8 +74,9 @@ class Ros2Gripper(Gripper):
     @property
     def moving(self) -> bool:
         """Whether the fingers still move towards the commanded opening."""
-        since = max(self._moved_s, self._commanded_s)
-        if not self._is_idle and monotonic() - since > STILL_S:
+        has_begun = self._moved_s > self._commanded_s
+        rests_at = self._moved_s + STILL_S if has_begun else self._commanded_s + BEGIN_S
+        if not self._is_idle and monotonic() > rests_at:
             self._is_idle = True
         return not self._is_idle
 
@@ -102,17 +106,14 @@ class Ros2Gripper(Gripper):
             Thread(target=self._call, args=(facts.open_service if opens else facts.close_service,), daemon=True).start()
             self._goal_m = self._facts.max_opening_m if opens else 0.0
             return
-        if facts.effort:
-            self._publish(facts.effort, min(force_n, self._facts.max_force_n))
-        self._publish(facts.command, (self._goal_m - facts.at_zero_m) / facts.per_unit)
+        self._force_n = min(force_n, self._facts.max_force_n)
+        self._send()
 
     def stop(self) -> None:
         """Stop the fingers at their present opening; those that services move go on."""
         if not self._interface.open_service:
             self._goal_m = self.opening_m
-            self._publish(
-                self._interface.command, (self._goal_m - self._interface.at_zero_m) / self._interface.per_unit
-            )
+            self._send()
         self._is_idle = True
 
     def attach(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
@@ -135,6 +136,16 @@ class Ros2Gripper(Gripper):
         self._opening_m = facts.at_zero_m + facts.per_unit * float(self._order.positions[0])
         if abs(self._opening_m - self._rested_at_m) > STILL_M:
             self._rested_at_m, self._moved_s = self._opening_m, monotonic()
+        elif not self._is_idle and self._moved_s < self._commanded_s and monotonic() > self._sent_s + REPEAT_S:
+            self._send()
+
+    def _send(self) -> None:
+        """Publish force and opening; nothing for a gripper with services."""
+        facts, self._sent_s = self._interface, monotonic()
+        if facts.effort:
+            self._publish(facts.effort, self._force_n)
+        if facts.command:
+            self._publish(facts.command, (self._goal_m - facts.at_zero_m) / facts.per_unit)
 
     def _publish(self, topic: str, value: float) -> None:
         publisher = self._publishers[topic]
