@@ -33,7 +33,7 @@ OPERATIONS := 600
 # How many random mistakes `make mistakes` makes in the shipped and in other libraries: one, two and three at once.
 EDITS := 10000
 
-.PHONY: help demo test slow check reasoners sim browser wheel fuzz mistakes soak peers bench editors studio docs pictures accept lock clean
+.PHONY: help demo test slow check reasoners sim robots browser wheel fuzz mistakes soak peers bench editors studio docs pictures accept pin lock clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -45,7 +45,7 @@ test: .venv/.dev .venv/.studio ## run the fast tests
 	$(BIN)/pytest -n 2 --dist worksteal
 
 slow: .venv/.dev .venv/.studio ## run the tests that take more than a second, and those of whole cells and servers
-	$(BIN)/pytest -m "slow and not (browser or reasoner or sim or wheel)" -n 2 --dist worksteal
+	$(BIN)/pytest -m "slow and not (browser or reasoner or robot or sim or wheel)" -n 2 --dist worksteal
 
 check: .venv/.dev ## check style, types and import rules
 	$(BIN)/ruff check .
@@ -60,7 +60,11 @@ reasoners: .venv/.dev ## check ontology, scenes, descriptions and domains with t
 	$(BIN)/pytest -m reasoner -n 2
 
 sim: .venv/.dev  ## run whole tasks in simulation; those that take minutes are in make soak
-	$(BIN)/pytest -m "sim and not long" -n 2 --dist worksteal
+	$(BIN)/pytest -m "sim and not (long or robot)" -n 2 --dist worksteal
+
+robots: .venv/.robots .tools/ros2/.made ## drive robots over the protocols of their makers, against emulators in other processes; none of them is real
+	$(BIN)/pytest -m "robot and not long" --ignore tests/robots/ros2
+	.tools/ros2/bin/python -m pytest -m "robot and not long" tests/robots/ros2
 
 browser: .venv/.dev .venv/.studio ## drive the studio in Chromium; pictures of all tests are kept in out/studio
 	$(BIN)/pytest -m browser tests/studio -n 2 --dist loadfile
@@ -111,8 +115,12 @@ pictures: .venv/.dev .venv/.studio ## make the pictures of docs and the film of 
 accept: .venv/.dev ## rewrite the expected artifacts of tests/cases/build, docs/diagnostics.md and docs/matrix.md
 	$(BIN)/python tests/accept.py
 
+pin: .tools/.uv ## pin what pyproject.toml has gained, and nothing else
+	$(UV) pip compile -q --universal --python-version 3.11 --all-extras --overrides tests/robots/overrides.txt --no-emit-index-url --no-header --no-annotate \
+	    pyproject.toml -o constraints.txt
+
 lock: .tools/.uv ## pin the versions of all dependencies again
-	$(UV) pip compile -q --universal --python-version 3.11 --all-extras --no-emit-index-url --no-header --no-annotate \
+	$(UV) pip compile -q --universal --python-version 3.11 --all-extras --overrides tests/robots/overrides.txt --no-emit-index-url --no-header --no-annotate \
 	    --upgrade pyproject.toml -o constraints.txt
 
 clean:           ## remove the environment and all output
@@ -143,4 +151,20 @@ clean:           ## remove the environment and all output
 .venv/.dev: .venv/.runtime
 	$(INSTALL) -e '.[all,docs,dev]'
 	$(BIN)/python -m compileall -qq -j 0 .venv/lib || true
+	@touch $@
+
+# The client libraries of robots. Where there is no wheel of one, the tests that need it are skipped, and say so.
+.venv/.robots: .venv/.dev
+	for extra in ur franka; do $(INSTALL) -e ".[$$extra]" || echo "skillc[$$extra] cannot be installed here"; done
+	@touch $@
+
+# ROS 2 changes the path of libraries of every Python of its environment, so it has one of its own, beside the packages of
+# .venv. Where there are no wheels of it, its tests are skipped, and say so.
+.tools/ros2/.made: .venv/.dev
+	$(UV) venv -q --clear --python .venv .tools/ros2
+	$(UV) pip install -q --python .tools/ros2 --constraint constraints.txt --overrides tests/robots/overrides.txt \
+	    --extra ros2 -r pyproject.toml || echo "skillc[ros2] cannot be installed here"
+	.tools/ros2/bin/python -c "import pathlib, site; \
+	    pathlib.Path(site.getsitepackages()[0], 'skillc.pth').write_text( \
+	    'import site; site.addsitedir(%r)' % next(iter(map(str, pathlib.Path('.venv').resolve().glob('lib/python*/site-packages')))))"
 	@touch $@

@@ -21,10 +21,12 @@ MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "robots": ("pinocchio", "coal"),
         "pddl": ("pddl",),
         "ros2": ("rclpy",),
+        "ur": ("rtde_control", "rtde_receive", "rtde_io"),
+        "franka": ("pylibfranka",),
     }
 )
 """The modules of each extra; the first ones are those without which it is of no use."""
-_NEEDED = MappingProxyType({"run": 6, "server": 5, "data": 2})
+_NEEDED = MappingProxyType({"run": 6, "server": 5, "data": 2, "ur": 3})
 """How many modules of an extra have to be there, if it is not one."""
 
 

@@ -47,6 +47,9 @@ from skillc_runtime.world.state.world_state import WorldState
 PATIENCE = Patience(tree_s=5.0, process_s=5.0, gap_s=3.0)
 """Machines that run tests are busy with others."""
 
+MUCH_PATIENCE = Patience(tree_s=60.0, process_s=60.0, gap_s=60.0)
+"""For tests in which nothing falls silent."""
+
 SAYS = {
     "not-in-control": "the panel of the toy has control; press Release on it",
     "wrong-mode": "the toy is in its manual mode; turn the key",
@@ -129,15 +132,13 @@ class ToyLink:
     def _ask(self, operation: int, value: float, kind: ConditionKind) -> None:
         """Send a request and wait for its condition; ControlRefused if it does not come."""
         self._send(operation, value, np.zeros(self._there.joints))
-        for _ in range(50):
+        for _ in range(5000):  # States that were sent before wait in the stream.
             self.condition = CONDITION[int(self._receive()[1])]
             if self.condition.kind == kind:
                 return
             if self.condition.kind not in ("ready", "protective-stop"):
                 break
-            if operation == TAKE:
-                self._send(operation, value, np.zeros(self._there.joints))
-        raise ControlRefused(self.condition.sentence)
+        raise ControlRefused(self.condition.sentence or "the toy does not answer the request")
 
     def _send(self, operation: int, value: float, values: Any) -> None:
         assert self._stream is not None
@@ -204,12 +205,12 @@ class Toy:
         )
         return ToyDescription(self.port, facts.home.size, abilities, 0.001)
 
-    def open(self, state: WorldState | None = None) -> DeviceCell:
+    def open(self, state: WorldState | None = None, patience: Patience = PATIENCE) -> DeviceCell:
         """Open its cell with a state of the world; by default with that of its scene."""
         compile_imported()
         world = self.world() if state is None else WorldModel(state)
-        cell = open_cell(world, self.describe, self._make_devices, PATIENCE)
-        cell._heartbeats._timeout = PATIENCE.tree_s
+        cell = open_cell(world, self.describe, self._make_devices, patience)
+        cell._heartbeats._timeout = patience.tree_s
         return cell
 
     def world(self) -> WorldModel:
@@ -299,11 +300,13 @@ class ToyCamera:
 
 
 @contextmanager
-def toy_cell(scene: str, paced: bool = False, state: WorldState | None = None) -> Iterator[tuple[Toy, DeviceCell]]:
+def toy_cell(
+    scene: str, paced: bool = False, state: WorldState | None = None, patience: Patience = PATIENCE
+) -> Iterator[tuple[Toy, DeviceCell]]:
     """Yield a toy robot and its cell."""
     toy = Toy(scene, paced)
     try:
-        cell = toy.open(state)
+        cell = toy.open(state, patience)
         try:
             yield toy, cell
         finally:

@@ -28,7 +28,7 @@ from skillc_runtime.world.state.terms import AT
 CONDITIONS = ("ready", "in-control", "not-in-control", "wrong-mode", "protective-stop", "emergency-stop")
 COMMAND, TAKE, GIVE, RECOVER, LOAD = range(5)
 MADE: dict[float, type[Command]] = {1.0: Torque, 2.0: JointPosition, 3.0: JointVelocity}
-PATIENCE_S, STOP_CYCLES = 0.05, 20
+PATIENCE_S, STOP_CYCLES = 0.5, 8
 HERE = Pose(np.zeros(3), np.eye(3))
 LAB = "http://example.org/lab#"
 

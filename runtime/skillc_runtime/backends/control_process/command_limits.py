@@ -22,6 +22,9 @@ FARTHEST_RAD = 0.05
 SPEED_MARGIN = 1.1
 """An arm that moves faster than this share of the limit of a joint's speed is stopped."""
 
+FASTEST_SHARE, BRAKING = 0.99, 0.6
+"""Shares of the limits of speed, and of acceleration and jerk when they brake, that are used."""
+
 UNLIMITED = 1e9
 """Stands for no limit, in any unit: arithmetic with it yields numbers."""
 
@@ -105,25 +108,27 @@ def limit_motion(rows: OutMatrix, values: OutVector, speeds: bool, share: float,
     """Limit positions (nv,) in rad, or speeds in rad/s; return the greatest distance in rad from what was wanted.
 
     A command that lags behind catches up no faster than it can brake, and so it comes to the end of a range:
-    |v| <= sqrt(2 a e), e being what it lags by, or the way to the end.
+    |v| <= sqrt(2 a e), e being what it lags by, or the way to the end. So it is with the change of speed that is left:
+    |a| <= sqrt(2 j dv). Both brake with a share of a and of the jerk j, the rest being for what periods round.
     """
     farthest = 0.0
     for j in range(values.size):
-        most = rows[ACCELERATION, j]
-        if speeds:
-            wanted = values[j]
-        else:
+        most, jerk, speed = rows[ACCELERATION, j], rows[JERK, j], rows[LAST_SPEED, j]
+        wanted = values[j]
+        if not speeds:
             away = rows[WANTED, j] - rows[LAST, j]
-            catch = min(sqrt(2.0 * most * abs(away)), abs(away) / period) * share
+            catch = min(sqrt(2.0 * BRAKING * most * abs(away)), abs(away) / period) * share
             wanted = (values[j] - rows[WANTED, j]) / period + (catch if away > 0.0 else -catch)
             rows[WANTED, j] = values[j]
             down, up = max(rows[LAST, j] - rows[LEAST, j], 0.0), max(rows[MOST, j] - rows[LAST, j], 0.0)
-            wanted = min(max(wanted, -sqrt(2.0 * most * down)), sqrt(2.0 * most * up))
-        wanted = min(max(wanted, -share * rows[SPEED, j]), share * rows[SPEED, j])
-        least = max(-most, rows[LAST_ACCELERATION, j] - rows[JERK, j] * period)
-        most = min(most, rows[LAST_ACCELERATION, j] + rows[JERK, j] * period)
-        faster = min(max((wanted - rows[LAST_SPEED, j]) / period, least), most)
-        speed = rows[LAST_SPEED, j] + faster * period
+            wanted = min(max(wanted, -sqrt(2.0 * BRAKING * most * down)), sqrt(2.0 * BRAKING * most * up))
+        fastest = FASTEST_SHARE * share * rows[SPEED, j]
+        wanted = min(max(wanted, -fastest), fastest)
+        most = min(most, sqrt(2.0 * BRAKING * jerk * abs(wanted - speed)))
+        faster = min(max((wanted - speed) / period, -most), most)
+        before = rows[LAST_ACCELERATION, j]
+        faster = min(max(faster, before - jerk * period), before + jerk * period)
+        speed = speed + faster * period
         if speeds:
             farthest = max(farthest, abs(values[j] - speed) * period)
             values[j] = speed
