@@ -88,9 +88,12 @@ def test_an_unused_prefix_is_found() -> None:
     assert list(unused_prefixes(text)) == ["a"]
 
 
+NAMESPACES = ("SKILLC", "SKIROS", "WIPING", "CONTACT", "ROS2", "RPARTS", "CORA", "SUMO")
+
+
 def named_in_code() -> Iterable[str]:
     for constant, value in vars(terms).items():
-        if constant.isupper() and constant not in ("SKILLC", "SKIROS", "WIPING", "CONTACT", "RPARTS", "CORA", "SUMO"):
+        if constant.isupper() and constant not in NAMESPACES:
             yield from (value,) if isinstance(value, str) else value
 
 
