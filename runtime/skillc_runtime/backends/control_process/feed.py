@@ -47,7 +47,7 @@ class Feed:
 
     def hand_over(self) -> None:
         """Call the listeners for each cycle since the last call; what has happened long ago is left out."""
-        waiting = {each: arm.process.ring.take() for each, arm in self._arms.items()}
+        waiting = {each: self._take(arm) for each, arm in self._arms.items()}
         if not self.live.listeners:
             self._keep_last(waiting)
             return
@@ -59,6 +59,11 @@ class Feed:
             self._time = due if abs(row[TIME] - due) < AWAY_PERIODS * self._period_s else float(row[TIME])
             for listen in tuple(self.live.listeners):
                 listen()
+
+    def _take(self, arm: FedArm) -> Array:
+        """Return the waiting cycles of an arm; what was before the time of the cell is left out."""
+        rows = arm.process.ring.take()
+        return rows[rows[:, TIME] >= self._began]
 
     def _advance(self, individual: str, rows: Array, first: int, until_s: float) -> int:
         """Show the last row of an arm until then, from the row `first` on; return the number of the one after it."""

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import mujoco
-import numpy as np
 
+from skillc_runtime.backends.control_process.fingers import find_fingers
 from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.model_builder import build_model
 from skillc_runtime.backends.simulation.names import base_body_name, part_name
@@ -38,7 +38,7 @@ class Ghost(ModelDrawing):
         self._ghost, self._joints, self._bases = data, joints, bases
         self._spans = {each.individual: _find_span(model, scene.names[each.individual]) for each in scene.arms}
         self._fingers = [
-            (grippers[hand.individual], *_find_fingers(model, scene.names[hand.individual]))
+            (grippers[hand.individual], *find_fingers(model, scene.names[hand.individual]))
             for hand in _hands(scene.arms)
             if hand.individual in grippers
         ]
@@ -79,12 +79,3 @@ def _find_span(model: Any, name: str) -> slice:
     joints = [j for j in range(model.njnt) if model.joint(j).name.startswith(part_name(name, ""))]
     first = int(model.jnt_qposadr[joints[0]])
     return slice(first, first + len(joints))
-
-
-def _find_fingers(model: Any, name: str) -> tuple[Array, Array]:
-    """Return where the positions of the fingers of a gripper are, and their shares of its opening."""
-    tendon = int(model.actuator_trnid[model.actuator(part_name(name, "opening")).id, 0])
-    first = int(model.tendon_adr[tendon])
-    span = slice(first, first + int(model.tendon_num[tendon]))
-    places: Array = model.jnt_qposadr[model.wrap_objid[span]]
-    return places, np.asarray(model.wrap_prm[span])

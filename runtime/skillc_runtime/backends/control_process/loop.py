@@ -55,9 +55,12 @@ class ControlLoop:
         self._ending_since: float | None = None
         self._is_tree_silent = self._is_excused = False
 
+    def begin(self) -> None:
+        """Read and publish the first state."""
+        self._run_cycle()
+
     def run(self) -> None:
         """Run until the other side has gone and the arm is at rest; then give the arm back."""
-        self._link.read(self._measured)
         try:
             while not self._is_over():
                 self._run_cycle()
@@ -200,6 +203,7 @@ class ControlLoop:
         if condition.kind not in ("ready", "in-control"):
             raise ControlRefused(condition.sentence)
         self._arm.begin(self._measured, self._clock.now_s)
+        self._link.set_load(self._arm.arm.hand, self._arm.arm.held)
         self._link.take_control(self._arm.link_mode)
         self._condition, self._phase = self._link.condition, "in-control"
 

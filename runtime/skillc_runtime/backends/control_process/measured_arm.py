@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.backends.control_process.command_slot import CommandSlot
+from skillc_runtime.backends.control_process.fingers import find_fingers
 from skillc_runtime.backends.control_process.link import LinkAbilities, PointMass, StateView
 from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
 from skillc_runtime.backends.simulation.model_builder import build_model
@@ -39,7 +40,8 @@ class MeasuredArm(ModelledArm):
     def __init__(self, facts: ArmSpec, names: dict[str, str], abilities: LinkAbilities, model: Any, data: Any) -> None:
         """Place the joints at home until something is measured."""
         gripper = None if facts.gripper is None else names[facts.gripper.individual]
-        self._abilities, self._lever_m = abilities, np.zeros(3)
+        self._abilities, self._to_tool, self._moment = abilities, np.zeros((3, 3)), np.zeros((3, 3))
+        self.hand, self._mass_kg = PointMass(0.0, np.zeros(3)), 0.0
         super().__init__(facts, names[facts.individual], gripper, model, data, facts.home, 1)
         if facts.force_torque and abilities.wrench == "none":
             raise SheetError(
@@ -48,9 +50,12 @@ class MeasuredArm(ModelledArm):
         self._feels_force = facts.force_torque
         self._gain[:, :6] = np.eye(6)
         self._gravity = np.zeros(model.nv)
-        self._still = np.zeros(model.nv)
+        if facts.gripper is not None:
+            fingers, shares = find_fingers(model, names[facts.gripper.individual])
+            data.qpos[fingers] = facts.gripper.first_opening_m / shares.sum()
         self._place()
         self.hand = self._find_hand(gripper)
+        self._update_weight()
 
     @property
     def capabilities(self) -> Capabilities:
@@ -102,10 +107,8 @@ class MeasuredArm(ModelledArm):
         force, moment = wrench[:3], wrench[3:]
         if self._abilities.wrench == "with-weight":
             down = (self._sensing.link.rotation @ self._flange.rotation).T @ self._model.opt.gravity
-            for mass in (self.hand, self.held):
-                weight = mass.mass_kg * down
-                force, moment = force - weight, moment - np.cross(mass.centre, weight)
-        self._readings[:3], self._readings[3:6] = force, moment - np.cross(self._lever_m, force)
+            force, moment = force - self._mass_kg * down, moment - self._moment @ down
+        self._readings[:3], self._readings[3:6] = force, moment - self._to_tool @ force
 
     def _make_motors(self, facts: ArmSpec, actuators: slice, steps_per_command: int) -> Motors:
         data, here = self._data, self._here
@@ -124,7 +127,14 @@ class MeasuredArm(ModelledArm):
 
     def _configure(self, payload: Payload, tool: Pose) -> None:
         super()._configure(payload, tool)
-        self._lever_m = self._lever()
+        self._to_tool = make_skew(self._lever())
+        self._update_weight()
+
+    def _update_weight(self) -> None:
+        """Compute the mass that the flange carries, in kg, and its first moment (3, 3) in kg m, as a cross product."""
+        carried = (self.hand, self.held)
+        self._mass_kg = sum(each.mass_kg for each in carried)
+        self._moment = sum((each.mass_kg * make_skew(each.centre) for each in carried), np.zeros((3, 3)))
 
     def _update_mass_matrix(self) -> None:
         mujoco.mj_crb(self._model, self._data)
@@ -142,3 +152,9 @@ class MeasuredArm(ModelledArm):
         flange = Pose(link.position, link.rotation) @ self._flange
         centre = (masses @ data.xipos[bodies]) / masses.sum()
         return PointMass(float(masses.sum()), flange.inverse().apply(centre))
+
+
+def make_skew(vector: Array) -> Array:
+    """Return the matrix (3, 3) S of a vector (3,) with S w = vector x w."""
+    x, y, z = vector.tolist()
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -19,6 +19,7 @@ from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCel
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec, read_scene_spec
 from skillc_runtime.devices.backend import BackendUnavailable, DeviceStop
 from skillc_runtime.devices.base import MobileBase
+from skillc_runtime.motion.numerics.compiled import compile_imported
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
@@ -47,6 +48,7 @@ def open_cell(
     if not scene.arms:
         raise BackendUnavailable("the scene has no arm")
     things = find_things(scene)
+    compile_imported()  # Else a tick would, in which the arms are under control.
     with ExitStack() as opened:
         arms: dict[str, RemoteArmDriver] = {}
         bases: dict[str, MobileBase] = {}

@@ -25,10 +25,10 @@ def main(connection: Connection, memory_file: int) -> int:
     """Run a control process; return its exit code."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     sys.path[:] = connection.recv()
-    task: ControlTask = connection.recv()
-    plan = MemoryPlan(task.facts.home.size)
     memory = map_memory(memory_file)
     try:
+        task: ControlTask = connection.recv()
+        plan = MemoryPlan(task.facts.home.size)
         compile_imported()
         link = task.description.make_link()
         link.connect()
@@ -43,7 +43,9 @@ def main(connection: Connection, memory_file: int) -> int:
         return 1
     loop = ControlLoop(link, arm, Mailbox(connection), plan, memory, task.patience)
     signal.signal(signal.SIGTERM, lambda *_: loop.end())
-    connection.send(Connected(link.period_s, link.abilities, arm.mode, arm.arm.limits, run_in_real_time()))
+    real_time = run_in_real_time()
+    loop.begin()
+    connection.send(Connected(link.period_s, link.abilities, arm.mode, arm.arm.limits, real_time))
     loop.run()
     return 0
 

@@ -23,7 +23,6 @@ from skillc_runtime.backends.ros2.receiver import Feed, Receiver
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
 from skillc_runtime.control.gains import RobotGains, UnknownController, read_gains
 from skillc_runtime.devices.backend import Backend, BackendStart
-from skillc_runtime.motion.numerics.compiled import compile_imported
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import ARRIVAL_TOLERANCE
@@ -37,16 +36,15 @@ def make_backend(world: WorldModel, start: BackendStart) -> Backend:
 
     SheetError or FrameError if facts are missing, BackendUnavailable with what is missing on the graph of ROS 2.
     """
-    load_laws()
+    import_primitives()
     state = world.snapshot()
     return open_cell(world, describe, lambda scene, arms: make_devices(state, scene, arms))
 
 
-def load_laws() -> None:
-    """Compile, or load, what primitives compute: a tree that does it in its ticks is silent for too long."""
+def import_primitives() -> None:
+    """Import what skills call: a tree that does it in its ticks, and compiles it, is silent for too long."""
     for module in iter_modules(primitives.__path__, f"{primitives.__name__}."):
         import_module(module.name)
-    compile_imported()
 
 
 def describe(facts: ArmSpec) -> Ros2Description:
