@@ -41,9 +41,8 @@ class Feed:
         self.live = LiveSignals(self._period_s, self._find_time, described, bodies=bodies)
 
     def begin(self, began_s: float) -> None:
-        """Let the time of the cell be 0 at a time of the machine's clock in s, and leave out what was before."""
+        """Let the time of the cell be 0 at a time of the machine's clock in s."""
         self._began = began_s
-        self._keep_last({each: arm.process.ring.take() for each, arm in self._arms.items()})
 
     def hand_over(self) -> None:
         """Call the listeners for each cycle since the last call; what has happened long ago is left out."""
