@@ -102,7 +102,7 @@ def test_a_silent_robot_is_lost_by_the_name_of_its_topic_and_found_again(there: 
 
 
 def test_joints_of_other_names_are_listed_with_those_that_are_there(there: Robot) -> None:
-    wrong = facts(joints=MODEL_JOINTS, timing=replace(facts().timing, connect_s=2.0))
+    wrong = facts(joints=MODEL_JOINTS, timing=replace(facts().timing, connect_s=6.0))
     with (
         pytest.raises(BackendUnavailable, match=r"/joint_states has no shoulder_pan, .*but .*shoulder_pan_joint"),
         link_of(wrong),
@@ -111,7 +111,7 @@ def test_joints_of_other_names_are_listed_with_those_that_are_there(there: Robot
 
 
 def test_a_topic_that_nobody_publishes_or_that_has_another_type_is_named(there: Robot) -> None:
-    soon = replace(facts().timing, connect_s=2.0)
+    soon = replace(facts().timing, connect_s=6.0)
     with (
         pytest.raises(BackendUnavailable, match=r"nobody publishes /arm/joint_states .*; there are /joint_states"),
         link_of(facts(states="/arm/joint_states", timing=soon)),
