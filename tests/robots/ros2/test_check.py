@@ -49,6 +49,7 @@ WRONG = {
 """Facts that the graph contradicts, with what is said of them."""
 
 
+@pytest.mark.long
 def test_joints_in_degrees_are_found_before_anything_moves(tmp_path: Path) -> None:
     with robot(SCENE, tmp_path, rate_hz=125, joint_names=IN_ROS, degrees=True):
         code, text = check(SCENE)

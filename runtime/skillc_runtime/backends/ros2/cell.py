@@ -15,7 +15,8 @@ from skillc_runtime.backends.control_process.opening import open_cell
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.real_time.device_cell import CellDevices
 from skillc_runtime.backends.ros2.base import Ros2Base
-from skillc_runtime.backends.ros2.facts import Timing, read_arm, read_base, read_gripper, read_inspected
+from skillc_runtime.backends.ros2.device_facts import Timing
+from skillc_runtime.backends.ros2.facts import read_arm, read_base, read_gripper, read_inspected
 from skillc_runtime.backends.ros2.gripper import Ros2Gripper
 from skillc_runtime.backends.ros2.inspection import Ros2Inspection
 from skillc_runtime.backends.ros2.link import Ros2Description

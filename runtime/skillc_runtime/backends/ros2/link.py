@@ -91,12 +91,14 @@ class Ros2Link:
     def connect(self) -> None:
         """Wait for the first state of each joint and the first wrench, with a new node if there is none.
 
-        BackendUnavailable names what does not come. A node that is there goes on finding others by itself.
+        BackendUnavailable names what does not come. A node that is there goes on finding others by itself, and does not
+        wait for them for long.
         """
+        patience_s = RECOVER_S if self._session is not None else self._facts.timing.connect_s
         if self._session is None:
             self._open()
         self._order, self._force_seen, self._state_seen = JointOrder(self._facts.joints), -np.inf, -np.inf
-        self._await_states(self._open_session())
+        self._await_states(self._open_session(), patience_s)
 
     def read(self, state: StateView) -> None:
         """Wait for the next message with joint states, at most a little longer than their period; LinkLost."""
@@ -193,7 +195,7 @@ class Ros2Link:
             raise LinkLost(f"{self._facts.name} is not connected")
         return self._session
 
-    def _await_states(self, session: Session) -> None:
+    def _await_states(self, session: Session, patience_s: float) -> None:
         """Wait for the first messages; BackendUnavailable names what is missing."""
         facts, node = self._facts, session.node
 
@@ -201,7 +203,7 @@ class Ros2Link:
             self._take()
             return not self._order.missing and (self._forces is None or self._force_seen > 0)
 
-        if session.await_all(is_complete, facts.timing.connect_s):
+        if session.await_all(is_complete, patience_s):
             return
         problems = []
         if self._state_seen < 0 and len(self._order.missing) == len(facts.joints) and self._order.seen is None:

@@ -7,7 +7,7 @@ from threading import Event, Lock, Thread
 from time import monotonic
 from typing import Any
 
-from skillc_runtime.backends.ros2.facts import Timing
+from skillc_runtime.backends.ros2.device_facts import Timing
 from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
 from skillc_runtime.devices.backend import BackendUnavailable
 
