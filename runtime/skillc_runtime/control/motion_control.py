@@ -141,7 +141,7 @@ class MotionControl:
         return self.add_checked_overlay(overlay, axes, fade)
 
     def add_checked_overlay(self, overlay: Overlay, axes: Array, fade: float) -> int:
-        """Do the same for an overlay that the model has checked."""
+        """Add an overlay that the model has checked, as `add_overlay`; axes (3, 3): columns in the world, fade: s."""
         task, tool = self._task, self._task.move_tool()
         return tool.reference_generator.add(overlay, task.base().rotation.T @ axes, fade, task.now)
 

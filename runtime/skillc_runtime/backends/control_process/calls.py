@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from multiprocessing.connection import Connection
 from types import MappingProxyType
 from typing import Any, Final, Literal, TypeAlias
+
+from skillc_runtime.backends.control_process.channel import Channel
 
 Part: TypeAlias = Literal["driver", "motion", "compliance", "device"]
 """What is called: the driver of the arm, one of its parts, or the loop itself."""
@@ -59,17 +60,17 @@ class Answer:
 
 
 class Mailbox:
-    """The end of a connection from which a control process takes calls, one at a time; `closed` if nobody calls."""
+    """The end of a channel from which a control process takes calls, one at a time; `closed` if nobody calls."""
 
-    def __init__(self, connection: Connection) -> None:
-        self._connection, self.closed = connection, False
+    def __init__(self, channel: Channel) -> None:
+        self._channel, self.closed = channel, False
 
     def take(self) -> Call | None:
         """Return the next call; None if none waits. Nothing is waited for."""
+        if self.closed:
+            return None
         try:
-            if self.closed or not self._connection.poll(0):
-                return None
-            call = self._connection.recv()
+            call = self._channel.take()
         except (EOFError, OSError):
             self.closed = True
             return None
@@ -78,6 +79,6 @@ class Mailbox:
     def answer(self, answer: Answer) -> None:
         """Send an answer."""
         try:
-            self._connection.send(answer)
-        except (OSError, ValueError):
+            self._channel.send(answer)
+        except OSError:
             self.closed = True

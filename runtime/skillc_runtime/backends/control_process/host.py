@@ -8,12 +8,12 @@ import subprocess
 import sys
 from contextlib import suppress
 from itertools import count
-from multiprocessing.connection import Connection
 from threading import Event, RLock, Thread
 from time import monotonic
 from typing import Any
 
 from skillc_runtime.backends.control_process.calls import Answer, Call, Part
+from skillc_runtime.backends.control_process.channel import Channel
 from skillc_runtime.backends.control_process.handshake import Connected, ControlTask
 from skillc_runtime.backends.control_process.link import CALL_S
 from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
@@ -55,7 +55,7 @@ class ControlProcess:
         memory = map_memory(file)
         self._beat, self._record = plan.beat(memory), SharedRecord(plan.record(memory))
         self.ring = SharedRing(plan.ring(memory), plan.row_width)
-        self._connection = Connection(ours.detach())
+        self._channel = Channel(ours)
         self._broken: str | None = None
         self._closing = Event()
         self._beat[0] = monotonic()
@@ -80,7 +80,7 @@ class ControlProcess:
                 raise BackendBroken(reason)
             call = Call(next(self._numbers), part, name, arguments)
             try:
-                self._connection.send(call)
+                self._channel.send(call)
                 answer = self._receive(call, wait_s)
             except (EOFError, OSError) as error:
                 raise BackendBroken(self.find_silence() or f"{self._who} does not answer: {error}") from error
@@ -108,14 +108,14 @@ class ControlProcess:
         """Let it stop its arm, give the device back, and end; end it if it does not."""
         self._broken = self._broken or f"{self._who} is closed"
         with suppress(OSError):
-            self._connection.close()
+            self._channel.close()
         try:
             self.process.wait(END_S)
         except subprocess.TimeoutExpired:
             self.process.kill()
-            self.process.wait()
+            self.process.wait()  # wait ends: it is killed
         self._closing.set()
-        self._thread.join()
+        self._thread.join(END_S)
 
     @property
     def _who(self) -> str:
@@ -123,18 +123,17 @@ class ControlProcess:
 
     def _introduce(self, task: ControlTask) -> Connected:
         try:
-            self._connection.send(list(sys.path))
-            self._connection.send(task)
-            if not self._connection.poll(START_S):
-                raise BackendUnavailable(f"{self._who} has not connected to {task.description.name} in {START_S:g} s")
-            answer = self._connection.recv()
+            self._channel.send(list(sys.path))
+            self._channel.send(task)
+            answer = self._channel.receive(START_S)
+        except TimeoutError as error:
+            self.process.kill()
+            self.close()
+            late = f"{self._who} has not connected to {task.description.name} in {START_S:g} s"
+            raise BackendUnavailable(late) from error
         except (EOFError, OSError) as error:
             self.close()
             raise BackendUnavailable(f"{self._who} has ended while it connected to {task.description.name}") from error
-        except BackendUnavailable:
-            self.process.kill()
-            self.close()
-            raise
         if isinstance(answer, Exception):
             self.close()
             raise answer
@@ -144,11 +143,14 @@ class ControlProcess:
     def _receive(self, call: Call, wait_s: float) -> Answer:
         """Return the answer to a call; those to earlier calls, which nobody waits for any more, are left out."""
         until = monotonic() + wait_s
-        while self._connection.poll(max(0.0, until - monotonic())):
-            answer: Answer = self._connection.recv()
-            if answer.number == call.number:
-                return answer
-        raise BackendBroken(self.find_silence() or f"{self._who} has not answered {call.name} in {wait_s:g} s")
+        try:
+            while True:
+                answer: Answer = self._channel.receive(until - monotonic())
+                if answer.number == call.number:
+                    return answer
+        except TimeoutError as error:
+            late = f"{self._who} has not answered {call.name} in {wait_s:g} s"
+            raise BackendBroken(self.find_silence() or late) from error
 
     def _keep_beating(self) -> None:
         while not self._closing.wait(BEAT_S):

@@ -7,10 +7,11 @@ modules, the second a `ControlTask`; the answer is `Connected`, or the error for
 from __future__ import annotations
 
 import signal
+import socket
 import sys
-from multiprocessing.connection import Connection
 
 from skillc_runtime.backends.control_process.calls import Mailbox
+from skillc_runtime.backends.control_process.channel import Channel
 from skillc_runtime.backends.control_process.controlled_arm import ControlledArm
 from skillc_runtime.backends.control_process.handshake import Connected, ControlTask
 from skillc_runtime.backends.control_process.loop import ControlLoop
@@ -20,14 +21,17 @@ from skillc_runtime.backends.control_process.shared_memory import map_memory
 from skillc_runtime.motion.numerics.compiled import compile_imported
 from skillc_runtime.platforms.real_time import run_in_real_time
 
+START_S = 60.0
+"""How long the other process may take to say what is to be done, in s."""
 
-def main(connection: Connection, memory_file: int) -> int:
+
+def main(channel: Channel, memory_file: int) -> int:
     """Run a control process; return its exit code."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    sys.path[:] = connection.recv()
+    sys.path[:] = channel.receive(START_S)
     memory = map_memory(memory_file)
     try:
-        task: ControlTask = connection.recv()
+        task: ControlTask = channel.receive(START_S)
         plan = MemoryPlan(task.facts.home.size)
         compile_imported()
         link = task.description.make_link()
@@ -39,16 +43,16 @@ def main(connection: Connection, memory_file: int) -> int:
             link.close()
             raise
     except Exception as error:  # noqa: BLE001  the boundary to the other process, which raises it
-        connection.send(error)
+        channel.send(error)
         return 1
-    loop = ControlLoop(link, arm, Mailbox(connection), plan, memory, task.patience)
+    loop = ControlLoop(link, arm, Mailbox(channel), plan, memory, task.patience)
     signal.signal(signal.SIGTERM, lambda *_: loop.end())
     real_time = run_in_real_time()
     loop.begin()
-    connection.send(Connected(link.period_s, link.abilities, arm.mode, arm.arm.limits, real_time))
+    channel.send(Connected(link.period_s, link.abilities, arm.mode, arm.arm.limits, real_time))
     loop.run()
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(Connection(int(sys.argv[1])), int(sys.argv[2])))
+    sys.exit(main(Channel(socket.socket(fileno=int(sys.argv[1]))), int(sys.argv[2])))
