@@ -29,6 +29,7 @@ def test_what_is_not_stated_is_as_in_ros2_control(tmp_path: Path) -> None:
     assert (arm.states, arm.command) == ("/joint_states", "/forward_velocity_controller/commands")
     assert arm.wrench is not None
     assert (arm.wrench.topic, arm.wrench.sign) == ("/force_torque_sensor_broadcaster/wrench", 1.0)
+    assert not (arm.wrench.in_base or arm.wrench.has_weight)
     assert (arm.quality.reliable_states, arm.quality.reliable_commands) == (False, True)
     hand = read_gripper(here, HAND, ("left_finger", "right_finger"))
     assert (hand.command, hand.per_unit, hand.timing.silence_s) == ("/gripper_controller/commands", 2.0, 1.0)

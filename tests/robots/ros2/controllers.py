@@ -18,6 +18,9 @@ from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 if TYPE_CHECKING:
     from robots.ros2.peer import Peer
 
+FASTEST_M_S = 1.5
+"""A target of the tool that moves faster is a jump."""
+
 
 class Arm:
     """The controllers of one arm, and its broadcasters."""
@@ -51,7 +54,7 @@ class Arm:
             peer.subscribe(*topics[control])
         if self._law is not None:
             peer.subscribe("cartesian_controller/joint_trajectory", JointTrajectory, self._take_posture)
-            peer.subscribe("cartesian_controller/reference_pose", PoseStamped, self._law.take_pose)
+            peer.subscribe("cartesian_controller/reference_pose", PoseStamped, self._take_pose)
             peer.subscribe("cartesian_controller/set_cartesian_stiffness", WrenchStamped, self._law.take_stiffness)
             peer.subscribe("cartesian_controller/set_cartesian_wrench", WrenchStamped, self._law.take_wrench)
         self._wrench = peer.publisher("force_torque_sensor_broadcaster/wrench", WrenchStamped) if has_sensor else None
@@ -97,6 +100,18 @@ class Arm:
         values = np.array(message.data)
         self._check(values)
         self._last = values
+
+    def _take_pose(self, message: PoseStamped) -> None:
+        """Take a target, and complain about one that jumps."""
+        assert self._law is not None
+        report, now, place = self._peer.report, time.monotonic(), read_pose(message.pose).position
+        report.commands += 1
+        before = self._law.target
+        span = now - self._last_at + self._peer.options.jitter_s + 0.02
+        if before is not None and np.linalg.norm(place - before.position) > FASTEST_M_S * span:
+            report.complain(f"a target {np.linalg.norm(place - before.position):.3f} m away within {span:.4f} s")
+        self._last_at = now
+        self._law.take_pose(message)
 
     def _take_posture(self, message: JointTrajectory) -> None:
         order = [list(message.joint_names).index(each) for each in self.names]

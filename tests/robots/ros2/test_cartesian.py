@@ -38,7 +38,7 @@ def newest(session: Session, topic: Subscription) -> Any:
 
 def test_the_tool_moves_yields_and_pushes_by_the_controller_of_the_robot(tmp_path: Path) -> None:
     scene = scenes.cartesian_table(tmp_path)
-    with robot(scene, tmp_path, rate_hz=250, control="cartesian"), opened(scene) as cell:
+    with robot(scene, tmp_path, rate_hz=250, control="cartesian") as there, opened(scene) as cell:
         arm, session = cell.arm(ARM), Session("listener")
         stiffness, wrench = (
             session.subscribe(BELOW + name, WRENCH, reliable=True)
@@ -67,3 +67,6 @@ def test_the_tool_moves_yields_and_pushes_by_the_controller_of_the_robot(tmp_pat
         assert newest(session, stiffness)[2] == pytest.approx(1500.0, rel=0.05)
         assert np.abs(newest(session, wrench)).max() < 1.0
         session.close()
+        report = there.end()
+    assert report["commands"] > 100
+    assert (report["beyond_limits"], report["examples"]) == (0, [])

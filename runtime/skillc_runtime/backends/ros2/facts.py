@@ -23,11 +23,16 @@ CONTROLLERS: Final[Mapping[Mode, str]] = {
 
 @dataclass(frozen=True, slots=True)
 class WrenchTopic:
-    """The topic of a force-torque sensor; in_base: along the axes of the base. sign: -1 for what the robot exerts."""
+    """The topic of a force-torque sensor.
+
+    in_base: along the axes of the base, not those of the flange. sign: -1 for what the robot exerts. has_weight: with
+    the weight of hand and load.
+    """
 
     topic: str
     in_base: bool
     sign: float
+    has_weight: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,4 +224,5 @@ def _read_wrench(state: WorldState, arm: str, facts: DeviceFacts) -> WrenchTopic
         topic=(sensor if sensor.text("namespace") else facts).full_name(topic),
         in_base=sensor.choice("wrenchFrame", {"flange": False, "base": True}, False),
         sign=sensor.choice("wrenchExertedBy", {"environment": 1.0, "robot": -1.0}, 1.0),
+        has_weight=bool(sensor.flag("wrenchHasWeight")),
     )

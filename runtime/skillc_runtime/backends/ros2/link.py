@@ -18,6 +18,7 @@ from skillc_runtime.backends.control_process.link import (
     LinkMode,
     PointMass,
     StateView,
+    WrenchKind,
 )
 from skillc_runtime.backends.ros2.commands import Commands, make_joint_commands
 from skillc_runtime.backends.ros2.facts import ArmInterface
@@ -76,12 +77,19 @@ class Ros2Link:
         facts, effort = self._facts, self._order.values[2]
         return LinkAbilities(
             modes=("tool", "position") if self._mode == "tool" else (self._mode,),
-            wrench="none" if facts.wrench is None else "without-weight",
+            wrench=self._wrench_kind,
             measures_effort=facts.mode == "torque" and bool(np.isfinite(effort).all()),
             carries_weight=facts.carries_weight,
             tares=bool(facts.services.tare),
             silence_s=facts.timing.silence_s,
         )
+
+    @property
+    def _wrench_kind(self) -> WrenchKind:
+        wrench = self._facts.wrench
+        if wrench is None:
+            return "none"
+        return "with-weight" if wrench.has_weight else "without-weight"
 
     @property
     def condition(self) -> Condition:
