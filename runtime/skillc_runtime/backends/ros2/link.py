@@ -32,7 +32,8 @@ LOOK_S = 0.1
 """How often it is looked who else subscribes to the commands or publishes them, in s."""
 LATE = 1.5
 """How many periods a new state is waited for before a cycle goes on with the last one."""
-RECOVER_S = 1.5
+RECOVER_S, FIND_S = 1.5, 1.0
+"""How long a service of the driver may take, and how long those who take commands are looked for, in s."""
 READY, IN_CONTROL = Condition("ready"), Condition("in-control")
 
 
@@ -116,8 +117,10 @@ class Ros2Link:
             session.wait(left)
         now, silence = monotonic(), self._facts.timing.silence_s
         if now - self._state_seen > silence:
+            self._lose(READY)
             raise LinkLost(f"{self._facts.states} has been silent for {now - self._state_seen:.2f} s")
         if self._forces is not None and now - self._force_seen > silence:
+            self._lose(READY)
             raise LinkLost(f"{self._forces.topic} has been silent for {now - self._force_seen:.2f} s")
         if now >= self._next_look:
             self._next_look = now + LOOK_S
@@ -129,25 +132,20 @@ class Ros2Link:
         if self._has_control and self._condition is IN_CONTROL:
             problem = self._commands.send(KINDS[int(command.kind[0])], command)
             if problem is not None:
-                self._condition = Condition("wrong-mode", problem)
+                self._lose(Condition("wrong-mode", problem))
 
     def take_control(self, mode: LinkMode) -> None:
         """Begin to publish commands; ControlRefused if nobody takes them, or somebody else publishes them."""
         if mode != self._mode:
             raise ControlRefused(f"{self._facts.name} takes {self._mode} commands by its facts, not {mode} commands")
-        self._look()
-        if self._condition is not READY and self._condition is not IN_CONTROL:
+        if not self._open_session().await_all(self._is_free, FIND_S):
             raise ControlRefused(self._condition.sentence)
         self._commands.begin(self._order.positions)
         self._has_control, self._condition = True, IN_CONTROL
 
     def give_back(self) -> None:
         """Stop publishing commands, after one to stand still."""
-        if self._has_control:
-            self._commands.rest(self._order.positions)
-        self._has_control = False
-        if self._condition is IN_CONTROL:
-            self._condition = READY
+        self._lose(READY if self._condition is IN_CONTROL else self._condition)
 
     def recover(self) -> None:
         """Ask the driver to let commands have effect again, if it offers that; StopPersists if it does not."""
@@ -264,6 +262,11 @@ class Ros2Link:
         if wrench.in_base:
             self._commands.turn_to_flange(state.wrench, q)
 
+    def _is_free(self) -> bool:
+        self._take()
+        self._look()
+        return self._condition is READY or self._condition is IN_CONTROL
+
     def _is_running(self) -> bool:
         self._take()
         return self._runs
@@ -272,13 +275,18 @@ class Ros2Link:
         """See whether commands would have effect: who takes them, who else gives them, and what the driver says."""
         problem = self._commands.find_obstacle()
         if not self._runs:
-            self._condition = Condition(
-                "protective-stop", f"{self._facts.services.running} says that commands have no effect"
-            )
+            why = f"{self._facts.services.running} says that commands have no effect"
+            self._lose(Condition("protective-stop", why))
         elif problem is not None:
-            self._condition = problem
+            self._lose(problem)
         else:
             self._condition = IN_CONTROL if self._has_control else READY
+
+    def _lose(self, condition: Condition) -> None:
+        """Publish no more commands, after one to stand still: controllers of speeds and torques go on with the last."""
+        if self._has_control:
+            self._commands.rest(self._order.positions)
+        self._has_control, self._condition = False, condition
 
 
 def _node_name(name: str) -> str:
