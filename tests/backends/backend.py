@@ -186,8 +186,21 @@ ARMS = {
     "panda": ("panda_desk",),
 }
 
+
+def remote(scene: str) -> Backend:
+    """Return an arm whose law runs in a control process, the robot being in another one."""
+    from backends.remote import RemoteBackend
+
+    made: Any = RemoteBackend(scene)
+    backend: Backend = made
+    return backend
+
+
 BACKENDS: dict[str, Callable[[], Backend]] = {
-    f"{name} {arm}": partial(make, *how)
-    for name, make in (("mujoco", mujoco), ("kinematic", kinematic), ("kinematic thread", real_time))
-    for arm, how in ARMS.items()
+    **{
+        f"{name} {arm}": partial(make, *how)
+        for name, make in (("mujoco", mujoco), ("kinematic", kinematic), ("kinematic thread", real_time))
+        for arm, how in ARMS.items()
+    },
+    **{f"remote {arm}": partial(remote, ARMS[arm][0]) for arm in ("iiwa14", "ur5e")},
 }

@@ -22,6 +22,7 @@ from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable, St
 from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits
+from skillc_runtime.recording.mcap.signal_tap import SampledBlock, SignalTap
 
 pytestmark = pytest.mark.robot
 SCENE = "iiwa_table"
@@ -87,11 +88,37 @@ def told(cell: DeviceCell) -> str:
     return str(broken.value)
 
 
+def test_cycles_are_recorded_with_what_was_lost_and_the_model_is_where_the_robot_is(
+    both: tuple[Toy, DeviceCell],
+) -> None:
+    toy, cell = both
+    arm, live, drawing = swing(cell), cell.capabilities.live, cell.capabilities.drawing
+    assert live is not None
+    assert drawing is not None
+    tap, blocks = SignalTap(live), list[SampledBlock]()
+    tap.add(blocks.append)
+    for _ in range(10):
+        cell.advance(0.02)
+    tap.remove(blocks.append)
+    columns = [each.column for each in tap.layout.describe(lambda _: "arm")]
+    rows = np.concatenate([tap.layout.rows_of(each) for each in blocks])
+    assert rows.shape[1] == len(columns)
+    assert len(rows) > 50
+    stamps, lost = rows[:, columns.index("arm/sensor/measured_s")], rows[:, columns.index("arm/sensor/lost_periods")]
+    np.testing.assert_allclose(np.diff(stamps), 0.001, atol=1e-9)
+    assert (np.diff(lost) >= 0).all()
+    assert np.isfinite(rows[:, columns.index("arm/sensor/late_s")]).all()
+    joint = int(drawing.model.joint(f"{drawing.prefixes[ARM[SCENE]]}joint1").qposadr[0])
+    arm.motion.stop()
+    wait_until(cell.is_at_rest)
+    assert drawing.posture().joints[joint] == pytest.approx(float(np.asarray(report(toy)["q"])[0]), abs=1e-3)
+
+
 def test_a_robot_that_is_frozen_is_named_and_goes_on_once_it_is_acknowledged(both: tuple[Toy, DeviceCell]) -> None:
     toy, cell = both
     swing(cell)
     os.kill(toy.process.pid, signal.SIGSTOP)
-    assert f"the toy robot at port {toy.port} has been silent for 3 s" in told(cell)
+    assert f"the toy robot at port {toy.port} has been silent for 2 s" in told(cell)
     os.kill(toy.process.pid, signal.SIGCONT)
     wait_until(lambda: is_still(toy))
     cell.stops.clear()

@@ -44,7 +44,7 @@ from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import AT
 from skillc_runtime.world.state.world_state import WorldState
 
-PATIENCE = Patience(tree_s=5.0, process_s=5.0, gap_s=3.0)
+PATIENCE = Patience(tree_s=4.0, process_s=4.0, gap_s=3.0)
 """Machines that run tests are busy with others."""
 
 MUCH_PATIENCE = Patience(tree_s=60.0, process_s=60.0, gap_s=60.0)
@@ -113,6 +113,8 @@ class ToyLink:
         self.condition = CONDITION[0]
 
     def recover(self) -> None:
+        if self.condition.kind in ("ready", "in-control"):
+            return
         try:
             self._ask(RECOVER, 0.0, "ready")
         except ControlRefused as refusal:
@@ -201,7 +203,7 @@ class Toy:
     def describe(self, facts: Any) -> ToyDescription:
         modes = facts.modes
         abilities = LinkAbilities(
-            modes, wrench="without-weight" if facts.force_torque else "none", measures_effort=True, silence_s=3.0
+            modes, wrench="without-weight" if facts.force_torque else "none", measures_effort=True, silence_s=2.0
         )
         return ToyDescription(self.port, facts.home.size, abilities, 0.001)
 

@@ -19,6 +19,7 @@ import numpy as np
 
 from simulation.cells import world
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.devices.arm import ArmLoad, Command, JointPosition, JointVelocity, Torque
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.state.changes import AddRelation
@@ -116,6 +117,19 @@ class Robot:
             mass, centre = float(frame[1]), (self.arm.fixed_tool.inverse() @ self.arm._flange).apply(frame[2:5])
             self.arm.set_load(None if mass == 0.0 else ArmLoad(mass, centre, HERE, HERE))
 
+    def put_wall(self, gap_m: float) -> None:
+        """Put a soft wall before the tool."""
+        from backends.backend import Wall
+
+        assert self.facts.gripper is not None
+        palm = part_name(self.cell.scene.names[self.facts.gripper.individual], "palm")
+        self.cell.people = (Wall(self.cell, self.arm, palm, gap_m),)  # type: ignore[assignment]
+
+    def remove_wall(self) -> None:
+        """Take it away again."""
+        self.cell.people = ()
+        self.cell.data.xfrc_applied[:] = 0.0
+
     def hold(self) -> None:
         """Let the controller of the robot hold the joints from the next period on."""
         motors = self.arm._motors
@@ -186,6 +200,20 @@ class Panel:
         assert hand is not None
         return hand.opening_m, hand.moving, hand.blocked
 
+    def home(self) -> Array:
+        return self._robot.facts.home
+
+    def put_wall(self, gap_m: float) -> Array:
+        self._robot.put_wall(gap_m)
+        return self._robot.cell.people[-1].normal
+
+    def remove_wall(self) -> None:
+        self._robot.remove_wall()
+
+    def wall_force_n(self) -> float:
+        people = self._robot.cell.people
+        return float(people[-1].force_n) if people else 0.0
+
     def switched(self, button: str) -> bool:
         return self._robot.cell.button(button).switched
 
@@ -242,12 +270,15 @@ def serve_stream(robot: Robot, stream: socket.socket) -> None:
         except OSError:
             break
         waits = robot.condition == 1 and not robot.paced and not is_lost
-        frame = receive(stream, size, time.monotonic() + PATIENCE_S if waits else due)
+        until = time.monotonic() + PATIENCE_S if waits else due
+        while (frame := receive(stream, size, until)) is not None and frame.size:
+            with robot.lock:
+                robot.obey(frame)
+            if frame[0] == COMMAND:
+                break
         if frame is not None and not frame.size:
             break
         with robot.lock:
-            if frame is not None:
-                robot.obey(frame)
             robot.step()
         if (left := due - time.monotonic()) > 0.0:
             time.sleep(left)

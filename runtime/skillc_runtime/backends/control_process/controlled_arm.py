@@ -101,6 +101,10 @@ class ControlledArm:
     def look(self, measured: StateView, now: float) -> None:
         """Take a measurement without control."""
         self.arm.measure(measured, now)
+        self.look_again()
+
+    def look_again(self) -> None:
+        """Compute the last measurement again, after the tool or the zero of the sensor was changed."""
         self.driver.measured.state = self.arm.state()
 
     def report(self, stop: DeviceStop) -> None:

@@ -70,8 +70,10 @@ class ControlProcess:
         return self._plan.layout.joints
 
     def read(self) -> Snapshot:
-        """Return a copy of what was published last."""
-        return Snapshot(self._plan.layout, self._record.read())
+        """Return a copy of what was published last; its arrays are read-only."""
+        values = self._record.read()
+        values.flags.writeable = False
+        return Snapshot(self._plan.layout, values)
 
     def call(self, part: Part, name: str, *arguments: Any, wait_s: float = ANSWER_S) -> Any:
         """Return what a call returns, or raise what it raises; BackendBroken if there is no answer."""

@@ -182,6 +182,7 @@ class ControlLoop:
         self._publisher.publish_at_once(self._phase, monotonic(), busy_until_s=monotonic() + 3 * CALL_S)
         self._is_excused = True
         slow[call.name](*call.arguments)
+        self._arm.look_again()
         return None
 
     def _take_control(self) -> None:
