@@ -160,23 +160,6 @@ def test_a_program_that_stops_in_a_motion_and_a_second_one_stop_the_cell(there: 
             session.close()
 
 
-def test_a_robot_that_has_died_stops_the_cell_until_it_is_there_again(tmp_path: Path) -> None:
-    with robot(SCENE, tmp_path, rate_hz=125, joint_names=IN_ROS) as there, opened() as cell:
-        there.kill()
-        assert "has been silent for" in wait_for_stop(cell)
-        with pytest.raises(StopPersists, match="does not answer"):
-            cell.stops.clear()
-        assert cell.is_at_rest()
-
-
-@pytest.mark.long
-def test_a_robot_that_speaks_of_degrees_is_never_moved(tmp_path: Path) -> None:
-    with robot(SCENE, tmp_path, rate_hz=125, joint_names=IN_ROS, degrees=True) as there:
-        with opened() as cell:
-            assert "beyond the end of its range" in wait_for_stop(cell)
-        assert there.end()["commands"] == 0
-
-
 def test_nothing_was_commanded_beyond_limits(there: Robot) -> None:
     report = there.end()
     assert report["commands"] > 100
