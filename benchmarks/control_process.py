@@ -26,7 +26,9 @@ from skillc_runtime.backends.control_process.link import (
     LinkAbilities,
     make_state,
 )
-from skillc_runtime.backends.control_process.memory_plan import TIME
+from skillc_runtime.backends.control_process.memory_plan import TIME, MemoryPlan
+from skillc_runtime.backends.control_process.pacing import CycleClock
+from skillc_runtime.backends.control_process.publisher import Publisher
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
 from skillc_runtime.devices.guarded_push import GuardedPush, Travel
 from skillc_runtime.motion.pose import Array
@@ -100,9 +102,12 @@ def measure_costs(scene: str, periods: int = 3000) -> None:
     measured.q[:] = measured.target[:] = facts.home
     arm.begin(measured, 0.0)
     arm.driver.motion.hold_position()
+    plan = MemoryPlan(facts.home.size)
+    publisher = Publisher(plan, np.zeros(plan.size), arm, measured, CycleClock(PERIOD_S))
     parts: dict[str, Any] = {
         "model": lambda now: arm.arm.measure(measured, now),
         "model, law, limits": lambda now: arm.step(measured, now),
+        "publishing": lambda now: publisher.publish("in-control", now),
     }
     for part, call in parts.items():
         costs = []

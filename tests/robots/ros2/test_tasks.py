@@ -15,7 +15,7 @@ from robots.ros2 import scenes
 from robots.ros2.running import LOOPBACK, robot
 from robots.ros2.test_link import IN_ROS
 
-pytestmark = [pytest.mark.sim, pytest.mark.long]
+pytestmark = pytest.mark.sim
 
 PRESSED_SHARE = 1.5
 """How much harder than commanded a tool may press, at most: when it meets the surface."""
@@ -29,6 +29,17 @@ def run(goal: str, scene: Path, folder: Path) -> tuple[int, dict[str, Any]]:
     return done.returncode, json.loads((folder / "out" / "result.json").read_text("utf-8"))
 
 
+def test_a_ur5e_drives_and_picks(tmp_path: Path) -> None:
+    scene = scenes.whiteboard(tmp_path)
+    with robot(scene, tmp_path, rate_hz=125, joint_names=IN_ROS) as there:
+        code, result = run("lab:Wsg-1 contain lab:Eraser-1", scene, tmp_path)
+        report = there.end()
+    assert (code, result["status"]) == (0, "succeeded"), result.get("failure")
+    assert report["holds"]["lab:Wsg-1"] == "lab:Eraser-1"
+    assert (report["beyond_limits"], report["examples"]) == (0, [])
+
+
+@pytest.mark.long
 def test_a_ur5e_drives_picks_and_wipes_a_whiteboard(tmp_path: Path) -> None:
     scene = scenes.whiteboard(tmp_path)
     with robot(scene, tmp_path, rate_hz=125, joint_names=IN_ROS) as there:
@@ -41,6 +52,7 @@ def test_a_ur5e_drives_picks_and_wipes_a_whiteboard(tmp_path: Path) -> None:
     assert (report["beyond_limits"], report["examples"]) == (0, [])
 
 
+@pytest.mark.long
 def test_an_iiwa_wipes_a_table_by_torques(tmp_path: Path) -> None:
     scene = scenes.table(tmp_path, rate_hz=500.0)
     with robot(scene, tmp_path, rate_hz=500, control="effort") as there:

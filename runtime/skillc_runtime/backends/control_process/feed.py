@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from time import monotonic
 
@@ -91,8 +91,3 @@ class Feed:
             stamp=row[STAMP : STAMP + 1].tobytes,
             timing=row[LOST : LATE + 1].tobytes,
         )
-
-
-def count_lost(processes: Sequence[ControlProcess]) -> int:
-    """Return how many control periods of all arms have been lost since they were opened."""
-    return round(sum(each.read().number("lost") for each in processes))
