@@ -11,7 +11,7 @@ from robots.ros2.test_cell import opened, wait_for_stop
 from robots.ros2.test_link import IN_ROS, SCENE
 from skillc_runtime.devices.backend import StopPersists
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.long]
 
 
 def test_a_robot_that_has_died_stops_the_cell_until_it_is_there_again(tmp_path: Path) -> None:
@@ -23,7 +23,6 @@ def test_a_robot_that_has_died_stops_the_cell_until_it_is_there_again(tmp_path: 
         assert cell.is_at_rest()
 
 
-@pytest.mark.long
 def test_a_robot_that_speaks_of_degrees_is_never_moved(tmp_path: Path) -> None:
     with robot(SCENE, tmp_path, rate_hz=125, joint_names=IN_ROS, degrees=True) as there:
         with opened() as cell:

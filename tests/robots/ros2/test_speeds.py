@@ -10,7 +10,7 @@ from robots.ros2.running import robot
 from robots.ros2.test_link import IN_ROS, SCENE, facts, link_of, talker, wait_until
 from skillc_runtime.backends.control_process.link import KINDS, make_command, make_state
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.long]
 
 
 def test_speeds_do_not_go_on_when_control_is_lost(tmp_path: Path) -> None:
