@@ -62,8 +62,9 @@ reasoners: .venv/.dev ## check ontology, scenes, descriptions and domains with t
 sim: .venv/.dev  ## run whole tasks in simulation; those that take minutes are in make soak
 	$(BIN)/pytest -m "sim and not (long or robot)" -n 2 --dist worksteal
 
-robots: .venv/.robots ## drive robots over the protocols of their makers, against emulators in other processes; none of them is real
-	$(BIN)/pytest -m "robot and not long"
+robots: .venv/.robots .tools/ros2/.made ## drive robots over the protocols of their makers, against emulators in other processes; none of them is real
+	$(BIN)/pytest -m "robot and not long" --ignore tests/robots/ros2
+	.tools/ros2/bin/python -m pytest -m "robot and not long" tests/robots/ros2
 
 browser: .venv/.dev .venv/.studio ## drive the studio in Chromium; pictures of all tests are kept in out/studio
 	$(BIN)/pytest -m browser tests/studio -n 2 --dist loadfile
@@ -115,11 +116,11 @@ accept: .venv/.dev ## rewrite the expected artifacts of tests/cases/build, docs/
 	$(BIN)/python tests/accept.py
 
 pin: .tools/.uv ## pin what pyproject.toml has gained, and nothing else
-	$(UV) pip compile -q --universal --python-version 3.11 --all-extras --no-emit-index-url --no-header --no-annotate \
+	$(UV) pip compile -q --universal --python-version 3.11 --all-extras --overrides tests/robots/overrides.txt --no-emit-index-url --no-header --no-annotate \
 	    pyproject.toml -o constraints.txt
 
 lock: .tools/.uv ## pin the versions of all dependencies again
-	$(UV) pip compile -q --universal --python-version 3.11 --all-extras --no-emit-index-url --no-header --no-annotate \
+	$(UV) pip compile -q --universal --python-version 3.11 --all-extras --overrides tests/robots/overrides.txt --no-emit-index-url --no-header --no-annotate \
 	    --upgrade pyproject.toml -o constraints.txt
 
 clean:           ## remove the environment and all output
@@ -155,4 +156,15 @@ clean:           ## remove the environment and all output
 # The client libraries of robots. Where there is no wheel of one, the tests that need it are skipped, and say so.
 .venv/.robots: .venv/.dev
 	for extra in ur franka; do $(INSTALL) -e ".[$$extra]" || echo "skillc[$$extra] cannot be installed here"; done
+	@touch $@
+
+# ROS 2 changes the path of libraries of every Python of its environment, so it has one of its own, beside the packages of
+# .venv. Where there are no wheels of it, its tests are skipped, and say so.
+.tools/ros2/.made: .venv/.dev
+	$(UV) venv -q --clear --python .venv .tools/ros2
+	$(UV) pip install -q --python .tools/ros2 --constraint constraints.txt --overrides tests/robots/overrides.txt \
+	    --extra ros2 -r pyproject.toml || echo "skillc[ros2] cannot be installed here"
+	.tools/ros2/bin/python -c "import pathlib, site; \
+	    pathlib.Path(site.getsitepackages()[0], 'skillc.pth').write_text( \
+	    'import site; site.addsitedir(%r)' % next(iter(map(str, pathlib.Path('.venv').resolve().glob('lib/python*/site-packages')))))"
 	@touch $@

@@ -20,6 +20,7 @@ MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "server": ("httpx", "starlette", "uvicorn", "websockets", "prometheus_client", "h11", "httpcore"),
         "robots": ("pinocchio", "coal"),
         "pddl": ("pddl",),
+        "ros2": ("rclpy",),
         "ur": ("rtde_control", "rtde_receive", "rtde_io"),
         "franka": ("pylibfranka",),
     }

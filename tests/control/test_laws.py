@@ -150,7 +150,7 @@ def test_the_log_error_is_the_shortest_turn(robot):
 
 
 def test_unknown_controllers_and_missing_numbers_are_named():
-    known = "forward_dynamics, forward_dynamics_velocity, impedance"
+    known = "forward_dynamics, forward_dynamics_velocity, impedance, on_robot"
     with pytest.raises(UnknownController, match=f"no controller 'admittance'; there are: {known}$"):
         read_gains("admittance", {}.__getitem__)
     with pytest.raises(KeyError, match="dampingFloor"):

@@ -99,6 +99,7 @@ def test_of_what_is_told_elsewhere_no_sheet_is_blamed(tmp_path: Path) -> None:
         ("forward_dynamics", "skillc:Iiwa14", "gives position commands, and lab:Iiwa-1 takes torque", '"impedance"'),
         ("impedance", "skillc:PositionControlledArm", "lab:Iiwa-1 takes position commands", '"forward_dynamics"'),
         ("forward_dynamics", "skillc:PositionControlledArm", "lab:Iiwa-1 has no skillc:ForceTorqueSensor", None),
+        ("on_robot", "skillc:Iiwa14", "lab:Iiwa-1 has no skillc:ForceTorqueSensor", None),
     ],
 )
 def test_a_controller_that_the_arm_cannot_use_is_told_and_its_sheet_is_not_blamed(
@@ -114,6 +115,13 @@ def test_a_controller_that_the_arm_cannot_use_is_told_and_its_sheet_is_not_blame
     (found,) = library_checks.check_library(find_library(tmp_path), tmp_path / "s.ttl")
     assert (found.name, found.severity) == ("unfit-controller", "error")
     assert words in found.message and (found.fix.text if found.fix else None) == fix
+
+
+def test_a_law_on_the_robots_side_fits_any_arm_with_a_sensor(tmp_path: Path) -> None:
+    changed = SCENE.replace('"impedance"', '"on_robot" ; skillc:hasSensor lab:Wrist-9')
+    (tmp_path / "s.ttl").write_text(f"{changed}\nlab:Wrist-9 a skillc:ForceTorqueSensor .\n", "utf-8")
+    (tmp_path / "t.skill").write_text("use skiros\nclass Rag < Product\n", "utf-8")
+    assert list(library_checks.check_library(find_library(tmp_path), tmp_path / "s.ttl")) == []
 
 
 def test_what_was_found_does_not_hold_once_a_model_has_changed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

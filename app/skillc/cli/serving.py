@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
 from skillc.cli.options import BACKEND, FOLDER, PATH
-from skillc.extras import require
+from skillc.extras import install_command, require
 
 DEFAULT_BIND = "127.0.0.1:8421"
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -51,6 +52,15 @@ def require_server() -> None:
 
     if not INHERITS_SOCKETS:
         raise click.UsageError("`skillc serve` needs Linux or macOS: processes of Windows inherit no sockets")
+
+
+def require_ros2(what: str) -> None:
+    """Raise UsageError if there is no ROS 2, neither a sourced one nor its wheels; `what` is what needs it."""
+    if find_spec("rclpy") is None:
+        raise click.UsageError(
+            f"{what} needs ROS 2: source the set-up file of an installed one in this terminal, with the Python that it "
+            f"was built for, or install its wheels (Linux on x86-64): {install_command('ros2')}"
+        )
 
 
 def parse_address(bind: str) -> tuple[str, int]:

@@ -14,7 +14,7 @@ from skillc_dsl.source import Span
 from skillc_dsl.spelling import did_you_mean
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.turtle.statements import Statement
-from skillc_runtime.control.gains import CONTROLLERS, UnknownController, read_gains, read_law
+from skillc_runtime.control.gains import CONTROLLERS, RobotGains, UnknownController, read_gains, read_law
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.scene.documents import BASE
 from skillc_runtime.scene.load import Scene
@@ -64,7 +64,7 @@ def _unusable_controller(state: WorldState, name: str, statement: Statement) -> 
         yield Diagnostic("unknown-controller", span, str(error), "name `module:Class` of a control law")
         return
     short, modes = state.vocabulary.short, _modes(state, arm)
-    if modes and law.mode not in modes:
+    if modes and law.mode not in modes and not isinstance(law, RobotGains):
         message = f'"{name}" gives {law.mode} commands, and {short(arm)} takes {" and ".join(modes)} commands'
         other = next(each for each in CONTROLLERS if read_law(each, _any_number).mode in modes)
         fix = Fix(span, f'"{other}"', f'write "{other}"', safe=False)

@@ -10,11 +10,19 @@ import mujoco
 from skillc_runtime.control.controller import Controller, JointController
 from skillc_runtime.control.damping import damping_rate
 from skillc_runtime.control.forward_dynamics import ForwardDynamics
-from skillc_runtime.control.gains import ForwardDynamicsGains, Gains, ImpedanceGains, OwnGains, VelocityGains
+from skillc_runtime.control.gains import (
+    ForwardDynamicsGains,
+    Gains,
+    ImpedanceGains,
+    OwnGains,
+    RobotGains,
+    VelocityGains,
+)
 from skillc_runtime.control.impedance import Impedance
 from skillc_runtime.control.joint_position import ComputedTorque, JointServo
 from skillc_runtime.control.limits import JointLimit, SpeedLimit, TorqueLimit
 from skillc_runtime.control.own_law import CheckedLaw, LawSetup
+from skillc_runtime.control.robot_law import RobotLaw
 from skillc_runtime.control.virtual_arm import VirtualArm
 from skillc_runtime.devices.arm import ArmLimits, ArmState
 from skillc_runtime.motion.pose import Array
@@ -55,6 +63,9 @@ def make_controllers(
             return _forward_dynamics(gains, law, JointLimit(limits, state.q), virtual)
         case VelocityGains(compliance=law, tracking_rate=rate, tracking_time=lag):
             return _forward_dynamics(gains, law, SpeedLimit(limits, state.q, rate, lag), virtual)
+        case RobotGains():
+            joint_limit = JointLimit(limits, state.q)
+            return ControllerPair(RobotLaw(joint_limit, state), JointServo(joint_limit), joint_limit)
         case OwnGains() as law:
             return _own(
                 LawSetup(law.number, gains, _limit_for(law, limits, state), limits, virtual, period), law, state

@@ -9,6 +9,7 @@ from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.motion_control import MotionControl
 from skillc_runtime.control.setup import ArmSetup
 from skillc_runtime.devices.arm import ArmState, Command
+from skillc_runtime.motion.reference import Compliance, Reference
 
 LONGEST_GAP_S = 0.02
 """After a longer gap between control periods, or one below zero, motions are delayed by the lost time."""
@@ -46,6 +47,12 @@ class CompliantArmDriver:
         """How far the tool is outside the arm's workspace, in m; 0 inside, or without a workspace."""
         space = self._safety.limits.workspace
         return 0.0 if space is None else space.outside(self._arm.state().tool.position)
+
+    @property
+    def tool_target(self) -> tuple[Reference, Compliance] | None:
+        """What the tool shall do, in the axes of the arm's base, as of the last period; None while joints are moved."""
+        task = self._task
+        return None if task.joints is not None else (task.tool.reference, task.tool.compliance.applied)
 
     def step(self, now: float) -> None:
         """Run one control period at `now` s. ControlError if a measurement or a command is not finite."""

@@ -107,6 +107,31 @@ class VelocityGains:
 
 
 @dataclass(frozen=True, slots=True)
+class RobotGains:
+    """Gains of a law that runs on the robot's side, as far as they have to be known here.
+
+    damping_floor N s/m: how that law brakes a released axis.
+    """
+
+    damping_floor: float
+
+    @property
+    def mode(self) -> Mode:
+        """The commands for the joints: positions; the tool gets targets."""
+        return "position"
+
+    @property
+    def needs_force(self) -> bool:
+        """Whether the law needs a measured wrench: yes, nothing else tells here what the tool touches."""
+        return True
+
+    @property
+    def release_damping(self) -> float:
+        """Force per speed of a released axis, N s/m."""
+        return self.damping_floor
+
+
+@dataclass(frozen=True, slots=True)
 class OwnGains:
     """What the law of a user reads from the data sheet: `number` returns any number of it.
 
@@ -125,7 +150,7 @@ class OwnGains:
         return self.number("dampingFloor") if self.mode == "torque" else 1 / self.number("admittance")
 
 
-LawGains: TypeAlias = ImpedanceGains | ForwardDynamicsGains | VelocityGains | OwnGains
+LawGains: TypeAlias = ImpedanceGains | ForwardDynamicsGains | VelocityGains | RobotGains | OwnGains
 """The gains of one kind of controller.
 
 mode: the commands that it gives; needs_force: whether it needs a measured wrench; release_damping N s/m: force per
@@ -194,6 +219,10 @@ def _read_velocity(number: NumberReader) -> VelocityGains:
     return VelocityGains(_read_forward_dynamics(number), number("trackingRate"), number("trackingTime"))
 
 
+def _read_robot(number: NumberReader) -> RobotGains:
+    return RobotGains(number("dampingFloor"))
+
+
 def _read_impedance(number: NumberReader) -> ImpedanceGains:
     floors = number("dampingFloor"), number("rotationalDampingFloor")
     return ImpedanceGains(*floors, number("nullspaceStiffness"), number("torqueRate"))
@@ -204,6 +233,7 @@ CONTROLLERS: Mapping[str, Callable[[NumberReader], LawGains]] = MappingProxyType
         "forward_dynamics": _read_forward_dynamics,
         "forward_dynamics_velocity": _read_velocity,
         "impedance": _read_impedance,
+        "on_robot": _read_robot,
     }
 )
 """Functions that read the gains of each controller from a data sheet, by the name of the controller."""

@@ -16,6 +16,7 @@ from skillc.cli.completions import complete_scene
 from skillc.cli.console import print_remark
 from skillc.cli.diagnostics_output import FORMS, JSON, exit_code, print_diagnostics
 from skillc.cli.options import PATH, json_option
+from skillc.cli.serving import require_ros2
 from skillc.cli.slow_notice import notice_if_slow
 from skillc.cli.struct_options import struct_options
 from skillc.services.checking import (
@@ -33,6 +34,7 @@ skillc check
 skillc check --fix
 skillc check parts.skill --scene cell.ttl
 skillc check --format github
+skillc check --scene cell.ttl --connect
 """
 
 
@@ -58,6 +60,7 @@ class CheckOptions(msgspec.Struct, frozen=True, kw_only=True):
     watch: bool
     stdin_filename: Path | None
     cache: bool
+    connect: bool
     as_json: bool
 
 
@@ -77,6 +80,9 @@ class CheckOptions(msgspec.Struct, frozen=True, kw_only=True):
 @click.option("--watch", is_flag=True, help="Check again whenever a file changes, until interrupted.")
 @click.option("--stdin-filename", type=PATH, help="The path of the file that is read from `-`.")
 @click.option("--cache/--no-cache", default=True, show_default=True, help="Reuse the results of unchanged files.")
+@click.option(
+    "--connect", is_flag=True, help="Compare the facts of --scene with the topics and services that ROS 2 has now."
+)
 @json_option
 @struct_options(CheckOptions)
 def command(asked: CheckOptions) -> int:
@@ -86,6 +92,8 @@ def command(asked: CheckOptions) -> int:
     the one of --scene.
     """
     _refuse_contradictions(asked)
+    if asked.connect:
+        return _check_connection(asked.scene)
     request, form = _make_request(asked), JSON if asked.as_json else asked.form
     if asked.watch:
         return _watch(request, form)
@@ -103,8 +111,25 @@ def _refuse_contradictions(asked: CheckOptions) -> None:
         raise click.UsageError("--unsafe-fixes requires --fix or --diff")
     if asked.as_json and (asked.diff or asked.form != "full"):
         raise click.UsageError("--json cannot be used with --format or --diff")
+    if asked.connect and (asked.scene is None or asked.as_json or asked.diff or asked.fix or asked.watch):
+        raise click.UsageError("--connect requires --scene, and cannot be used with --json, --diff, --fix or --watch")
     if asked.watch and (STDIN in asked.paths or asked.fix or asked.diff):
         raise click.UsageError("--watch cannot be used with `-`, --fix or --diff")
+
+
+def _check_connection(scene: Path | None) -> int:
+    """Print what contradicts between a scene and ROS 2; nothing is moved."""
+    from skillc.cli.console import Terminal
+    from skillc.services.library_files import find_scene
+    from skillc.services.ros2_graph import find_contradictions
+
+    assert scene is not None, "it was required"
+    require_ros2("--connect")
+    found = find_contradictions(find_scene(scene), Terminal())
+    for each in found:
+        click.echo(each)
+    print_remark("the scene and ROS 2 contradict each other" if found else "ROS 2 has what the scene names")
+    return 1 if found else 0
 
 
 def _make_request(asked: CheckOptions) -> CheckRequest:

@@ -6,6 +6,7 @@ before anything moves, so it survives both.
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +15,7 @@ import msgspec
 
 from skillc.cli.command import Command
 from skillc.cli.options import PATH, grouped_option
-from skillc.cli.serving import DEFAULT_BIND, cell_options, parse_address, require_server
+from skillc.cli.serving import DEFAULT_BIND, cell_options, parse_address, require_ros2, require_server
 from skillc.cli.struct_options import struct_options
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ NETWORK = "Network"
 EXAMPLES = """
 skillc serve my_project --cell cell.ttl
 skillc serve wiping --cell iiwa_table.ttl --backend kinematic
+skillc serve wiping --cell iiwa_table.ttl --ros2
 skillc serve --bind 0.0.0.0:8421 --host cells.example.org:8421 --tls-cert chain.pem --tls-key key.pem
 """
 
@@ -37,6 +39,7 @@ class NetworkOptions(msgspec.Struct, frozen=True, kw_only=True):
     tls_cert: Path | None
     tls_key: Path | None
     proxy: str | None
+    ros2: bool
 
 
 @click.command(cls=Command, examples=EXAMPLES)
@@ -50,6 +53,7 @@ class NetworkOptions(msgspec.Struct, frozen=True, kw_only=True):
 )
 @grouped_option(NETWORK, "--tls-cert", type=PATH, help="Encrypt with this certificate and its chain (PEM).")
 @grouped_option(NETWORK, "--tls-key", type=PATH, help="The key of the certificate (PEM).")
+@grouped_option(NETWORK, "--ros2", is_flag=True, help="Publish the cells in ROS 2, and take orders there.")
 @grouped_option(NETWORK, "--behind-proxy", "proxy", metavar="ADDRESS", help="Take requests from this proxy only.")
 @struct_options(NetworkOptions)
 def command(
@@ -67,16 +71,19 @@ def command(
     A cell has the skills of the library in whose folder its scene is, otherwise those of the first one.
     """
     require_server()
+    if network.ros2:
+        require_ros2("--ros2")
     from skillc.cli.console import Terminal
     from skillc.server.cells import choose_cells
     from skillc.server.log import logging_to
+    from skillc.server.ros2_node import ros2_node
     from skillc.server.serve import serve
     from skillc.server.state import open_state
 
     listening = _make_listening(network)
     served = choose_cells(libraries or (Path(),), scenes, state, backend, seed)
-    with logging_to(log_file):
-        serve(served, listening, open_state(state, token_file), Terminal())
+    with logging_to(log_file), ros2_node() if network.ros2 else nullcontext() as start_node:
+        serve(served, listening, open_state(state, token_file), Terminal(), start_node)
 
 
 def _make_listening(network: NetworkOptions) -> Listening:

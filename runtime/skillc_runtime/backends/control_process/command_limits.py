@@ -53,6 +53,10 @@ class CommandLimits:
     def begin(self, mode: Mode, target: Array, bias: Array) -> None:
         """Start from rest, with the device's servos at `target` (nv,) in rad, or torques of `bias` (nv,) in N m."""
         self._since = 0.0
+        self.continue_from(mode, target, bias)
+
+    def continue_from(self, mode: Mode, target: Array, bias: Array) -> None:
+        """Go on from elsewhere, as `begin`, but not slowly: something else has moved the arm meanwhile."""
         self.rows[LAST] = self.rows[WANTED] = bias if mode == "torque" else target if mode == "position" else 0.0
         self.rows[LAST_SPEED] = self.rows[LAST_ACCELERATION] = 0.0
 

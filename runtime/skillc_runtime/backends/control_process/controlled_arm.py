@@ -14,10 +14,12 @@ from skillc_runtime.backends.control_process.link import (
     CommandView,
     ControlRefused,
     LinkAbilities,
+    LinkMode,
     StateView,
     make_command,
 )
 from skillc_runtime.backends.control_process.measured_arm import build_arm
+from skillc_runtime.backends.control_process.tool_target import fill_target, fill_tool
 from skillc_runtime.backends.simulation.driver_factory import read_setup
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.control.controller import ControlError
@@ -41,6 +43,7 @@ class ControlledArm:
         self.arm = build_arm(facts, names, abilities, period_s)
         self._setup = replace(read_setup(facts, self.arm, period_s), base=lambda: AT_BASE)
         self.mode = self.arm.interface
+        self.link_mode: LinkMode = "tool" if self.arm.has_own_law else self.mode
         self._carries_weight = abilities.carries_weight
         self._limits = CommandLimits(self.arm.limits, read_rate_limits(facts), period_s)
         self._out = make_command(facts.home.size)
@@ -75,9 +78,16 @@ class ControlledArm:
         self._check_joints(measured)
         with suppress(ControlError):  # The driver has commanded the arm to hold then, and `broken` says why.
             self.driver.step(now)
+        self._report_driver()
         slot, out, bias = self.arm.slot.command_for_device, self._out, self.driver.measured.state.bias
         out.buffer[:] = slot.buffer
         if out.kind[0] == NOTHING:
+            return out
+        if self.link_mode == "tool":
+            fill_tool(out, self.arm.tool_on_flange)
+        if self.link_mode == "tool" and (target := self.driver.tool_target) is not None:
+            fill_target(out, *target)
+            self._limits.continue_from(self.mode, measured.q, bias)
             return out
         try:
             self._limits.apply(self.mode, out.values, bias)
@@ -86,7 +96,6 @@ class ControlledArm:
             self.report(DeviceStop("protective-stop", str(error)))
         if self._carries_weight and self.mode == "torque":
             out.values[:] -= self.arm.weight_torques
-        self._report_driver()
         return out
 
     def look(self, measured: StateView, now: float) -> None:

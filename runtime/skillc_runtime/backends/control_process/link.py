@@ -124,8 +124,8 @@ class CommandView:
 
     kind (1,): place in `KINDS`. values (nv,): N m (with or without weight, see `LinkAbilities`), rad or rad/s.
 
-    The other entries say what the tool shall do, for a device whose own controller holds and pushes the tool (kind
-    "tool"); they are filled whenever the tool is controlled, and NaN while the joints are. Quaternions have w first.
+    The other entries say what the tool shall do, for a device that was taken for "tool", whose own controller holds and
+    pushes the tool; all but `on_flange` are NaN while the joints are controlled. Quaternions have w first.
     pose (7,): the tool centre point in the base, position in m and quaternion. twist (6,): its speed, [m/s; rad/s], in
     base axes. on_flange (7,): the tool centre point on the flange. axes (4,): the compliance frame, along the base.
     stiffness (6,): N/m and N m/rad, along `axes`; 0 where it yields. push (6,): the wrench that the tool shall exert on

@@ -217,7 +217,7 @@ class ControlLoop:
             raise ControlRefused(condition.sentence)
         self._arm.begin(self._measured, self._clock.now_s)
         self._link.set_load(self._arm.arm.hand, self._arm.arm.held)
-        self._link.take_control(self._arm.mode)
+        self._link.take_control(self._arm.link_mode)
         self._condition, self._phase = self._link.condition, "in-control"
 
     def _give_back(self) -> None:

@@ -68,6 +68,11 @@ class MeasuredArm(ModelledArm):
         return PointMass(self.payload.mass_kg, self._flange.inverse().apply(self.payload.centre))
 
     @property
+    def tool_on_flange(self) -> Pose:
+        """The tool centre point on the flange."""
+        return self._flange.inverse() @ self._tool
+
+    @property
     def weight_torques(self) -> Array:
         """The torques (nv,) in N m that carry arm, hand and load in the measured posture, at rest."""
         torques: Array = self._gravity[self._dofs] + self._carrying
@@ -111,7 +116,9 @@ class MeasuredArm(ModelledArm):
             data.ctrl[actuators], data.qfrc_applied[self._dofs], self._q, self._dq, self._bias,
             here.bias, self._carrying, here.mass_matrix, self.limits.effort,
         )  # fmt: skip
-        offered = tuple(mode for mode in facts.modes if mode in self._abilities.modes)
+        self.has_own_law = "tool" in self._abilities.modes
+        wanted_modes = ("position",) if self.has_own_law else facts.modes
+        offered = tuple(mode for mode in wanted_modes if mode in self._abilities.modes)
         if not offered:
             taken, wanted = " and ".join(self._abilities.modes), " and ".join(facts.modes)
             raise SheetError(f"the arm takes {wanted} commands in the scene; its device takes {taken} commands")

@@ -52,6 +52,9 @@ class ModelledArm(Arm):
     measures_effort: ClassVar[bool] = True
     """Whether `ArmState.effort` is what the motors exert."""
 
+    has_own_law: bool = False
+    """Whether the robot itself has a compliant law, which takes targets of the tool."""
+
     def __init__(
         self,
         facts: ArmSpec,

@@ -8,7 +8,7 @@ from math import inf
 from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.control.driver import CompliantArmDriver
-from skillc_runtime.control.gains import LawGains, UnknownController, read_gains
+from skillc_runtime.control.gains import LawGains, RobotGains, UnknownController, read_gains
 from skillc_runtime.control.safety import SafetyLimits, Workspace
 from skillc_runtime.control.setup import ArmSetup
 from skillc_runtime.control.virtual_arm import load_virtual_model
@@ -58,6 +58,11 @@ def read_setup(facts: ArmSpec, arm: ModelledArm, period_s: float) -> ArmSetup:
 def _switch_mode(facts: ArmSpec, arm: ModelledArm, law: LawGains) -> None:
     """Switch the arm to the commands of the law; SheetError if it cannot, or has no force sensor that the law needs."""
     short = facts.sheet.state.vocabulary.short
+    if isinstance(law, RobotGains) and not arm.has_own_law:
+        raise SheetError(
+            f"{short(facts.individual)} has the controller {facts.controller!r}, which runs on the robot's side: only "
+            "a back end of robots with Cartesian controllers has that"
+        )
     try:
         arm.switch(law.mode)
     except ModeRefused as refusal:

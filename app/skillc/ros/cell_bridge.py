@@ -1,0 +1,145 @@
+"""Connects a cell of a server with its topics: what the server tells is published, orders are passed on."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping
+from concurrent.futures import TimeoutError as Late
+from contextlib import aclosing
+from typing import Any
+
+import msgspec
+from msgspec import structs
+
+from skillc.client.async_cell import AsyncCell
+from skillc.client.async_server import AsyncServer
+from skillc.contract.cell import CellStatus
+from skillc.contract.operation import ENDS, OperationStatus
+from skillc.errors import SkillcError
+from skillc.events import NodeEnded, NodeStarted
+from skillc.ros.cell_topics import CellTopics, topic_name
+from skillc.ros.orders import CellOrder, OrderAnswer, carry_out, read_order
+
+RATE_HZ = 50.0
+ANSWER_S = 20.0
+"""How long an order may take, in s; it is not withdrawn then."""
+TREE_S = 0.2
+"""How often a tree that changes is published, in s."""
+JOINT_NAMES = """
+PREFIX skillc: <https://w3id.org/skillc/core#>
+PREFIX ros2: <https://w3id.org/skillc/ros2#>
+SELECT ?arm ?names WHERE {
+    { ?arm ros2:jointNames ?names } UNION { ?arm skillc:hasSheet ?sheet . ?sheet ros2:jointNames ?names }
+}
+"""
+
+
+class CellBridge:
+    """One cell; all but `order` is called in the event loop."""
+
+    def __init__(self, node: Any, server: AsyncServer, cell: AsyncCell) -> None:
+        self._server, self._cell, self._loop = server, cell, asyncio.get_running_loop()
+        self._topics = CellTopics(node, cell.name, self.order)
+        self._status: CellStatus | None = None
+        self._operations: dict[str, OperationStatus] = {}
+        self._followed: dict[str, asyncio.Task[None]] = {}
+
+    def order(self, order: CellOrder | str) -> OrderAnswer:
+        """Carry out an order and wait for that; called by threads of the node."""
+        found = read_order(order) if isinstance(order, str) else order
+        if isinstance(found, OrderAnswer):
+            return found
+        future = asyncio.run_coroutine_threadsafe(carry_out(found, self._cell), self._loop)
+        try:
+            return future.result(ANSWER_S)
+        except Late:
+            return OrderAnswer(False, f"the server has not answered within {ANSWER_S:g} s", found.operation, found.id)
+
+    async def show_motion(self) -> None:
+        """Publish what the cell can do, and then joints, wrenches and markers until the server ends."""
+        self._topics.tell("library", msgspec.json.encode(await self._cell.library()))
+        model, still = await self._cell.model(), await self._cell.poses()
+        names = {arm: tuple(map(_plain_joint, each.joints)) for arm, each in model.arms.items()}
+        names |= await self._find_names({model.individuals[arm].label: arm for arm in model.arms})
+        async with aclosing(self._cell.samples(RATE_HZ)) as samples:
+            async for sample in samples:
+                self._topics.show(structs.replace(sample, things=still | sample.things), model, names)
+
+    def take(self, status: CellStatus | OperationStatus) -> None:
+        """Publish how the cell is now, and follow the tree of each operation that goes on."""
+        match status:
+            case CellStatus():
+                self._status = status
+            case OperationStatus(state=state) if state in ENDS:
+                self._operations.pop(status.id, None)
+            case OperationStatus():
+                self._operations[status.id] = status
+                if status.id not in self._followed:
+                    self._followed[status.id] = asyncio.create_task(self._follow(status))
+        self._topics.tell("status", msgspec.json.encode(self._describe(status)))
+
+    def close(self) -> None:
+        """Follow no operation any more."""
+        for task in self._followed.values():
+            task.cancel()
+
+    def _describe(self, last: CellStatus | OperationStatus) -> dict[str, Any]:
+        cell = self._status
+        operations = [*self._operations.values()]
+        if isinstance(last, OperationStatus) and last.id not in self._operations:
+            operations.append(last)
+        return {
+            "cell": self._cell.name,
+            "state": None if cell is None else cell.state,
+            "reason": "" if cell is None else cell.reason,
+            "operations": [_describe_operation(each) for each in operations],
+        }
+
+    async def _find_names(self, arms: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
+        """Return the names of joints that the facts state, by the IRI of the arm; `arms` has those by short name."""
+        try:
+            rows = (await self._cell.query(JOINT_NAMES)).rows
+        except SkillcError:
+            return {}
+        return {arms[str(arm)]: tuple(str(names).split()) for arm, names in rows if arm in arms}
+
+    async def _follow(self, status: OperationStatus) -> None:
+        """Publish the tree of an operation whenever it changes, until it ends."""
+        operation = await self._server.operation(status.id)
+        nodes: dict[int, dict[str, Any]] = {}
+        due = 0.0
+        async with aclosing(operation.events()) as events:
+            async for envelope in events:
+                match envelope.event:
+                    case NodeStarted(node=node, parent=parent, kind=kind, name=name):
+                        nodes[node] = {"id": node, "parent": parent, "kind": kind, "name": name, "status": "running"}
+                    case NodeEnded(node=node, status=ended) if node in nodes:
+                        nodes[node]["status"] = ended
+                    case _:
+                        continue
+                if (now := self._loop.time()) >= due:
+                    due = now + TREE_S
+                    self._tell_tree(status.id, nodes)
+        self._tell_tree(status.id, nodes)
+
+    def _tell_tree(self, operation: str, nodes: dict[int, dict[str, Any]]) -> None:
+        self._topics.tell("tree", msgspec.json.encode({"operation": operation, "nodes": list(nodes.values())}))
+
+
+def _describe_operation(status: OperationStatus) -> dict[str, Any]:
+    request = status.request
+    return {
+        "id": status.id,
+        "what": request.task or request.goal or request.call or "",
+        "state": status.state,
+        "reason": status.reason,
+        "allowed": status.allowed,
+        "verified": status.verified,
+        "failure": None if status.failure is None else str(status.failure),
+    }
+
+
+def _plain_joint(name: str) -> str:
+    """Return the name of a joint of a cell's model as a name of ROS, such as `Ur5e_1_elbow`."""
+    device, _, joint = name.rpartition("/")
+    return f"{topic_name(device.rpartition(':')[2])}_{joint}" if device else joint

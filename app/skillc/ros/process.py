@@ -1,0 +1,86 @@
+"""The process of the node: `python -m skillc.ros.process`, with SKILLC_SERVER and SKILLC_TOKEN in its environment.
+
+It ends with the server, which has started it, or with its standard input.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import sys
+import threading
+from contextlib import aclosing, suppress
+from typing import Any
+
+from skillc.client.connecting import connect_async
+from skillc.client.errors import UnavailableError
+from skillc.contract.cell import CellStatus
+from skillc.errors import SkillcError
+from skillc.ros.cell_bridge import CellBridge
+from skillc_runtime.backends.ros2.session import Session
+from skillc_runtime.devices.backend import BackendUnavailable
+
+THREADS = 4
+"""How many orders are answered at the same time."""
+
+
+async def run(node: Any) -> None:
+    """Publish the cells of the server, and pass on orders, until the server ends."""
+    async with connect_async() as server:
+        bridges = {each.name: CellBridge(node, server, await server.cell(each.name)) for each in await server.cells()}
+        motions = [asyncio.create_task(_keep_showing(each)) for each in bridges.values()]
+        try:
+            async with aclosing(server.watch()) as changes:
+                async for status in changes:
+                    name = status.name if isinstance(status, CellStatus) else status.cell
+                    if name in bridges:
+                        bridges[name].take(status)
+        finally:
+            for bridge in bridges.values():
+                bridge.close()
+            for task in motions:
+                task.cancel()
+
+
+async def _keep_showing(bridge: CellBridge) -> None:
+    """Show what moves, again after the cell was off."""
+    while True:
+        with suppress(SkillcError):
+            await bridge.show_motion()
+        await asyncio.sleep(1.0)
+
+
+def main() -> int:
+    """Run the node; return the exit code."""
+    try:
+        session = Session("skillc")
+    except BackendUnavailable as error:
+        print(error, file=sys.stderr)
+        return 1
+    from rclpy.executors import MultiThreadedExecutor
+
+    executor = MultiThreadedExecutor(THREADS, context=session.node.context)
+    executor.add_node(session.node)
+    threading.Thread(target=executor.spin, daemon=True).start()
+    threading.Thread(target=_end_with_input, daemon=True).start()
+    try:
+        with suppress(UnavailableError, KeyboardInterrupt):
+            asyncio.run(run(session.node))
+    except SkillcError as error:
+        print(error, file=sys.stderr)
+        return 1
+    finally:
+        executor.shutdown(1.0)
+        session.close()
+    return 0
+
+
+def _end_with_input() -> None:
+    """End this process when the one that has started it is gone."""
+    sys.stdin.buffer.read()
+    os.kill(os.getpid(), signal.SIGINT)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

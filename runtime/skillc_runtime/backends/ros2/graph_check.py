@@ -1,0 +1,175 @@
+"""Compares the facts of a scene with what ROS 2 has now: what is missing, has another type or rate, or contradicts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.backends.ros2.cell import describe, joints_of
+from skillc_runtime.backends.ros2.commands import make_joint_commands
+from skillc_runtime.backends.ros2.facts import ArmInterface, read_base, read_gripper
+from skillc_runtime.backends.ros2.flange import FlangeTurn
+from skillc_runtime.backends.ros2.joint_states import JointOrder
+from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
+from skillc_runtime.backends.ros2.tool_commands import ToolCommands
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.state.world_state import WorldState
+
+LOOK_S, FIND_S = 2.0, 4.0
+"""How long messages are counted, after the first one was waited for so long at most, in s."""
+RATE_SHARE = 0.2
+"""By which share the rate of states may differ from that of the facts."""
+MOVES_RAD, MOVES_RAD_S = 0.01, 0.02
+"""What counts as a motion: a joint has moved so far, with this speed at least."""
+WEIGHS_N_M, WEIGHS_SHARE = 4.0, 0.5
+"""A joint that carries so much by the model, and measures this share of it the other way, is opposite to the model."""
+
+
+class Listened:
+    """The messages of one topic: how many there were, in which time, and what they had."""
+
+    def __init__(self, subscription: Subscription) -> None:
+        self.subscription, self.times = subscription, list[float]()
+
+    @property
+    def rate_hz(self) -> float:
+        """How many messages there were a second; 0 for fewer than three."""
+        return 0.0 if len(self.times) < 3 else (len(self.times) - 1) / (self.times[-1] - self.times[0])
+
+
+def check_graph(state: WorldState) -> Iterator[str]:
+    """Yield a sentence for each contradiction between a scene and ROS 2; SheetError, FrameError, BackendUnavailable."""
+    scene = read_scene_spec(state)
+    session = Session("skillc_check")
+    try:
+        for arm in scene.arms:
+            interface = describe(arm).interface
+            for each in _check_arm(arm, interface, session):
+                yield f"{interface.name}: {each}"
+            if arm.gripper is not None:
+                gripper = read_gripper(state, arm.gripper.individual, joints_of(str(arm.gripper.model)))
+                states = ((gripper.states, "sensor_msgs/msg/JointState", True),)
+                services = (gripper.open_service, gripper.close_service)
+                for each in (*_check_topics(states, session), *_check_services(services, session)):
+                    yield f"{gripper.name}: {each}"
+        for base in scene.bases:
+            driven = read_base(state, base.individual)
+            kinds = (
+                (driven.odometry, "nav_msgs/msg/Odometry", True),
+                (driven.goal, "geometry_msgs/msg/PoseStamped", False),
+            )
+            for each in _check_topics(kinds, session):
+                yield f"{driven.name}: {each}"
+    finally:
+        session.close()
+
+
+def _check_arm(arm: ArmSpec, facts: ArmInterface, session: Session) -> Iterator[str]:
+    order, first = JointOrder(facts.joints), None
+    states = Listened(session.subscribe(facts.states, "sensor_msgs/msg/JointState", facts.quality.reliable_states))
+    wrench = facts.wrench
+    forces = wrench and Listened(
+        session.subscribe(wrench.topic, "geometry_msgs/msg/WrenchStamped", facts.quality.reliable_states)
+    )
+    rows: list[Array] = []
+    until = monotonic() + FIND_S
+    while monotonic() < until:
+        session.wait(0.05)
+        if forces:
+            list(_take_all(forces))
+        rows.extend(order.values.copy() for _ in _take_all(states, only_if=order.read))
+        if rows and first is None:
+            first, until = monotonic(), monotonic() + LOOK_S
+    yield from _check_states(facts, states, order, session)
+    if forces and not forces.times:
+        yield describe_topic(session.node, forces.subscription.topic, forces.subscription.kind, offered=True)
+    if rows and not order.missing:
+        yield from _check_motion(facts.joints, np.array(rows))
+        yield from _check_posture(arm, facts, rows[-1])
+    yield from _check_commands(facts, str(arm.model), session)
+    services = facts.services
+    yield from _check_services((services.recover, services.tare), session)
+
+
+def _take_all(listened: Listened, only_if: Any = lambda _: True) -> Iterator[Any]:
+    """Yield the messages that have come, one after another, and count them."""
+    while (message := listened.subscription.take()) is not None:
+        if only_if(message):
+            listened.times.append(monotonic())
+            yield message
+
+
+def _check_states(facts: ArmInterface, states: Listened, order: JointOrder, session: Session) -> Iterator[str]:
+    if order.seen is None:
+        yield describe_topic(session.node, facts.states, states.subscription.kind, offered=True)
+        return
+    if order.missing:
+        there = ", ".join(order.seen)
+        yield f"{facts.states} has no {', '.join(order.missing)}, but {there} (ros2:jointNames)"
+    rate = states.rate_hz
+    if rate and abs(rate - facts.rate_hz) > RATE_SHARE * facts.rate_hz:
+        yield f"{facts.states} has {rate:.0f} messages a second; the facts say {facts.rate_hz:.0f} (ros2:updateRate)"
+
+
+def _check_motion(joints: tuple[str, ...], rows: Array) -> Iterator[str]:
+    """Yield the joints whose speeds have the other sign than the change of their positions, in what was seen."""
+    moved, speeds = rows[-1, 0] - rows[0, 0], np.nanmean(np.nan_to_num(rows[:, 1]), axis=0)
+    for name, way, speed in zip(joints, moved, speeds, strict=True):
+        if abs(way) > MOVES_RAD and abs(speed) > MOVES_RAD_S and way * speed < 0:
+            yield f"{name} moves by {way:+.2f} rad while it reports a speed of {speed:+.2f} rad/s"
+
+
+def _check_posture(arm: ArmSpec, facts: ArmInterface, last: Array) -> Iterator[str]:
+    """Yield joints outside their ranges, and those that carry weight in the other direction than the model says."""
+    model: Any = mujoco.MjModel.from_xml_path(str(Path(arm.model)))
+    data = mujoco.MjData(model)
+    q, _, effort = last
+    for name, value, (low, high) in zip(facts.joints, q, model.jnt_range, strict=True):
+        if not low - 0.01 <= value <= high + 0.01:
+            yield (
+                f"{name} is at {value:.2f}, and the model reaches from {low:.2f} to {high:.2f} rad: is it in degrees, "
+                "or are joints exchanged?"
+            )
+            return
+    data.qpos[: q.size] = q
+    mujoco.mj_forward(model, data)
+    weight = data.qfrc_bias[: q.size]
+    for name, carries, measured in zip(facts.joints, weight, effort, strict=True):
+        if facts.mode == "torque" and abs(carries) > WEIGHS_N_M and measured * carries < -WEIGHS_SHARE * carries**2:
+            yield (
+                f"{name} measures {measured:+.1f} N m, and carries {carries:+.1f} N m by the model: it turns opposite "
+                "to the model"
+            )
+
+
+def _check_commands(facts: ArmInterface, model: str, session: Session) -> Iterator[str]:
+    turn = FlangeTurn(model)
+    joints = make_joint_commands(facts, session, turn) if facts.command else None
+    commands = joints if facts.tool is None else ToolCommands(facts, facts.tool, joints, turn, session)
+    if commands is None:
+        return
+    until = monotonic() + LOOK_S
+    while (problem := commands.find_obstacle()) is not None and monotonic() < until:
+        session.wait(0.05)
+    if problem is not None:
+        yield problem.sentence
+
+
+def _check_topics(kinds: tuple[tuple[str, str, bool], ...], session: Session) -> Iterator[str]:
+    for topic, kind, offered in kinds:
+        ends = session.node.get_publishers_info_by_topic if offered else session.node.get_subscriptions_info_by_topic
+        if kind not in {each.topic_type for each in ends(topic)}:
+            yield describe_topic(session.node, topic, kind, offered)
+
+
+def _check_services(services: tuple[str, ...], session: Session) -> Iterator[str]:
+    there = dict(session.node.get_service_names_and_types())
+    for service in filter(None, services):
+        if "std_srvs/srv/Trigger" not in there.get(service, ()):
+            yield f"nobody offers the service {service} (std_srvs/srv/Trigger)"

@@ -1,0 +1,161 @@
+"""A gripper that ROS 2 drives: by the position of its first joint, or by services that open and close it."""
+
+from __future__ import annotations
+
+from threading import Thread
+from time import monotonic
+from typing import Any
+
+import numpy as np
+
+from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.ros2.facts import ARRAY, GripperInterface
+from skillc_runtime.backends.ros2.joint_states import JointOrder
+from skillc_runtime.backends.ros2.receiver import Receiver
+from skillc_runtime.backends.ros2.session import Session
+from skillc_runtime.backends.simulation.finger_sensor import NOISE_DEVIATIONS
+from skillc_runtime.backends.simulation.scene_spec import GripperSpec
+from skillc_runtime.devices.gripper import CLOSED_FURTHER_M, Gripper
+from skillc_runtime.motion.pose import Pose
+
+STILL_M, STILL_S = 0.0005, 0.25
+"""Fingers that have moved no further for this time are at rest."""
+BEGIN_S, REPEAT_S = 0.5, 0.05
+"""How long fingers may take to begin to move, and how often their command is repeated until then, in s."""
+NEAR_M = 0.002
+SERVICE_S = 5.0
+
+
+class Ros2Gripper(Gripper):
+    """One gripper. Whether it is blocked is told by its opening: ROS has no common message for that."""
+
+    def __init__(
+        self, facts: GripperSpec, interface: GripperInterface, arm: RemoteArmDriver, receiver: Receiver
+    ) -> None:
+        """Subscribe to its joints; it can be used once the receiver has begun."""
+        self._facts, self._interface, self._arm, self._receiver = facts, interface, arm, receiver
+        self._order = JointOrder(interface.joints[:1])
+        quality = interface.quality
+        self.feed = receiver.feed(interface.states, "sensor_msgs/msg/JointState", quality.reliable_states, self._take)
+        self._publishers = {
+            topic: receiver.session.publish(topic, ARRAY, quality.reliable_commands)
+            for topic in (interface.command, interface.effort)
+            if topic
+        }
+        self._opening_m = self._goal_m = self._rested_at_m = facts.first_opening_m
+        self._moved_s = self._commanded_s = self._sent_s = -np.inf
+        self._force_n = facts.max_force_n
+        self._is_idle = True
+        self._thing: str | None = None
+        self._held_at_m = 0.0
+        self._fault: str | None = None
+
+    @property
+    def max_opening_m(self) -> float:
+        """The greatest distance between the fingers in m."""
+        return self._facts.max_opening_m
+
+    @property
+    def max_force_n(self) -> float:
+        """The greatest grasping force in N."""
+        return self._facts.max_force_n
+
+    @property
+    def opening_m(self) -> float:
+        """The measured distance between the fingers in m."""
+        with self._receiver.lock:
+            return self._opening_m
+
+    @property
+    def opening_error_m(self) -> float:
+        """The greatest error of the measured opening in m."""
+        return self._facts.opening_bias_m + NOISE_DEVIATIONS * self._facts.opening_noise_m
+
+    @property
+    def moving(self) -> bool:
+        """Whether the fingers still move towards the commanded opening."""
+        has_begun = self._moved_s > self._commanded_s
+        rests_at = self._moved_s + STILL_S if has_begun else self._commanded_s + BEGIN_S
+        if not self._is_idle and monotonic() > rests_at:
+            self._is_idle = True
+        return not self._is_idle
+
+    @property
+    def blocked(self) -> bool:
+        """Whether the fingers rest, wider than they were told to close."""
+        return not self.moving and self.opening_m > self._goal_m + NEAR_M + self.opening_error_m
+
+    @property
+    def holding(self) -> str | None:
+        """The IRI of the object that counts as held; None as soon as the fingers close further: it was lost."""
+        closed = self.opening_m < self._held_at_m - min(CLOSED_FURTHER_M, self._held_at_m / 2)
+        return None if closed else self._thing
+
+    @property
+    def fault(self) -> str | None:
+        """Why a service that moves it has not succeeded; None if it has."""
+        return self._fault
+
+    def move(self, opening_m: float, force_n: float) -> None:
+        """Move the fingers to an opening in m with at most a force in N; returns at once."""
+        self._goal_m = min(max(opening_m, 0.0), self._facts.max_opening_m)
+        self._is_idle, self._commanded_s = False, monotonic()
+        facts = self._interface
+        if facts.open_service:
+            opens = self._goal_m > self.opening_m
+            Thread(target=self._call, args=(facts.open_service if opens else facts.close_service,), daemon=True).start()
+            self._goal_m = self._facts.max_opening_m if opens else 0.0
+            return
+        self._force_n = min(force_n, self._facts.max_force_n)
+        self._send()
+
+    def stop(self) -> None:
+        """Stop the fingers at their present opening; those that services move go on."""
+        if not self._interface.open_service:
+            self._goal_m = self.opening_m
+            self._send()
+        self._is_idle = True
+
+    def attach(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
+        """Count an object as held; RuntimeError if the fingers are not blocked, or the scene has no body of it."""
+        if not self.blocked:
+            raise RuntimeError(f"nothing keeps the fingers of {self._interface.name} from closing")
+        self._arm.hold(thing, in_tool_centre, mass_kg)
+        self._thing, self._held_at_m = thing, self.opening_m
+
+    def detach(self) -> None:
+        """Count nothing as held."""
+        if self._thing is not None:
+            self._thing = None
+            self._arm.set_load(None)
+
+    def _take(self, message: Any) -> None:
+        if not self._order.read(message) or self._order.missing:
+            return
+        facts = self._interface
+        self._opening_m = facts.at_zero_m + facts.per_unit * float(self._order.positions[0])
+        if abs(self._opening_m - self._rested_at_m) > STILL_M:
+            self._rested_at_m, self._moved_s = self._opening_m, monotonic()
+        elif not self._is_idle and self._moved_s < self._commanded_s and monotonic() > self._sent_s + REPEAT_S:
+            self._send()
+
+    def _send(self) -> None:
+        """Publish force and opening; nothing for a gripper with services."""
+        facts, self._sent_s = self._interface, monotonic()
+        if facts.effort:
+            self._publish(facts.effort, self._force_n)
+        if facts.command:
+            self._publish(facts.command, (self._goal_m - facts.at_zero_m) / facts.per_unit)
+
+    def _publish(self, topic: str, value: float) -> None:
+        publisher = self._publishers[topic]
+        count = 1 if topic == self._interface.effort else len(self._interface.joints)
+        publisher.publish(publisher.msg_type(data=[value] * count))
+
+    def _call(self, service: str) -> None:
+        """Call a service with a node of its own: it may take its time."""
+        session = Session(f"skillc_{self._interface.name.rpartition(':')[2].replace('-', '_')}")
+        try:
+            self._fault = session.call(service, SERVICE_S)
+        finally:
+            session.close()

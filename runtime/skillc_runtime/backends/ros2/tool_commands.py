@@ -1,0 +1,105 @@
+"""Publishes what a Cartesian controller on the robot's side shall do: target pose, stiffness and wrench."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from skillc_runtime.backends.control_process.link import CommandKind, CommandView, Condition
+from skillc_runtime.backends.ros2.commands import JointCommands, Target
+from skillc_runtime.backends.ros2.facts import ArmInterface, ToolTopics
+from skillc_runtime.backends.ros2.flange import FlangeTurn
+from skillc_runtime.backends.ros2.session import Session
+from skillc_runtime.motion.arrays import OutVector
+from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
+
+OBLIQUE = 0.05
+"""A stiffness may have this share of its greatest part off the axes in which the controller takes it."""
+
+POSE, WRENCH = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/WrenchStamped"
+
+
+class ToolCommands:
+    """Implements `Commands` for an arm whose own law holds the tool.
+
+    A motion of the joints is commanded to `joints`, the topic of joint commands; where there is none, to the pose that
+    the flange has in that posture.
+    """
+
+    def __init__(
+        self, facts: ArmInterface, tool: ToolTopics, joints: JointCommands | None, turn: FlangeTurn, session: Session
+    ) -> None:
+        reliable = facts.quality.reliable_commands
+        self._tool, self._joints, self.turn_to_flange = tool, joints, turn
+        self._pose = Target(session, tool.pose, POSE, reliable)
+        self._stiffness = Target(session, tool.stiffness, WRENCH, reliable) if tool.stiffness else None
+        self._wrench = Target(session, tool.wrench, WRENCH, reliable) if tool.wrench else None
+        for target in (self._pose, self._stiffness, self._wrench):
+            if target is not None:
+                target.message.header.frame_id = tool.frame
+        self._on_flange: Pose | None = None
+
+    def begin(self, q: Array) -> None:
+        """Push with nothing, and hold the flange where it is, with the joints at q (nv,) in rad."""
+        self._send_six(self._wrench, np.zeros(6))
+        self._send_posture(q)
+
+    def send(self, kind: CommandKind, command: CommandView) -> str | None:
+        """Publish a command; return why the controller cannot be told to yield like that, or None."""
+        self._on_flange = in_flange = Pose.of(command.on_flange[:3], command.on_flange[3:])
+        if kind != "tool":
+            self._send_six(self._wrench, np.zeros(6))
+            if self._joints is not None:
+                return self._joints.send(kind, command)
+            self._send_posture(command.values)
+            return None
+        tool = Pose.of(command.pose[:3], command.pose[3:])
+        flange = tool @ in_flange.inverse()
+        self._send_pose(flange if self._tool.of_flange else tool)
+        axes = self._message_axes(flange).T @ rotation_from_quaternion(command.axes)
+        stiffness = [axes @ np.diag(part) @ axes.T for part in (command.stiffness[:3], command.stiffness[3:])]
+        force, moment = axes @ command.push[:3], axes @ command.push[3:]
+        if self._tool.of_flange:
+            lever = self._message_axes(flange).T @ (tool.position - flange.position)
+            moment = moment + np.cross(lever, force)
+        self._send_six(self._stiffness, np.concatenate([np.diag(each) for each in stiffness]))
+        self._send_six(self._wrench, np.concatenate([force, moment]))
+        if any(np.abs(each - np.diag(np.diag(each))).max() > OBLIQUE * each.max() for each in stiffness):
+            return f"{self._tool.stiffness} takes a stiffness along the axes of {self._tool.frame}, not across them"
+        return None
+
+    def rest(self, q: Array) -> None:
+        """Push with nothing, and hold the flange where it is, with the joints at q (nv,) in rad."""
+        self.begin(q)
+
+    def find_obstacle(self) -> Condition | None:
+        """Return why commands would have no effect, or contend with those of others."""
+        targets = [each for each in (self._pose, self._stiffness, self._wrench, self._joints) if each is not None]
+        return next((found for each in targets if (found := each.find_obstacle()) is not None), None)
+
+    def _message_axes(self, flange: Pose) -> Array:
+        """Return the axes (3, 3), in base, along which stiffness and wrench are published."""
+        return flange.rotation if self._tool.along_flange else np.eye(3)
+
+    def _send_posture(self, q: Array) -> None:
+        """Publish the pose that the flange has with the joints at q (nv,) in rad."""
+        position, rotation = self.turn_to_flange.flange(q)
+        flange = Pose(position, rotation)
+        if self._tool.of_flange:
+            self._send_pose(flange)
+        elif self._on_flange is not None:
+            self._send_pose(flange @ self._on_flange)
+
+    def _send_pose(self, pose: Pose) -> None:
+        at, turn = self._pose.message.pose.position, self._pose.message.pose.orientation
+        at.x, at.y, at.z = pose.position.tolist()
+        turn.w, turn.x, turn.y, turn.z = quaternion_from_rotation(pose.rotation).tolist()
+        self._pose.publisher.publish(self._pose.message)
+
+    def _send_six(self, target: Target | None, six: OutVector) -> None:
+        if target is None:
+            return
+        part: Any = target.message.wrench
+        part.force.x, part.force.y, part.force.z, part.torque.x, part.torque.y, part.torque.z = six.tolist()
+        target.publisher.publish(target.message)

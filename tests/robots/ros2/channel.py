@@ -1,0 +1,80 @@
+"""Options and report of a simulated robot, and the channel that loses and delays its messages."""
+
+from __future__ import annotations
+
+import random
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from heapq import heappop, heappush
+from itertools import count
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Options:
+    """What the peer is.
+
+    rate_hz: how often states are published and commands taken. control: the controllers that are active. loss: the
+    share of messages that get lost, in each direction; jitter_s: the greatest delay of those that do not. reverse:
+    joint states are in reverse order. degrees: they are in degrees, as no driver should publish them. exact: there are
+    no differences from the facts of the scene; otherwise `seed` draws them. seconds: after which the process ends.
+    """
+
+    scene: str
+    report: str = ""
+    rate_hz: float = 250.0
+    control: Literal["position", "velocity", "effort", "trajectory", "cartesian", "none"] = "position"
+    namespace: str = ""
+    joint_names: dict[str, str] = field(default_factory=dict)
+    loss: float = 0.0
+    jitter_s: float = 0.0
+    reverse: bool = False
+    degrees: bool = False
+    exact: bool = True
+    seed: int = 0
+    pace: float = 1.0
+    seconds: float = 600.0
+
+
+@dataclass
+class Report:
+    """What the peer has seen: commands beyond limits, with the first ones in words, and what was pressed on."""
+
+    commands: int = 0
+    beyond_limits: int = 0
+    examples: list[str] = field(default_factory=list)
+    greatest_force_n: float = 0.0
+    coverage: dict[str, float] = field(default_factory=dict)
+    late_s: float = 0.0
+    holds: dict[str, str] = field(default_factory=dict)
+
+    def complain(self, problem: str) -> None:
+        """Count a command beyond a limit."""
+        self.beyond_limits += 1
+        if len(self.examples) < 5:
+            self.examples.append(problem)
+
+
+class Channel:
+    """Loses and delays messages."""
+
+    def __init__(self, options: Options) -> None:
+        self._options, self._random = options, random.Random(options.seed)
+        self._waiting: list[tuple[float, int, Callable[[], None]]] = []
+        self._number = count()
+
+    def carry(self, deliver: Callable[[], None]) -> None:
+        """Deliver a message now, later or never."""
+        if self._random.random() < self._options.loss:
+            return
+        if self._options.jitter_s == 0.0:
+            deliver()
+            return
+        due = time.monotonic() + self._random.random() * self._options.jitter_s
+        heappush(self._waiting, (due, next(self._number), deliver))
+
+    def deliver_due(self) -> None:
+        """Deliver what is due."""
+        while self._waiting and self._waiting[0][0] <= time.monotonic():
+            heappop(self._waiting)[2]()

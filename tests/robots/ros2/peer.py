@@ -1,0 +1,204 @@
+"""A simulated cell behind the topics of ROS 2, as a process of its own: the robot's side, for tests.
+
+`python peer.py OPTIONS`, a JSON object with the fields of `Options`. Joints, grippers and bases are those of a scene,
+moved by MuJoCo; nothing of the back end `ros2` is imported. What is commanded beyond the limits of the joints, and what
+the tools press on, is written to the file `report` when the process gets SIGTERM.
+"""
+
+from __future__ import annotations
+
+import json
+import signal
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import rclpy
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Bool, Float64
+from std_srvs.srv import Trigger
+
+from robots.ros2.channel import Channel, Options, Report
+from robots.ros2.controllers import Arm, Base, Hand
+from skillc_dsl.source import Source
+from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.load import load
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.simulation.variation import exact_variation
+from skillc_runtime.control.driver import CompliantArmDriver
+from skillc_runtime.devices.arm import Command
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER
+
+BEHIND_S = 0.05
+"""A peer that has not been run in time makes up for this much, and loses the rest."""
+
+
+class PeerCell(SimulatedCell):
+    """A cell whose arms do what was commanded last, without any control of ours."""
+
+    commands: dict[str, Callable[[float], Command | None]]
+
+    def _control(self, individual: str, arm: CompliantArmDriver, now: float) -> None:
+        command = self.commands[individual](now)
+        self.arms[individual].state()
+        if command is not None:
+            self.arms[individual].command(command)
+
+
+class Peer:
+    """The process: a node, a cell, and what it publishes."""
+
+    def __init__(self, options: Options) -> None:
+        self.options, self.report, self.channel = options, Report(), Channel(options)
+        self._context = Context()
+        rclpy.init(context=self._context)
+        self._node = Node("robot", namespace=options.namespace or None, context=self._context, enable_rosout=False)
+        self._subscriptions: list[tuple[Any, Any, Callable[[Any], None]]] = []
+        self._executor = rclpy.executors.SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        reality = {"reality": lambda scene, _: exact_variation(scene)} if options.exact else {}
+        steps = round(1000.0 / options.rate_hz)
+        vocabulary = load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
+        state = load_scene(Path(options.scene), vocabulary)
+        remote = [each for each in state.instances(ARM_DEVICE) if state.value(each, COMPLIANT_CONTROLLER) == "on_robot"]
+        # The drivers of the cell are not used; they are made for a law that MuJoCo has.
+        world = WorldModel(
+            state.with_changes([SetProperty(each, COMPLIANT_CONTROLLER, "impedance") for each in remote])
+        )
+        self.cell = PeerCell(world, options.seed, steps_per_command=steps, **reality)
+        self.arms = {each.individual: Arm(each.individual, self) for each in self.cell.scene.arms}
+        self.cell.commands = {name: arm.command for name, arm in self.arms.items()}
+        hands = [each.gripper.individual for each in self.cell.scene.arms if each.gripper is not None]
+        self.hands = {each: Hand(each, self) for each in hands}
+        self.bases = [Base(each.individual, self) for each in self.cell.scene.bases]
+        self._states = self.publisher("joint_states", JointState)
+        latched = QoSProfile(depth=1, durability=rclpy.qos.DurabilityPolicy.TRANSIENT_LOCAL)
+        self._running = self._node.create_publisher(Bool, "robot_program_running", latched)
+        self._running.publish(Bool(data=True))
+        self.serve("stop_program", lambda: self._run_program(False))
+        self.serve("resend_program", lambda: self._run_program(True))
+        self._shares = {
+            each: self.publisher(
+                f"{self.cell.scene.names[each].rpartition(':')[2].replace('-', '_')}/clean_share", Float64
+            )
+            for each in self.cell.coverage
+        }
+        self.ended, self._next_call = False, 0.0
+
+    def subscribe(self, topic: str, kind: Any, take: Callable[[Any], None]) -> None:
+        """Take the messages of a topic."""
+        quality = QoSProfile(depth=10)
+        self._subscriptions.append((self._node.create_subscription(kind, topic, lambda _: None, quality), kind, take))
+
+    def publisher(self, topic: str, kind: Any) -> Any:
+        """Return a publisher."""
+        return self._node.create_publisher(kind, topic, QoSProfile(depth=10))
+
+    def serve(self, name: str, act: Callable[[], None]) -> None:
+        """Offer a service without arguments."""
+
+        def answer(_: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+            act()
+            response.success = True
+            return response
+
+        self._node.create_service(Trigger, name, answer)
+
+    def send(self, publisher: Any, message: Any) -> None:
+        """Publish a message through the channel."""
+        self.channel.carry(lambda: publisher.publish(message))
+
+    def stamp(self) -> Any:
+        """Return the present time as a message."""
+        return self._node.get_clock().now().to_msg()
+
+    def run(self) -> None:
+        """Run until SIGTERM, in time with the wall clock."""
+        period, pace = self.cell.period_s, self.options.pace
+        due, end = time.monotonic(), time.monotonic() + self.options.seconds
+        print("ready", flush=True)
+        while not self.ended and time.monotonic() < end:
+            self._receive()
+            self.channel.deliver_due()
+            if (now := time.monotonic()) < due:
+                time.sleep(min(due - now, 0.001))
+                continue
+            if now - due > BEHIND_S:
+                self.report.late_s += now - due
+                due = now
+            due += period / pace
+            self.cell.advance_period()
+            self.cell.publish()
+            self._publish()
+
+    def write_report(self) -> None:
+        """Write what was seen."""
+        names = self.cell.scene.names
+        for surface, coverage in self.cell.coverage.items():
+            self.report.coverage[names[surface]] = coverage.wiped_share
+        self.report.holds = {names[each]: hand.holds for each, hand in self.hands.items()}
+        if self.options.report:
+            Path(self.options.report).write_text(json.dumps(asdict(self.report), indent=1), encoding="utf-8")
+
+    def _run_program(self, on: bool) -> None:
+        self._running.publish(Bool(data=on))
+
+    def _receive(self) -> None:
+        """Take what has arrived: services by the executor, which takes ms, topics directly."""
+        if time.monotonic() > self._next_call:
+            self._executor.spin_once(timeout_sec=0.0)
+            self._next_call = time.monotonic() + 0.1
+        for subscription, kind, take in self._subscriptions:
+            while (found := subscription.handle.take_message(kind, False)) is not None:
+                self.channel.carry(lambda message=found[0], take=take: take(message))
+
+    def _publish(self) -> None:
+        parts = [each.publish() for each in (*self.arms.values(), *self.hands.values())]
+        names, positions, speeds, efforts = ([x for part in parts for x in part[k]] for k in range(4))
+        message = JointState()
+        message.header.stamp = self.stamp()
+        if self.options.degrees:
+            positions = np.degrees(positions).tolist()
+        order = -1 if self.options.reverse else 1
+        message.name, message.position = names[::order], positions[::order]
+        message.velocity, message.effort = speeds[::order], efforts[::order]
+        self.send(self._states, message)
+        for base in self.bases:
+            base.publish()
+        for surface, publisher in self._shares.items():
+            publisher.publish(Float64(data=float(self.cell.coverage[surface].wiped_share)))
+        for tool in self.cell.scene.tools:
+            force = self._pressing_n(tool.individual)
+            self.report.greatest_force_n = max(self.report.greatest_force_n, force)
+
+    def _pressing_n(self, tool: str) -> float:
+        live = self.cell.live.sensors
+        first = dict(live.faces)[tool]
+        return abs(float(self.cell.data.sensordata[first]))
+
+
+def main() -> None:
+    """Be the robot."""
+    peer = Peer(Options(**json.loads(sys.argv[1])))
+
+    def end(*_: object) -> None:
+        peer.ended = True
+
+    signal.signal(signal.SIGTERM, end)
+    signal.signal(signal.SIGINT, end)
+    peer.run()
+    peer.write_report()
+
+
+if __name__ == "__main__":
+    main()
