@@ -15,7 +15,7 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from robots.ur.emulator.test_port import PORT
+from robots.ur.emulator.panel import PORT
 from skillc_ontology.catalogue import ROOT
 
 WHITEBOARD = ROOT / "scenes/ur5e_whiteboard.ttl"

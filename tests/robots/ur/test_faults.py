@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from threading import Thread
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from robots.ur.linking import Loop, describe, swing
 from robots.ur.peer import Peer, running_peer, wait_until
 from robots.ur.proxy import running_proxy
-from robots.ur.tasks import ARM, PATIENT, compiled, opened, scene_of
+from robots.ur.tasks import ARM, PATIENT, compiled, opened, run_goal, scene_of
 from skillc_ontology import catalogue
 from skillc_runtime.backends.control_process.link import LinkLost
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
@@ -120,6 +121,24 @@ def test_a_protective_stop_in_motion_is_named_and_can_be_acknowledged(cell: Devi
     cell.stops.clear()
     assert cell.stops.report is None
     begin_to_move(cell, peer)
+    assert peer.tell()["violations"] == []
+
+
+def test_a_protective_stop_in_a_task_fails_it_with_the_cause(cell: DeviceCell, peer: Peer) -> None:
+    def step_in() -> None:
+        wait_until(lambda: np.abs(peer.tell()["dq"]).max() > 0.1, 60.0)
+        peer.do("protect")
+
+    library = compiled("contact")
+    goal = library.tasks["press_button"].goal
+    assert goal is not None
+    person = Thread(target=step_in, daemon=True)
+    person.start()
+    execution = run_goal(cell, scene_of(peer, BUTTON_CELL, library), library, goal)
+    person.join()
+    assert execution.status == "failed"
+    assert "has stopped by itself (protective stop)" in str(execution.failure)
+    wait_until(lambda: np.abs(peer.tell()["dq"]).max() < 1e-3)
     assert peer.tell()["violations"] == []
 
 

@@ -13,9 +13,9 @@ from time import monotonic
 
 from robots.ur.emulator.controller import Controller, Settings
 from robots.ur.emulator.grippers import RobotiqPort, WsgPort
+from robots.ur.emulator.panel import Panel
 from robots.ur.emulator.plant import STEP_S, Plant
 from robots.ur.emulator.rtde import RtdePort
-from robots.ur.emulator.test_port import TestPort
 from robots.ur.emulator.text_ports import Dashboard, ScriptPort
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
@@ -38,7 +38,7 @@ async def run(host: str, controller: Controller, patience_s: float) -> None:
     await rtde.serve(host)
     await Dashboard(controller).serve(host)
     await ScriptPort(controller).serve(host)
-    await TestPort(controller).serve(host)
+    await Panel(controller).serve(host)
     if controller.plant.hand is not None:
         await RobotiqPort(controller.plant).serve(host)
         await WsgPort(controller.plant).serve(host)

@@ -15,10 +15,8 @@ from robots.ur.emulator.judgement import judge_rubbing
 PORT = 30999
 
 
-class TestPort:
+class Panel:
     """Does what a person, an obstacle or a cable would do."""
-
-    __test__ = False
 
     def __init__(self, controller: Controller) -> None:
         self._controller = controller
