@@ -46,8 +46,8 @@ def skillc(project: Path, *words: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_it_is_found_and_what_is_not_there_is_named_with_what_is(project: Path) -> None:
-    assert list_backends() == ("cart", "kinematic", "mujoco")
-    with pytest.raises(RequestError, match=r"no backend `tram`; there are: cart, .*kinematic, mujoco\. .*install"):
+    assert {"cart", "kinematic", "mujoco"} <= set(list_backends())
+    with pytest.raises(RequestError, match=r"no backend `tram`; there are: cart, .*kinematic, mujoco.*\. .*install"):
         require_backend("tram")
 
 

@@ -1,0 +1,1 @@
+"""Drivers of devices that need no real time, such as grippers with a socket; back ends of real arms share them."""

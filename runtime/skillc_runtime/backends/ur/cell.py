@@ -1,0 +1,86 @@
+"""A cell of arms of Universal Robots, with their grippers and what is wired to their controllers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import ExitStack
+from dataclasses import replace
+from functools import partial
+
+from skillc_runtime.backends.control_process.handshake import USUAL_PATIENCE, Patience
+from skillc_runtime.backends.control_process.opening import open_cell
+from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.devices.fingers import Fingers
+from skillc_runtime.backends.devices.gripper_facts import open_gripper
+from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
+from skillc_runtime.backends.ur.description import UrDescription
+from skillc_runtime.backends.ur.facts import read_address, read_facts
+from skillc_runtime.backends.ur.io import InputButton, UrIo
+from skillc_runtime.devices.backend import BackendStart, BackendUnavailable, StopPersists
+from skillc_runtime.devices.sensors import Camera
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import UR
+from skillc_runtime.world.state.world_state import WorldState
+
+DIGITAL_INPUT = UR + "digitalInput"
+
+
+def make_backend(world: WorldModel, start: BackendStart) -> DeviceCell:
+    """Return a cell of arms of Universal Robots; it is `MakeBackend`."""
+    return open_arms(world)
+
+
+def open_arms(world: WorldModel, patience: Patience = USUAL_PATIENCE, inspection: Camera | None = None) -> DeviceCell:
+    """Return the cell of a world model; `inspection` is the camera that inspects surfaces, where there is one."""
+    state = world.snapshot()
+
+    def describe(facts: ArmSpec) -> UrDescription:
+        return UrDescription(read_facts(state, facts.individual, facts.sheet, facts.modes))
+
+    def make_devices(scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
+        return replace(_open_devices(state, scene, arms), inspection=inspection)
+
+    return open_cell(world, describe, make_devices, patience)
+
+
+def _open_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
+    """Connect to grippers, and to the inputs of the first controller where something is wired to them."""
+    with ExitStack() as opened:
+        grippers: dict[str, Fingers] = {}
+        for facts in scene.arms:
+            if facts.gripper is None:
+                continue
+            arm, address = arms[facts.individual], read_address(state, facts.individual)
+            fingers = open_gripper(state, facts.gripper, address, arm.hold, partial(arm.set_load, None))
+            opened.callback(fingers.close)
+            grippers[facts.gripper.individual] = fingers
+        wired = {
+            each: value for each in sorted(state.individuals) if (value := state.value(each, DIGITAL_INPUT)) is not None
+        }
+        io = _open_io(state, scene, opened) if wired else None
+        buttons = {} if io is None else {each: InputButton(io, int(str(number))) for each, number in wired.items()}
+        closing = opened.pop_all()
+
+    def find_fault() -> str | None:
+        faults = [each.find_fault() for each in grippers.values()] + ([] if io is None else [io.find_fault()])
+        return next((fault for fault in faults if fault is not None), None)
+
+    def recover() -> None:
+        try:
+            for each in grippers.values():
+                each.recover()
+        except BackendUnavailable as error:
+            raise StopPersists(str(error)) from error
+
+    return CellDevices(grippers=grippers, buttons=buttons, find_fault=find_fault, recover=recover, close=closing.close)
+
+
+def _open_io(state: WorldState, scene: SceneSpec, opened: ExitStack) -> UrIo:
+    if len(scene.arms) != 1:
+        raise SheetError("what ur:digitalInput is wired to is not stated where a scene has several arms")
+    arm = scene.arms[0].individual
+    io = UrIo(state.vocabulary.short(arm), read_address(state, arm))
+    opened.callback(io.close)
+    return io

@@ -1,0 +1,208 @@
+"""The link to one arm of Universal Robots: its controller clocks the loop at 500 Hz, or at 125 Hz before the e-Series.
+
+The client library connects again by itself, inside its calls and in its own threads, and may crash meanwhile. Therefore
+no command is sent to a controller that is silent or gone, connections that were lost are left to a thread that nobody
+waits for, and the program that obeys commands is uploaded by `take_control` alone: the library would upload it again.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+
+import numpy as np
+
+from skillc_runtime.backends.control_process.link import (
+    CommandView,
+    Condition,
+    ControlRefused,
+    LinkAbilities,
+    LinkLost,
+    LinkMode,
+    PointMass,
+    RobotLink,
+    StateView,
+)
+from skillc_runtime.backends.ur.dashboard import Dashboard
+from skillc_runtime.backends.ur.facts import UrFacts
+from skillc_runtime.backends.ur.leaving import Leaving
+from skillc_runtime.backends.ur.program import UrProgram
+from skillc_runtime.backends.ur.states import UrStates
+from skillc_runtime.devices.backend import StopPersists
+
+RELEASE_S = 1.0
+"""How long the release of a stop, and the end of a program, may take."""
+
+TORQUE_VERSION = (5, 26)
+"""Before this version of PolyScope the program of the library leaves joint torques out."""
+
+E_SERIES = 5
+"""The first version of PolyScope of the e-Series, which has a force-torque sensor and 500 Hz."""
+
+NO_MASS = PointMass(0.0, np.zeros(3))
+
+
+class UrLink(RobotLink):
+    """The connection to one arm, as ur-rtde offers it."""
+
+    def __init__(self, facts: UrFacts) -> None:
+        self._facts, self._name = facts, facts.name
+        self._states: UrStates | None = None
+        self._program: UrProgram | None = None
+        self._mode: LinkMode | None = None
+        self._leaving = Leaving()
+        self._is_tared, self._offset = False, np.zeros(6)
+        self._load, self._version = NO_MASS, (0, 0)
+        self._condition = Condition("wrong-mode", f"{self._name} is not connected")
+
+    @property
+    def period_s(self) -> float:
+        """The time between two states in s."""
+        return 0.002 if self._version[0] >= E_SERIES else 0.008
+
+    @property
+    def abilities(self) -> LinkAbilities:
+        """What the controller can do: it subtracts weight and offset from the wrench, and carries the arm."""
+        has_torques = self._version >= TORQUE_VERSION
+        return LinkAbilities(
+            modes=tuple(each for each in self._facts.modes if each != "torque" or has_torques),
+            wrench="without-weight" if self._version[0] >= E_SERIES else "none",
+            carries_weight=True,
+            tares=self._version[0] >= E_SERIES,
+            silence_s=self._facts.silence_s,
+        )
+
+    def connect(self) -> None:
+        """Connect to the dashboard server and to the exchange; BackendUnavailable, with what to do."""
+        self._drop()
+        with Dashboard(self._name, self._facts.address) as dashboard:
+            self._version = dashboard.version
+        self._states = UrStates(self._facts, self.period_s)
+        self._is_tared = False
+        self._offset[:] = 0.0
+        self._update_condition()
+
+    def read(self, state: StateView) -> None:
+        """Wait for the next state; LinkLost if none has come for `silence_s`."""
+        states = self._connected
+        states.await_next()
+        states.read(state)
+        np.subtract(state.wrench, self._offset, out=state.wrench)
+        self._update_condition()
+
+    def write(self, command: CommandView) -> None:
+        """Send a command of the mode that was taken; the condition says whether it has effect."""
+        if self._program is None or self._mode is None:
+            return
+        if not self._program.send(self._mode, command.values.tolist()):
+            self._update_condition()
+
+    @property
+    def condition(self) -> Condition:
+        """The condition as of the last `read` or `write`."""
+        return self._condition
+
+    def take_control(self, mode: LinkMode) -> None:
+        """Upload the program that obeys commands, and wait until it runs; ControlRefused, with what to do."""
+        if mode not in self.abilities.modes:
+            version = ".".join(map(str, self._version))
+            raise ControlRefused(f"{self._name} takes no {mode} commands; it has PolyScope {version}")
+        self.give_back()
+        self._update_condition()
+        if self._condition.kind != "ready":
+            raise ControlRefused(self._condition.sentence)
+        with Dashboard(self._name, self._facts.address) as dashboard:
+            if not dashboard.is_remote:
+                raise ControlRefused(
+                    f"{self._name} is in local control: switch its panel to remote control (upper right corner)"
+                )
+        self._program = UrProgram(self._facts, self.period_s, self._connected)
+        try:
+            self._program.start(self._load)
+            self._tare_once(self._program)
+        except ControlRefused:
+            self.give_back()
+            raise
+        self._mode = mode
+        self._update_condition()
+
+    def give_back(self) -> None:
+        """Let the controller brake, end the program, and disconnect; a silent controller brakes by its watchdog."""
+        program, mode, self._program, self._mode = self._program, self._mode, None, None
+        if program is None:
+            return
+        program.end(mode)
+        self._leaving.leave(program.connection)
+        states = self._connected
+        states.await_that(lambda: not states.executes, RELEASE_S)
+        self._update_condition()
+
+    def recover(self) -> None:
+        """Release a protective stop; StopPersists, with what somebody has to do."""
+        if self._condition.kind == "emergency-stop":
+            raise StopPersists(self._condition.sentence)
+        if self._condition.kind != "protective-stop":
+            return
+        self.give_back()
+        with Dashboard(self._name, self._facts.address) as dashboard:
+            if (refusal := dashboard.release_protective_stop()) is not None:
+                raise StopPersists(f"{self._name} does not release its protective stop: {refusal}")
+        states = self._connected
+        states.await_that(lambda: states.can_move, RELEASE_S)
+        self._condition = found = states.read_condition(controls=False)
+        if found.kind != "ready":
+            raise StopPersists(found.sentence)
+
+    def set_load(self, hand: PointMass, held: PointMass) -> None:
+        """Set the payload of the controller, which subtracts its weight from the wrench: hand and what it holds."""
+        self._load = _together(hand, held)
+        if self._program is not None:
+            self._program.set_load(self._load)
+
+    def tare(self) -> None:
+        """Let the wrench that is measured now be 0; ControlRefused without control."""
+        if self._program is None:
+            raise ControlRefused(f"{self._name} sets its sensor to 0 only under control: {self._condition.sentence}")
+        self._offset[:] = self._program.tare()
+
+    def close(self) -> None:
+        """Give control back and disconnect."""
+        with suppress(Exception):
+            self.give_back()
+        self._drop()
+        self._leaving.wait()
+        self._condition = Condition("wrong-mode", f"{self._name} is not connected")
+
+    @property
+    def _connected(self) -> UrStates:
+        if self._states is None:
+            raise LinkLost(f"{self._name} is not connected")
+        return self._states
+
+    def _update_condition(self) -> None:
+        found = self._connected.read_condition(controls=self._program is not None)
+        if found != self._condition:
+            self._condition = found
+
+    def _tare_once(self, program: UrProgram) -> None:
+        """Let the first wrench of a connection be 0, if it can be the offset of the sensor; ControlRefused."""
+        if self._is_tared or not self.abilities.tares:
+            return
+        if (problem := program.explain_force()) is not None:
+            raise ControlRefused(problem)
+        self._offset[:] = program.tare()
+        self._is_tared = True
+
+    def _drop(self) -> None:
+        """Leave all connections."""
+        for each in (self._program, self._states):
+            if each is not None:
+                self._leaving.leave(each.connection)
+        self._program = self._states = self._mode = None
+
+
+def _together(one: PointMass, other: PointMass) -> PointMass:
+    """Return two masses as one, at their common centre."""
+    mass = one.mass_kg + other.mass_kg
+    if mass <= 0.0:
+        return NO_MASS
+    return PointMass(mass, (one.mass_kg * one.centre + other.mass_kg * other.centre) / mass)

@@ -1,0 +1,117 @@
+"""What the controller of an arm sends in each cycle, as the client library receives it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from time import monotonic, sleep
+from typing import Any
+
+import numpy as np
+
+from skillc_runtime.backends.control_process.link import Condition, LinkLost, StateView
+from skillc_runtime.backends.ur.conditions import PLAYING, RUNNING, read_condition
+from skillc_runtime.backends.ur.facts import UrFacts
+from skillc_runtime.backends.ur.flange import FlangeModel
+from skillc_runtime.backends.ur.leaving import in_one_line
+from skillc_runtime.backends.ur.library import load_library
+from skillc_runtime.devices.backend import BackendUnavailable
+from skillc_runtime.motion.arrays import OutVector
+
+VARIABLES = [
+    "timestamp", "target_q", "actual_q", "actual_qd", "actual_TCP_pose", "actual_TCP_force", "robot_mode",
+    "runtime_state", "safety_status_bits", "speed_scaling", "target_speed_fraction",
+]  # fmt: skip
+
+WAIT_SHARE, LOOK_S, SLOW_LOOK_S = 0.6, 1e-4, 2e-3
+"""After a share of a period it is looked whether a new state is there, each so many s; slowly where there is time."""
+
+
+class UrStates:
+    """The connection that only reads."""
+
+    def __init__(self, facts: UrFacts, period_s: float) -> None:
+        """Connect; BackendUnavailable, with what to do."""
+        self._facts, self._name, self._period_s = facts, facts.name, period_s
+        self._flange = FlangeModel(facts.model)
+        self._stamp, self._next_s = -1.0, 0.0
+        try:
+            self.connection: Any = load_library("rtde_receive").RTDEReceiveInterface(
+                facts.address, 1.0 / period_s, VARIABLES
+            )
+        except RuntimeError as error:
+            raise BackendUnavailable(
+                f"{self._name} does not offer its Real-Time Data Exchange (port 30004): {in_one_line(error)}"
+            ) from error
+
+    @property
+    def is_connected(self) -> bool:
+        """Whether the connection is there, as far as the library has noticed."""
+        return bool(self.connection.isConnected())
+
+    @property
+    def executes(self) -> bool:
+        """Whether the controller executes a program."""
+        return bool(self.connection.getRuntimeState() == PLAYING)
+
+    @property
+    def can_move(self) -> bool:
+        """Whether the arm has power, and no protective stop."""
+        return self.connection.getRobotMode() == RUNNING and not self.connection.isProtectiveStopped()
+
+    @property
+    def force_n(self) -> float:
+        """The force on the tool in N."""
+        return float(np.linalg.norm(self.connection.getActualTCPForce()[:3]))
+
+    @property
+    def flange_error_m(self) -> float:
+        """How far the controller's tool centre point is from the flange of the model, in m."""
+        told, q = self.connection.getActualTCPPose()[:3], self.connection.getActualQ()
+        return float(np.linalg.norm(np.array(told) - self._flange.at(np.array(q))))
+
+    def is_alive(self) -> bool:
+        """Tell whether the controller still sends states."""
+        before = self.connection.getTimestamp()
+        return self.await_that(lambda: self.connection.getTimestamp() != before, self._facts.silence_s)
+
+    def await_that(self, holds: Callable[[], bool], seconds: float) -> bool:
+        """Wait until something holds, for so long; tell whether it does."""
+        until = monotonic() + seconds
+        while not (held := holds()) and monotonic() < until:
+            sleep(SLOW_LOOK_S)
+        return held
+
+    def await_next(self) -> None:
+        """Wait for the next state; LinkLost if none comes."""
+        receive, silence_s = self.connection, self._facts.silence_s
+        sleep(max(self._next_s - monotonic(), 0.0))
+        until = monotonic() + silence_s
+        while (stamp := receive.getTimestamp()) == self._stamp:
+            if not receive.isConnected():
+                raise LinkLost(f"{self._name} has closed the connection")
+            if monotonic() > until:
+                raise LinkLost(f"{self._name} has sent no state for {1e3 * silence_s:.0f} ms")
+            sleep(LOOK_S)
+        self._stamp, self._next_s = stamp, monotonic() + WAIT_SHARE * self._period_s
+
+    def read(self, state: StateView) -> None:
+        """Write the present state."""
+        receive = self.connection
+        state.stamp_s[0] = self._stamp
+        state.speed_share[0] = receive.getSpeedScaling() * receive.getTargetSpeedFraction()
+        state.q[:], state.dq[:], state.target[:] = receive.getActualQ(), receive.getActualQd(), receive.getTargetQ()
+        state.effort[:] = 0.0
+        self.read_wrench(state.wrench)
+
+    def read_wrench(self, out: OutVector) -> None:
+        """Write the present wrench (6,) on the flange, N and N m, along its axes."""
+        self._flange.move(np.array(self.connection.getActualQ()))
+        self._flange.on_flange(self.connection.getActualTCPForce(), out)
+
+    def read_condition(self, controls: bool) -> Condition:
+        """Return the condition; `controls`: whether the program that the controller executes is ours."""
+        receive = self.connection
+        return read_condition(
+            self._name, receive.getSafetyStatusBits(), receive.getRobotMode(), receive.getRuntimeState(),
+            controls=controls,
+        )  # fmt: skip

@@ -1,0 +1,1 @@
+"""The back end for Universal Robots, against an emulated controller."""

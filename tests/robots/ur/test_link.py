@@ -1,0 +1,240 @@
+"""The link to an arm of Universal Robots, against an emulated controller, with the library that users have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from robots.ur.linking import Loop, connected, describe, send, swing
+from robots.ur.peer import Peer, running_peer, wait_until
+from skillc_runtime.backends.control_process.link import ControlRefused, LinkLost, PointMass
+from skillc_runtime.backends.ur.link import UrLink
+from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
+
+pytest.importorskip("rtde_control", reason="ur-rtde is not installed: pip install 'skillc[ur]'")
+pytestmark = [pytest.mark.robot, pytest.mark.slow]
+
+
+@pytest.fixture(scope="module")
+def shared() -> Iterator[Peer]:
+    """A controller that all tests of the module may use, as long as they leave it in order."""
+    with running_peer("--unlock", "0.1") as peer:
+        yield peer
+
+
+@pytest.fixture
+def peer(shared: Peer) -> Iterator[Peer]:
+    """The controller, in order before and after."""
+    yield shared
+    shared.do("release")
+    assert shared.tell()["violations"] == []
+
+
+def test_it_reads_what_the_arm_measures_without_taking_control(peer: Peer) -> None:
+    with connected(peer) as loop:
+        loop.run(20)
+        told = peer.tell()
+        assert loop.link.condition.kind == "ready"
+        assert loop.state.q == pytest.approx(np.array(told["q"]), abs=1e-3)
+        assert np.isfinite(loop.state.buffer).all()
+        assert (told["runtime"], told["loaded"]) == ("STOPPED", 0)
+
+
+def test_it_moves_within_limits_and_gives_control_back(peer: Peer) -> None:
+    with connected(peer) as loop:
+        start = loop.state.q.copy()
+        loop.link.take_control("position")
+        assert loop.link.condition.kind == "in-control"
+        farthest = 0.0
+
+        def wanted(cycle: int, state: object) -> np.ndarray:
+            nonlocal farthest
+            farthest = max(farthest, loop.state.q[0] - start[0])
+            return swing(start, 0, 0.2, 500)(cycle, loop.state)
+
+        loop.run(600, wanted)
+        assert 0.19 < farthest < 0.21
+        assert loop.state.q == pytest.approx(start, abs=2e-3)
+        loop.link.give_back()
+        loop.run(5)
+        assert (loop.link.condition.kind, peer.tell()["runtime"]) == ("ready", "STOPPED")
+    assert 0.5 < peer.tell()["most"]["speed"] < 0.7
+
+
+def test_it_takes_joint_speeds(peer: Peer) -> None:
+    with connected(peer) as loop:
+        start = loop.state.q.copy()
+        loop.link.take_control("velocity")
+        before = loop.state.stamp_s[0]
+        loop.run(200, lambda _c, _s: np.array([0.1, 0.0, 0.0, 0.0, 0.0, 0.0]), "velocity")
+        seconds = loop.state.stamp_s[0] - before
+        loop.run(60, lambda _c, _s: np.zeros(6), "velocity")
+        assert 0.01 < loop.state.q[0] - start[0] < 0.12 * seconds + 0.01
+        assert np.abs(loop.state.dq).max() < 1e-3
+
+
+def test_the_wrench_is_that_on_the_flange_without_weight_and_offset(peer: Peer) -> None:
+    hand = PointMass(1.2, np.array([0.0, 0.0, 0.06]))
+    with connected(peer) as loop:
+        loop.link.set_load(hand, PointMass(0.0, np.zeros(3)))
+        loop.link.take_control("position")
+        start = loop.state.q.copy()
+        hold = lambda _c, _s: start  # noqa: E731
+        loop.run(20, hold)
+        assert peer.tell()["payload"] == pytest.approx(1.2)
+        loop.link.tare()
+        assert np.abs(mean_wrench(loop, hold)[:3]).max() < 0.3
+        peer.do("push", force_n=[0.0, 0.0, -10.0])
+        pushed = mean_wrench(loop, hold)
+        peer.do("push", force_n=[0.0, 0.0, 0.0])
+        rotation = flange_rotation(loop)
+        assert rotation @ pushed[:3] == pytest.approx([0.0, 0.0, -10.0], abs=0.5)
+
+
+def test_a_protective_stop_is_a_condition_until_it_is_acknowledged(peer: Peer) -> None:
+    with connected(peer) as loop:
+        loop.link.take_control("position")
+        start = loop.state.q.copy()
+        loop.run(50, swing(start, 0, 0.1, 400))
+        peer.do("protect")
+        loop.run(100, swing(start, 0, 0.1, 400))
+        assert loop.link.condition.kind == "protective-stop"
+        assert "has stopped by itself" in loop.link.condition.sentence
+        with pytest.raises(ControlRefused, match="has stopped by itself"):
+            loop.link.take_control("position")
+        loop.link.recover()
+        loop.run(5)
+        assert loop.link.condition.kind == "ready"
+        at_rest = np.array(peer.tell()["q"])
+        loop.link.take_control("position")
+        loop.run(50, lambda _c, _s: at_rest)
+        assert loop.link.condition.kind == "in-control"
+
+
+def test_a_stop_whose_cause_is_there_persists(peer: Peer) -> None:
+    with connected(peer) as loop:
+        loop.link.take_control("position")
+        peer.do("press")
+        loop.run(20)
+        assert loop.link.condition.kind == "emergency-stop"
+        with pytest.raises(StopPersists, match="release it, then switch the arm on"):
+            loop.link.recover()
+        peer.do("release")
+        loop.run(20)
+        assert loop.link.condition.kind == "wrong-mode"
+        assert "has no power" in loop.link.condition.sentence
+        peer.do("power")
+
+
+def test_control_is_not_taken_from_somebody_else(peer: Peer) -> None:
+    with connected(peer) as first, connected(peer) as second:
+        first.link.take_control("position")
+        for _ in range(10):
+            second.run(1)
+            first.run(1, lambda _c, state: state.q.copy())
+        assert second.link.condition.kind == "not-in-control"
+        with pytest.raises(ControlRefused, match="executes another program"):
+            second.link.take_control("position")
+        first.run(20, lambda _c, state: state.q.copy())
+        assert first.link.condition.kind == "in-control"
+
+
+def test_control_is_refused_in_local_mode(peer: Peer) -> None:
+    with connected(peer) as loop:
+        peer.do("remote", on=False)
+        with pytest.raises(ControlRefused, match="switch its panel to remote control"):
+            loop.link.take_control("position")
+        peer.do("remote", on=True)
+        with pytest.raises(ControlRefused, match=r"takes no torque commands; it has PolyScope 5\.23"):
+            loop.link.take_control("torque")
+
+
+def test_the_program_ends_when_commands_are_missing(peer: Peer) -> None:
+    with connected(peer) as loop:
+        loop.link.take_control("position")
+        start = loop.state.q.copy()
+        loop.run(100, swing(start, 0, 0.2, 500))
+        wait_until(lambda: peer.tell()["runtime"] == "STOPPED")
+        assert np.abs(peer.tell()["dq"]).max() < 1e-6
+        loop.run(5)
+        assert loop.link.condition.kind == "not-in-control"
+        assert "ur:commandTimeout" in loop.link.condition.sentence
+
+
+def test_a_slow_speed_slider_is_told(peer: Peer) -> None:
+    with connected(peer) as loop:
+        peer.do("slider", share=0.25)
+        loop.run(20)
+        assert loop.state.speed_share[0] == pytest.approx(0.25)
+        peer.do("slider", share=1.0)
+
+
+def test_silence_is_noticed_and_the_connection_comes_back() -> None:
+    with running_peer() as peer, connected(peer) as loop:
+        loop.link.take_control("position")
+        start = loop.state.q.copy()
+        wanted = swing(start, 0, 0.2, 500)
+        loop.run(100, wanted)
+        peer.pause()
+        with pytest.raises(LinkLost, match=r"Ur5e-1 at .* has sent no state for 500 ms"):
+            loop.run(1000, lambda cycle, state: wanted(100 + cycle, state))
+        peer.go_on()
+        wait_until(lambda: peer.tell()["runtime"] == "STOPPED")
+        loop.link.connect()
+        loop.run(20)
+        assert loop.link.condition.kind == "ready"
+        assert peer.tell()["violations"] == []
+        peer.kill()
+        with pytest.raises(LinkLost):
+            loop.run(1000)
+
+
+def test_a_controller_that_is_off_is_named() -> None:
+    link = UrLink(describe("127.0.0.99"))
+    with pytest.raises(BackendUnavailable, match=r"Ur5e-1 at 127\.0\.0\.99 \(port 29999\) does not answer"):
+        link.connect()
+    link.close()
+
+
+def test_an_arm_of_other_lengths_is_found_before_it_moves() -> None:
+    with running_peer("--lengths", "1.3") as peer, connected(peer) as loop:
+        with pytest.raises(ControlRefused, match=r"flange of .* is \d+ mm away from where its model says"):
+            loop.link.take_control("position")
+        assert (peer.tell()["commands"], peer.tell()["runtime"]) == (0, "STOPPED")
+
+
+def test_torques_move_an_arm_that_carries_itself() -> None:
+    with running_peer("--version", "5.26.0.100") as peer, connected(peer) as loop:
+        loop.link.take_control("torque")
+        start, before = loop.state.q.copy(), loop.state.q[0]
+        loop.run(100, lambda _c, _s: np.zeros(6), "torque")
+        assert loop.state.q == pytest.approx(start, abs=0.02)
+        loop.run(150, lambda _c, _s: np.array([8.0, 0.0, 0.0, 0.0, 0.0, 0.0]), "torque")
+        assert loop.state.q[0] - before > 0.02
+        send(loop.link, loop.command, "torque", np.zeros(6))
+        assert peer.tell()["violations"] == []
+
+
+def mean_wrench(loop: Loop, hold: object) -> np.ndarray:
+    """Return the mean of the wrench (6,) over 200 cycles, after it has settled."""
+    loop.run(100, hold)  # type: ignore[arg-type]
+    rows = []
+    for _ in range(200):
+        loop.run(1, hold)  # type: ignore[arg-type]
+        rows.append(loop.state.wrench.copy())
+    return np.mean(rows, axis=0)
+
+
+def flange_rotation(loop: Loop) -> np.ndarray:
+    """Return the axes (3, 3) of the flange in the arm's base, which stands upright in the world."""
+    import mujoco
+
+    from skillc_ontology.catalogue import model_path
+
+    model = mujoco.MjModel.from_xml_path(str(model_path("robots/ur5e.xml")))
+    data = mujoco.MjData(model)
+    data.qpos[:] = loop.state.q
+    mujoco.mj_kinematics(model, data)
+    return np.array(data.site("flange").xmat).reshape(3, 3)
