@@ -89,5 +89,7 @@ class Feed:
             reference=row[-24:].tobytes,
             base=arm.base,
             stamp=row[STAMP : STAMP + 1].tobytes,
+            velocity=row[-36:-33].tobytes,
+            force=row[-33:-30].tobytes,
             timing=row[LOST : LATE + 1].tobytes,
         )

@@ -14,7 +14,7 @@ TIME, STAMP, LOST, LATE = range(4)
 """The first entries of a row: s of the machine's clock and of the device's, cycles lost so far, s."""
 
 FIRST: Final = 4
-"""Where the rest of a row begins: q, dq (nv,), wrench (6,) and reference of the tool (24,), as in a snapshot."""
+"""Where the rest of a row begins: q, dq (nv,), then velocity (3,), force (3,), wrench (6,), reference (24,) of `LiveArm`."""
 
 
 class MemoryPlan:
@@ -25,7 +25,7 @@ class MemoryPlan:
 
     def __init__(self, joints: int) -> None:
         self.layout = SnapshotLayout(joints)
-        self.row_width = FIRST + 2 * joints + 6 + 24
+        self.row_width = FIRST + 2 * joints + 3 + 3 + 6 + 24
         self._record_end = 2 + self.layout.size
         self.size = self._record_end + 1 + ROWS * self.row_width
 

@@ -68,7 +68,7 @@ class Publisher:
         at["done"][0], at["stationary"][0] = driver.motion.done, driver.motion.stationary
         at["at_rest"][0], at["released"][0] = driver.at_rest, driver.compliance.released
         at["stiffness"][:] = driver.compliance.commanded_stiffness
-        at["force"][:] = driver.compliance.commanded_wrench
+        at["force"][:] = driver.compliance.commanded_force
         number, push = self._arm.last_push
         pressed_s = None if push is None else push.pressed_s
         at["push"][0], at["pressed_s"][0] = number, np.nan if pressed_s is None else pressed_s
@@ -77,6 +77,7 @@ class Publisher:
         row, joints, at = self._row, self._joints, self._at
         row[TIME], row[STAMP], row[LOST], row[LATE] = seen_s, at["stamp_s"][0], self._clock.lost, self._clock.late_s
         row[FIRST : FIRST + joints], row[FIRST + joints : FIRST + 2 * joints] = at["q"], at["dq"]
+        row[-36:-33], row[-33:-30] = self._arm.arm.live_velocity, self._arm.driver.compliance.live_force
         row[-30:-24] = at["wrench"]
         row[-24:] = np.frombuffer(self._arm.driver.motion.copy_tool_reference())
         self._ring.write(row)

@@ -46,9 +46,10 @@ class RemoteCompliance:
         return self._process.read().field("stiffness").copy()
 
     @property
-    def commanded_wrench(self) -> Array:
-        """The commanded wrench (6,) along the axes of the compliance frame, N and N m."""
-        return self._process.read().field("force").copy()
+    def commanded_force(self) -> Array:
+        """The force (3,) N, world axes, on the tool by what it presses on, as it is commanded; NaN without a push."""
+        force: Array = self._base().rotation @ self._process.read().field("force")
+        return force
 
     @property
     def released(self) -> bool:

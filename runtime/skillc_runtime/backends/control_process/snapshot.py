@@ -21,7 +21,7 @@ FIELDS: Final = {
     "time_s": "1", "stamp_s": "1", "phase": "1", "stopped": "1", "faulted": "1", "lost": "1", "late_s": "1",
     "busy_until_s": "1", "speed_share": "1", "done": "1", "stationary": "1", "at_rest": "1", "released": "1",
     "q": "n", "dq": "n", "bias": "n", "effort": "n", "position": "3", "rotation": "9", "jacobian": "6n", "mass": "nn",
-    "wrench": "6", "felt": "6", "contact": "6", "reference": "24", "path": "24", "stiffness": "6", "force": "6",
+    "wrench": "6", "felt": "6", "contact": "6", "reference": "24", "path": "24", "stiffness": "6", "force": "3",
     "push": "1", "pressed_s": "1",
 }  # fmt: skip
 """The sizes of the fields of a snapshot in order, n being the number of joints.
@@ -29,7 +29,7 @@ FIELDS: Final = {
 time_s: when the cycle began, by the clock of the machine. stopped, faulted: 1 if there is a `DeviceStop`, or a reason
 why the arm stopped by itself. lost: cycles so far in which the device has got no command, or sent no state. late_s: by
 how much the cycle began later than a period after the one before. busy_until_s: until when at the latest a call to the
-device keeps the loop from running. felt: NaN where nothing is felt. force: the commanded wrench. push: the number of
+device keeps the loop from running. felt: NaN where nothing is felt. force: as `commanded_force`. push: the number of
 the last push, 0 for none. Others: as in `ArmState`, `MotionInterface`, `ComplianceInterface` and `PushProgress`.
 """
 
