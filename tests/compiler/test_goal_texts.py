@@ -186,6 +186,7 @@ def test_calls() -> None:
         ("Wipe(surface: lab:Board)", "Wipe(surface: lab:Board)"),
         ("do Wipe(surface = lab:Board)", "Wipe(surface: lab:Board)"),
         ("(wipe lab:Board)", "Wipe(surface: lab:Board)"),
+        ("# the board\nWipe(lab:Board)", "Wipe(surface: lab:Board)"),
         ("Wipe", "Wipe(surface: ..)"),
     ],
 )

@@ -12,7 +12,7 @@ from skillc_model.format_condition import format_condition
 from skillc_model.skills import Skill
 from skillc_rdf.vocabulary.types import Vocabulary
 
-_FIRST = re.compile(r"[\s(]*(?:(?:do|goal|run|call)\s+)?(?P<name>[A-Za-z]\w*)(?![\w:.-])")
+_FIRST = re.compile(r"(?:[\s(]|[#;].*\n)*(?:(?:do|goal|run|call)\s+)?(?P<name>[A-Za-z]\w*)(?![\w:.-])")
 _INDIVIDUAL = re.compile(r"(?:\b(?P<label>\w+)\s*(?::|=)\s*)?(?P<name>\b[A-Za-z]\w*:[A-Za-z][\w-]*)")
 
 
