@@ -9,12 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
 from msgspec import structs
 
 from execution.test_repeat import recording
 from operating.monitors import Monitor
-from skillc.cli.main import skillc
 from skillc.services.reporting import SilentReporter
 from skillc.services.run_diff.objective import compare_objectives
 from skillc.services.running import RunOptions, run_task
@@ -39,6 +38,7 @@ from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.signals.files import CsvSink, ParquetSink, write_dictionary
 from skillc_runtime.recording.signals.signal import CLOCK, Signal
 from skillc_runtime.world.state.labelled import LabelledIri
+from why.projects import invoke
 from why.stories import written
 
 FORCE = Signal(column="Arm/sensor/force_z_n", device="x", origin="sensor", unit="N", frame="", description="force")
@@ -52,9 +52,7 @@ def ask(individual: str) -> Call:
 
 
 def diff(*arguments: object) -> Result:
-    result = CliRunner().invoke(skillc, ["diff", *map(str, arguments)])
-    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
-    return result
+    return invoke("diff", *arguments)
 
 
 def find_differences(folder: Path, edit: Edit) -> list[dict[str, Any]]:
