@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from skillc.errors import RequestError
+from skillc_dsl.spelling import did_you_mean
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
+from skillc_runtime.scene.checks.data_sheets import list_sheet_kinds
 from skillc_runtime.scene.load import load_sheets
-from skillc_runtime.world.state.terms import HAS_SHEET
+from skillc_runtime.world.state.terms import HAS_SHEET, SHEET
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -27,11 +29,14 @@ def find_sheet(cls: str, named: str | None, state: WorldState) -> str | None:
 
 
 def _look_up(name: str, state: WorldState) -> str:
-    short, known = state.vocabulary.short, load_sheets(state.vocabulary)
-    matching = sorted(each for each in known.individuals | state.individuals if name in (short(each), local_name(each)))
-    if len(matching) != 1:
-        raise RequestError(f"there is {'more than one' if matching else 'no'} data sheet {name}")
-    return matching[0]
+    short, known = state.vocabulary.short, load_sheets(state.vocabulary).instances(SHEET) | state.instances(SHEET)
+    matching = sorted(each for each in known if name in (short(each), local_name(each)))
+    if len(matching) == 1:
+        return matching[0]
+    if matching:
+        raise RequestError(f"there is more than one data sheet {name}: {', '.join(map(short, matching))}")
+    meant = did_you_mean(name, map(local_name, known))
+    raise RequestError(f"there is no data sheet {name}{f'; {meant}' if meant else ''}")
 
 
 def _needs_sheet(cls: str, vocabulary: Vocabulary) -> bool:
@@ -39,10 +44,8 @@ def _needs_sheet(cls: str, vocabulary: Vocabulary) -> bool:
 
 
 def _sheets_for(cls: str, sheets: WorldState) -> list[str]:
-    """Return the sheets that are called like the class, or else those whose class is called like it or a parent."""
-    vocabulary = sheets.vocabulary
-    names = {local_name(each) for each in vocabulary.classes if vocabulary.is_a(cls, each)}
-    kinds = {each for each in vocabulary.classes if local_name(each) in {f"{name}Sheet" for name in names}}
+    """Return the sheet that is called like the class, or else all of the kinds that describe such a device."""
+    kinds = list_sheet_kinds(cls, sheets.vocabulary)
     found = sorted({sheet for kind in kinds for sheet in sheets.instances(kind)})
     own = f"{local_name(cls)}-sheet".casefold()
     return [each for each in found if local_name(each).casefold() == own] or found

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import chain
 
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
@@ -40,6 +41,11 @@ KINDS = (
     (INSPECTION_CAMERA, (INSPECTION_SHEET,)),
 )
 """Kinds of devices with the kinds of sheets that describe them; other kinds are not checked."""
+
+
+def list_sheet_kinds(cls: str, vocabulary: Vocabulary) -> tuple[str, ...]:
+    """Return the kinds of sheets that describe devices of a class; none for a class that is not checked."""
+    return tuple(kind for device, kinds in KINDS if vocabulary.is_a(cls, device) for kind in kinds)
 
 
 def check_data_sheets(state: WorldState) -> Iterator[SceneViolation]:
