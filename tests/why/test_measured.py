@@ -71,3 +71,13 @@ def test_an_inspection_that_finds_too_little_says_how_much(tmp_path: Path, monke
     assert "lab:Desk-1.isClean is false (coverage 0 of 1); needed: true" in told
     facts = invoke("why", "out", "1").output.partition("facts at that moment:")[2]
     assert "lab:Desk-1.coverage == 0" in facts and "lab:Desk-1.cleanThreshold == 1" in facts
+
+
+@pytest.mark.parametrize("word", ["measure", "threshold"])
+def test_a_number_that_no_property_has_is_reported_where_it_is_named(project: Path, word: str) -> None:
+    assert "undeclared-term" not in invoke("check", ".").output
+    said = {"measure": "t:torque", "threshold": "t:neededTorque"}[word]
+    (project / "screws.ttl").write_text(TERMS.replace(f"skillc:{word} {said}", f"skillc:{word} {said}s"), "utf-8")
+    told = invoke("check", ".").output
+    assert f"warning[undeclared-term]: the {word} of `t:isTight`, `{said}s`, is no declared property" in told
+    assert "screws.ttl:10:" in told and f"did you mean `{said}`" in told
