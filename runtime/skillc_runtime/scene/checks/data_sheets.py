@@ -43,9 +43,9 @@ KINDS = (
 """Kinds of devices with the kinds of sheets that describe them; other kinds are not checked."""
 
 
-def list_sheet_kinds(cls: str, vocabulary: Vocabulary) -> tuple[str, ...]:
-    """Return the kinds of sheets that describe devices of a class; none for a class that is not checked."""
-    return tuple(kind for device, kinds in KINDS if vocabulary.is_a(cls, device) for kind in kinds)
+def list_sheet_kinds(vocabulary: Vocabulary, cls: str) -> frozenset[str]:
+    """Return the kinds of sheets that describe devices of a class; none if it is not a known kind of device."""
+    return frozenset(kind for device, kinds in KINDS if vocabulary.is_a(cls, device) for kind in kinds)
 
 
 def check_data_sheets(state: WorldState) -> Iterator[SceneViolation]:
