@@ -53,5 +53,5 @@ def _list_fitting(cls: str, sheets: WorldState) -> list[str]:
 
 
 def _is_called_like(sheet: str, cls: str) -> bool:
-    """Whether a sheet is called like a class, as `panda-hand-sheet` is called like `PandaHand`."""
+    """Whether a sheet is called like a class, as `own-hand-sheet` is called like `OwnHand`."""
     return local_name(sheet).replace("-", "").casefold() == f"{local_name(cls)}sheet".casefold()
