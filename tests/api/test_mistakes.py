@@ -46,6 +46,7 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         "is a skill, not a task: `--scene FILE --call 'PressButton(",
     ),
     "call for a task": (lambda: skillc.run("Wipe(lab:Table-1)"), "given as `--scene FILE --call 'Wipe(lab:Table-1)'`"),
+    "plan of a call": (lambda: skillc.plan("Wipe(lab:Table-1)"), "a call of a skill has no plan: name a task, or give"),
     "goal for a task": (lambda: skillc.run("lab:A.isClean == true"), "given as `--scene FILE --goal 'lab:A.isClean"),
     "goal without a scene": (lambda: skillc.run(goal="lab:A.isClean == true"), "--goal needs the scene"),
     "call for a goal": (

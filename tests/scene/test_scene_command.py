@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
-from simulation.cells import world
 from skillc.cli.main import skillc
 from skillc.errors import RequestError
 from skillc.services.libraries import load_vocabulary

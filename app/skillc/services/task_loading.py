@@ -76,8 +76,9 @@ def _check_task(task: str, spec: RunSpec, calls: bool) -> None:
     path, colon, _ = task.rpartition(":")
     if colon and inspect_path(Path(path)).kind in ("file", "folder"):
         return  # names of files may have the characters of a condition
-    if _CALL.match(task) and calls:
-        raise RequestError(f"a call of a skill is given as `--scene FILE --call '{task}'`")
+    if _CALL.match(task):
+        form = f"is given as `--scene FILE --call '{task}'`"
+        raise RequestError(f"a call of a skill {form if calls else 'has no plan: name a task, or give a goal'}")
     if _CONDITION.search(task):
         raise RequestError(f"a goal is given as `--scene FILE --goal '{task}'`")
 
