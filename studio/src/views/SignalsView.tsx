@@ -155,7 +155,7 @@ function Plots() {
         const columns = plotColumns.value;
         // Lines came or went, and so did columns: they are those of the plot that replaces this one.
         if (namesOf(plotLines.value) !== key) return;
-        if (!pausedAt.value) made.setData(columns as uPlot.AlignedData);
+        if (!pausedAt.value || made.data[0].length === 0) made.setData(columns as uPlot.AlignedData);
         shownRange = rangeOf(made);
       });
     });
