@@ -66,7 +66,7 @@ class Misfit(Diagnostic):
 
 @dataclass(frozen=True, slots=True)
 class ForeignForm(Diagnostic):
-    """A form of another language, which explains all that is wrong within its span."""
+    """A form of another language, which explains what else is wrong within its span."""
 
 
 class Outcome(NamedTuple, Generic[T_co]):

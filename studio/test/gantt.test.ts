@@ -82,7 +82,7 @@ describe("a real run over time", () => {
     typeof each === "object" && each.type === "iri" ? [each] : [],
   );
   const devices = new Map(irisOf.map((each) => [each.iri, each.label]));
-  const gantt = ganttOf(state, attempt, false, { devices, durations: new Map() });
+  const gantt = ganttOf(state, attempt, null, { devices, durations: new Map() });
 
   test("has each step where it ran, in a span that holds all", () => {
     expect(gantt?.steps.length).toBe(attempt.plan?.steps.length);
@@ -105,8 +105,11 @@ describe("a real run over time", () => {
     const half = applyEvents(EMPTY, events.slice(0, Math.floor(events.length / 2)));
     const ongoing = half.attempts.at(-1);
     if (ongoing === undefined) throw new Error("it has begun");
-    const now = ganttOf(half, ongoing, true, { devices, durations: new Map() })?.now;
-    expect(now).toBe(half.time);
+    const now = half.time + 5;
+    const gantt = ganttOf(half, ongoing, now, { devices, durations: new Map() });
+    expect(gantt?.now).toBe(now);
+    const running = gantt?.steps.filter((each) => each.status === "running") ?? [];
+    expect(running.map((each) => each.ran?.to)).toEqual([now]);
   });
 });
 

@@ -98,10 +98,18 @@ describe("a real run", () => {
     expect(early.attempts[0]?.nodes.filter((each) => each !== null).length).toBe(2);
   });
 
+  test("a selected call that goes on selects its span until now", () => {
+    const early = stateAt(timed, 9);
+    const key = early.attempts[0]?.nodes[1] ?? 0;
+    expect(selectedSpan({ kind: "node", key }, early, 12)?.[1]).toBe(12);
+  });
+
   test("a selected call selects its span, its line and its things", () => {
     const key = state.attempts[0]?.nodes[1] ?? 0;
     const selection = { kind: "node", key } as const;
-    expect(selectedSpan(selection, state)?.[0]).toBeCloseTo(7.34);
+    const [from, to] = selectedSpan(selection, state, 1000) ?? [];
+    expect(from).toBeCloseTo(7.34);
+    expect(to).toBe(state.nodes.get(key)?.endedAt);
     expect(selectedPlace(selection, state)?.path).toBe("std/handling.skill");
     expect(selectedThings(selection, state)).toContain("http://example.org/lab#Eraser-1");
   });

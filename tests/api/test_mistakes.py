@@ -19,6 +19,7 @@ BROKEN_SCENE = "@prefix lab: <http://example.org/lab#> .\nlab:A a lab:Nothing .\
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "broken.skill").write_text("use skillc\nskill Rest { in arm: Amr }\n")
+    (tmp_path / "copy (2).skill").write_text("use skillc\n")
     (tmp_path / "scenes").mkdir()
     (tmp_path / "scenes" / "broken.ttl").write_text(BROKEN_SCENE)
     (tmp_path / "scenes" / "no.ttl").write_bytes(b"\xff\xfe\x00")
@@ -36,6 +37,7 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     "broken scene": (lambda: skillc.open_scene("scenes/broken.ttl"), "broken.ttl:2:"),
     "no text": (lambda: skillc.open_scene("scenes/no.ttl"), "no.ttl"),
     "no such task": (lambda: skillc.run("contact:pres_button"), "did you mean `press_button`"),
+    "no such task in a file with brackets": (lambda: skillc.run("copy (2).skill:rest"), "no task `rest`"),
     "task and goal": (lambda: skillc.plan("contact:press_button", goal="x"), "cannot be used with"),
     "number for a task": (lambda: skillc.run(42), "the task must be a text, not 42"),  # type: ignore[arg-type]
     "nothing": (lambda: skillc.run(), "name either a TASK"),
@@ -44,6 +46,7 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         "is a skill, not a task: `--scene FILE --call 'PressButton(",
     ),
     "call for a task": (lambda: skillc.run("Wipe(lab:Table-1)"), "given as `--scene FILE --call 'Wipe(lab:Table-1)'`"),
+    "plan of a call": (lambda: skillc.plan("Wipe(lab:Table-1)"), "a call of a skill has no plan: name a task, or give"),
     "goal for a task": (lambda: skillc.run("lab:A.isClean == true"), "given as `--scene FILE --goal 'lab:A.isClean"),
     "goal without a scene": (lambda: skillc.run(goal="lab:A.isClean == true"), "--goal needs the scene"),
     "call for a goal": (

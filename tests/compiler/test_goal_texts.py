@@ -175,6 +175,7 @@ def test_calls() -> None:
     assert outcome.value is not None
     assert outcome.value.arguments == {"surface": Individual(LAB + "Board"), "speed": Literal(0.05)}
     assert outcome.value.source == Position("call", 1, 1)
+    assert parse_call("# the board\nWipe(surface: lab:Board)", wiping, scene(), {"lab": LAB}).ok
 
 
 @pytest.mark.slow
@@ -185,6 +186,7 @@ def test_calls() -> None:
         ("Wipe(surface: lab:Board)", "Wipe(surface: lab:Board)"),
         ("do Wipe(surface = lab:Board)", "Wipe(surface: lab:Board)"),
         ("(wipe lab:Board)", "Wipe(surface: lab:Board)"),
+        ("# the board\nWipe(lab:Board)", "Wipe(surface: lab:Board)"),
         ("Wipe", "Wipe(surface: ..)"),
     ],
 )

@@ -204,10 +204,12 @@ EXAMPLES = (
     ("step", "for i in range(3):\n            Go()", None),
     ("step", "for b in [1, 2, 3] { Go() }", None),
     ("step", "try:\n            Go()", None),
+    ("step", "for (int i = 0; i < 9; i += 3) { Go() }", None),
     ("step", "if (!Go()) return false;", None),
+    ("step", "if a.x == B { return }", None),
     ("step", "do {\n            Go();\n        } while (a.x == B);", None),
     ("step", "Go(a: {b})", "Go(a: b)"),
-    ("step", "a.Go();", None),
+    ("step", "a.Go();", "Go(a)"),
     ("step", "self.Go()", "Go()"),
     ("step", "this->Go()", "Go()"),
     ("step", "RetryUntilSuccessful(num_attempts=3) { Go() }", "retry 3 { Go() }"),
@@ -291,3 +293,14 @@ def test_a_part_of_a_product_is_not_repeated_alone() -> None:
     [problem] = parse(Source("own.skill", text)).diagnostics
     assert "a.m" not in problem.help
     assert problem.fix is None or "a.m" not in problem.fix.text
+
+
+def test_a_form_with_a_fix_does_not_hide_what_else_is_wrong_in_its_line() -> None:
+    text = PLACES["member"].replace("@", "pre a.m => 1 kg and a.n > 5 furlong")
+    assert [each.name for each in parse(Source("own.skill", text)).diagnostics] == ["syntax", "unknown-unit"]
+
+
+def test_a_form_that_is_not_reported_hides_nothing() -> None:
+    text = PLACES["member"].replace("@", "pre skill a.m 1 kg; a.m < 5 kg")
+    found = parse(Source("own.skill", text)).diagnostics
+    assert "unknown-character" in [each.name for each in found]

@@ -42,8 +42,8 @@ def check(*more: str) -> str:
     [
         ("90", "0", "own:swing is read in rad: this is 14.3 turns", "own:swing 1.5708 ;"),
         ("-36", "90", "own:swing is read in rad: this is 5.7 turns", "own:swing -0.628319 ;"),
-        ("1.2", "1.5708", "skillc:yaw is read in degrees: this is nearly no turn", "skillc:yaw 90 ;"),
-        ("1.2", "-3.14", "skillc:yaw is read in degrees: this is nearly no turn", "skillc:yaw -180 ;"),
+        ("1.2", "1.5708", "skillc:yaw is read in degrees, and 1.5708 is a rounded multiple of pi/4", "skillc:yaw 90 ;"),
+        ("1.2", "-3.14", "skillc:yaw is read in degrees, and -3.14 is a rounded multiple of pi/4", "skillc:yaw -180 ;"),
     ],
 )
 def test_the_other_unit_is_reported_with_a_fix(project: Path, swing: str, yaw: str, told: str, mended: str) -> None:

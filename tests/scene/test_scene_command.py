@@ -13,7 +13,12 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
+from skillc.errors import RequestError
+from skillc.services.libraries import load_vocabulary
+from skillc.services.scene_sheets import find_sheet
+from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.film import rendering
+from skillc_runtime.scene.load import load_sheets
 from skillc_runtime.world.space.outlines import convex_hull
 
 CELL = """\
@@ -265,10 +270,41 @@ def test_a_device_gets_the_data_sheet_of_its_class(cell: Path) -> None:
     assert added.exit_code == 0, added.output
     assert "lab:Camera-1 a skillc:Camera ; skillc:hasSheet skillc:depth-camera-sheet ;" in cell.read_text("utf-8")
     tool = ("add", "cell.ttl", "Tool-1", "Tool", "--size", "0.1", "0.05", "0.03", "--weight", "0.1", "--on", "Table-1")
-    assert "say --sheet NAME" in scene(*tool).output and "wiping:eraser-sheet" in scene(*tool).output
-    assert scene(*tool, "--sheet", "nowhere-sheet").exit_code == 2
+    unnamed = scene(*tool).output
+    assert "a skillc:Tool needs a data sheet: name it with `--sheet NAME`; there is " in unnamed
+    assert "wiping:eraser-sheet" in unnamed and "contact:peg-sheet" in unnamed and "depth-camera" not in unnamed
+    unknown = scene(*tool, "--sheet", "nowhere-sheet")
+    assert unknown.exit_code == 2 and "no data sheet `nowhere-sheet`; there is contact:button-sheet, " in unknown.output
+    assert "did you mean `wiping:eraser-sheet`?" in scene(*tool, "--sheet", "wiping:erase-sheet").output
+    assert scene(*tool, "--sheet", "Table-1").exit_code == 2
     assert scene(*tool, "--sheet", "eraser-sheet").exit_code == 0
     assert "skillc:hasSheet wiping:eraser-sheet" in cell.read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("cls", "sheet"),
+    [
+        ("Panda", "skillc:panda-sheet"),
+        ("PandaHand", "skillc:panda-hand-sheet"),
+        ("Heron", "skillc:heron-sheet"),
+        ("Eraser", "wiping:eraser-sheet"),
+        ("InspectionCamera", "skillc:inspection-camera-sheet"),
+        ("MobileRobot", "skillc:heron-sheet"),
+        ("Peg", "contact:peg-sheet"),
+        ("Furniture", ""),
+    ],
+)
+def test_a_thing_has_the_shipped_sheet_of_its_class_without_naming_it(cls: str, sheet: str) -> None:
+    state = load_sheets(load_vocabulary())
+    (iri,) = (each for each in state.vocabulary.classes if local_name(each) == cls)
+    assert state.vocabulary.short(find_sheet(iri, None, state) or "") == sheet
+
+
+def test_the_sheets_of_its_kind_are_listed_where_a_class_has_several() -> None:
+    state = load_sheets(load_vocabulary())
+    (gripper,) = (each for each in state.vocabulary.classes if local_name(each) == "WsgGripper")
+    with pytest.raises(RequestError, match="panda-hand-sheet, skillc:robotiq-3f-sheet, skillc:wsg50-sheet"):
+        find_sheet(gripper, None, state)
 
 
 def test_a_rack_has_its_slots_in_a_grid_on_its_floor(cell: Path) -> None:

@@ -173,6 +173,8 @@ def test_an_unset_optional_parameter_is_absent_and_guarded_by_given() -> None:
         ('uses_devices = "none"', "`uses_devices` of `MODULE:Own` is not True or False"),
         ('highlights = (("later", "button", "pressed"),)', "`highlights` of `MODULE:Own` is not"),
         ('highlights = ("button", "pressed")', "`highlights` of `MODULE:Own` is not"),
+        ("moves = ()", "`moves` of `MODULE:Own` is neither None nor {parameter: parameter of the place or None}"),
+        ('moves = {"object": 1}', "`moves` of `MODULE:Own` is neither None nor"),
     ],
 )
 def test_what_a_primitive_declares_of_itself_is_checked(

@@ -130,3 +130,16 @@ def test_that_no_process_can_run_trials_is_one_clear_error(monkeypatch: pytest.M
 )
 def test_wrong_words_are_exit_code_2(arguments: tuple[str, ...]) -> None:
     assert run(*arguments).exit_code == 2
+
+
+@pytest.mark.parametrize(("disturbance", "lacking"), [("missing", "fixture or person"), ("obstacle", "or fixture")])
+def test_a_disturbance_that_changes_nothing_is_refused(
+    asked: list[int], monkeypatch: pytest.MonkeyPatch, disturbance: str, lacking: str
+) -> None:
+    sorting = libraries.compile_valid(find_library(SHIPPED / "sorting"))
+    monkeypatch.setattr(task_loading, "compile_valid", lambda files: sorting)
+    refused = run("sorting:sort_parts", "-n", 1, "--disturb", disturbance)
+    assert refused.exit_code == 2 and asked == []
+    assert f"`{disturbance}` changes nothing here: the scene has no surface" in refused.stderr
+    assert f"{lacking}\n" in refused.stderr
+    assert run("sorting:sort_parts", "-n", 1, "--disturb", "take").exit_code != 2 and asked == [0]

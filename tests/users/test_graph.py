@@ -14,6 +14,7 @@ from skillc_compiler.emit.picture import mermaid, svg
 from skillc_compiler.emit.picture.boxes import PictureBox
 from skillc_compiler.emit.picture.drawing import list_drawable, make_picture
 from skillc_compiler.emit.picture.layout import PlacedBox, lay_out
+from skillc_compiler.emit.picture.text import draw
 from skillc_compiler.emit.picture.wrapping import count_cells, wrap_text
 from skillc_compiler.resolve.files import read_sources
 from skillc_dsl.source import Source
@@ -95,6 +96,11 @@ def test_a_task_shows_its_scene_and_goal() -> None:
 
 def test_a_name_stays_with_its_value() -> None:
     assert wrap_text("arm: lab:Arm-1, to: lab:Dock", 20) == ("arm: lab:Arm-1,", "  to: lab:Dock")
+
+
+def test_a_wrapped_title_goes_on_indented() -> None:
+    box = PictureBox("call", "▶", "Approach the surface of the bench", ("with the tool",))
+    assert draw(box, 26) == "▶ Approach the surface\n    of the bench\n  with the tool\n"
 
 
 def test_the_plan_of_a_task_is_drawn() -> None:

@@ -9,21 +9,22 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
 from msgspec import structs
 
 from execution.test_repeat import recording
 from operating.monitors import Monitor
-from skillc.cli.main import skillc
 from skillc.services.reporting import SilentReporter
+from skillc.services.run_diff.objective import compare_objectives
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import load_task
 from skillc_model.conditions import And, Compare, Holds, Individual, Literal, Not, PropertyOf
-from skillc_model.tree import Call
+from skillc_model.tree import Apply, Call, Node, Parallel, Selector, Sequence
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.disturbances import Push
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import (
+    FORMAT,
     Disturbed,
     Event,
     ImplementationChosen,
@@ -37,16 +38,21 @@ from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.signals.files import CsvSink, ParquetSink, write_dictionary
 from skillc_runtime.recording.signals.signal import CLOCK, Signal
 from skillc_runtime.world.state.labelled import LabelledIri
+from why.projects import invoke
 from why.stories import written
 
 FORCE = Signal(column="Arm/sensor/force_z_n", device="x", origin="sensor", unit="N", frame="", description="force")
+HERE = Position("ask.skill", 1, 1)
+LAB = "http://example.org/lab#"
 Edit = Callable[[list[Event]], None]
 
 
+def ask(individual: str) -> Call:
+    return Call("Ask", None, {"of": Individual(individual)}, None, HERE)
+
+
 def diff(*arguments: object) -> Result:
-    result = CliRunner().invoke(skillc, ["diff", *map(str, arguments)])
-    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
-    return result
+    return invoke("diff", *arguments)
 
 
 def find_differences(folder: Path, edit: Edit) -> list[dict[str, Any]]:
@@ -115,7 +121,7 @@ def test_the_first_difference_is_what_was_changed(tmp_path: Path, edit: Edit, pa
 
 
 def test_goals_are_shown_in_the_syntax_of_the_language(tmp_path: Path) -> None:
-    box, cup = (Individual(f"http://example.org/lab#{name}") for name in ("Box", "Cup"))
+    box, cup = (Individual(f"{LAB}{name}") for name in ("Box", "Cup"))
     sealed = Compare(PropertyOf(cup, "http://example.org/onto/parts#isSealed"), "==", Literal(True))
     goal = And((Holds(box, "http://example.org/skiros.owl#contain", cup), Not(sealed)))
     found = find_differences(tmp_path, change(TaskStarted, goal=goal))
@@ -124,10 +130,28 @@ def test_goals_are_shown_in_the_syntax_of_the_language(tmp_path: Path) -> None:
 
 
 def test_calls_are_shown_as_an_author_writes_them(tmp_path: Path) -> None:
-    body = Call("Ask", "by_operator", {"limit": Literal(3.0)}, None, Position("ask.skill", 1, 1))
+    body = Call("Ask", "by_operator", {"limit": Literal(3.0)}, None, HERE)
     found = find_differences(tmp_path, change(TaskStarted, goal=None, body=body))
     assert found[0]["what"] == "objective"
     assert found[0]["second"].startswith("Ask[by_operator](limit: 3")
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "first", "second"),
+    [
+        (Sequence((), False, HERE), Sequence((), True, HERE), "seq", "reactive seq"),
+        (Selector((), True, HERE), Selector((), False, HERE), "reactive sel", "sel"),
+        (Parallel("all", (), HERE), Parallel("race", (), HERE), "par all", "par race"),
+        (Apply(("seen",), HERE), Apply(("seen", "done"), HERE), "apply seen", "apply seen, done"),
+        (Call("Look", None, {}, None, HERE), Call("Look", None, {}, "found", HERE), "Look()", "Look() -> found"),
+        (ask(f"{LAB}Box"), ask(f"{LAB}Cup"), "Ask(of: Box)", "Ask(of: Cup)"),
+        (ask(f"{LAB}Box"), ask("urn://own/Box"), f"Ask(of: {LAB}Box)", "Ask(of: urn://own/Box)"),
+    ],
+)
+def test_nodes_that_differ_are_told_as_an_author_writes_them(one: Node, other: Node, first: str, second: str) -> None:
+    starts = [TaskStarted(time=0.0, format=FORMAT, task="ask", library="own", body=each) for each in (one, other)]
+    (told,) = compare_objectives(*starts)
+    assert (told.first, told.second) == (first, second)
 
 
 def test_a_run_differs_in_nothing_from_itself(tmp_path: Path) -> None:

@@ -7,12 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skillc.cli.main import skillc
 from skillc.services.run_diff.alignment import align
+from why.projects import invoke, write_project
 
 SKILLS = """use skiros
 prefix lab: <http://example.org/lab#>
@@ -57,20 +56,12 @@ lab:d a skiros:Product ; skiros:Weight 0.2 .
 """
 
 
-def invoke(*arguments: object) -> str:
-    result = CliRunner().invoke(skillc, list(map(str, arguments)))
-    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
-    return result.stdout
-
-
 @pytest.mark.slow
 def test_one_more_call_does_not_shift_those_after_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for name, text in {"s.skill": SKILLS, "scene.ttl": SCENE, "skillc.toml": 'name = "s"\n'}.items():
-        (tmp_path / name).write_text(text, "utf-8")
-    monkeypatch.chdir(tmp_path)
+    monkeypatch.chdir(write_project(tmp_path / "visits", {"s.skill": SKILLS, "scene.ttl": SCENE}))
     for task in ("three", "four"):
         invoke("run", task, "--backend", "kinematic", "--out", task, "--no-film")
-    found: dict[str, Any] = json.loads(invoke("diff", "three", "four", "--json"))
+    found: dict[str, Any] = json.loads(invoke("diff", "three", "four", "--json").stdout)
     told = [(each["part"], each["what"], each["first"], each["second"]) for each in found["differences"]]
     assert [each for each in told if each[0] != "times"] == [
         ("settings", "task", "three", "four"),

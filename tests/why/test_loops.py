@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from textwrap import dedent
 
 import pytest
-from click.testing import CliRunner
 
 import skillc as api
-from skillc.cli.main import skillc
 from skillc.services.recordings import make_result
+from why.projects import ask_why, invoke, write_project
 
 pytestmark = pytest.mark.slow
 
@@ -84,29 +84,15 @@ ROUNDS = ["round 1 of repeat 2"] * 2 + ["round 2 of repeat 2"] * 2 + ["round 1 o
 STATES = ["success"] * 6 + ["not started"]
 
 
-def invoke(*arguments: object) -> str:
-    result = CliRunner().invoke(skillc, list(map(str, arguments)))
-    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
-    return result.stdout
-
-
 @pytest.fixture(scope="module")
 def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a project in which a task with loops has run, and failed at its second loop."""
-    folder = tmp_path_factory.mktemp("rounds") / "rounds"
-    folder.mkdir()
-    files = {
-        "skills.skill": SKILLS,
-        "tasks.skill": TASKS,
-        "scene.ttl": SCENE,
-        "skillc.toml": 'name = "rounds"\nversion = "0.1.0"\n',
-    }
-    for name, text in files.items():
-        (folder / name).write_text(text, encoding="utf-8")
+    files = {"skills.skill": SKILLS, "tasks.skill": TASKS, "scene.ttl": SCENE}
+    folder = write_project(tmp_path_factory.mktemp("rounds") / "rounds", files)
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         patch.setenv("COLUMNS", "160")
-        told = invoke("run", "rounds", "--backend", "kinematic", "--out", "out", "--no-film")
+        told = invoke("run", "rounds", "--backend", "kinematic", "--out", "out", "--no-film").stdout
     (folder / "table.txt").write_text(told, encoding="utf-8")
     return folder
 
@@ -124,7 +110,7 @@ def test_all_outputs_tell_the_same(project: Path) -> None:
     frame = run.to_frame("steps")
     assert (list(frame["rounds"]), list(frame["status"])) == (ROUNDS, STATES)
     assert list(frame["start_s"].dropna()) == sorted(frame["start_s"].dropna())
-    story = json.loads(invoke("why", project / "out", "--json"))
+    story = json.loads(invoke("why", project / "out", "--json").stdout)
     told = [
         (step["number"], step["status"], step.get("started"))
         for attempt in story["attempts"]
@@ -172,9 +158,7 @@ def test_a_value_is_followed_to_the_line_of_the_scene(
     project: Path, monkeypatch: pytest.MonkeyPatch, question: str, answer: str
 ) -> None:
     monkeypatch.chdir(project)
-    lines = invoke("why", "out", question).splitlines()[1:]
-    wanted = [line for line in answer.splitlines() if line.strip()]
-    assert [line.strip() for line in lines] == [line.strip() for line in wanted]
+    assert ask_why("out", question) == dedent(answer).strip()
 
 
 def test_a_let_is_told_with_what_it_has_read_also_if_that_has_changed_since(
@@ -183,7 +167,7 @@ def test_a_let_is_told_with_what_it_has_read_also_if_that_has_changed_since(
     monkeypatch.chdir(project)
     wanted = ("--call", "Tire(thing: lab:box)", "--scene", "scene.ttl", "--library", ".")
     invoke("run", *wanted, "--backend", "kinematic", "--out", "tired", "--no-film")
-    (origin,) = json.loads(invoke("why", "tired", "1.2.spell", "--json"))["origins"]
+    (origin,) = json.loads(invoke("why", "tired", "1.2.spell", "--json").stdout)["origins"]
     assert origin["value"] == {"type": "quantity", "value": 0.2, "unit": "s"}
     (let,) = origin["names"]
     assert [each["known"]["fact"]["value"]["value"] for each in let["facts"]] == [0.4]
@@ -191,7 +175,7 @@ def test_a_let_is_told_with_what_it_has_read_also_if_that_has_changed_since(
 
 def test_the_origin_is_data_too(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(project)
-    (origin,) = json.loads(invoke("why", "out", "4.2.spell", "--json"))["origins"]
+    (origin,) = json.loads(invoke("why", "out", "4.2.spell", "--json").stdout)["origins"]
     assert (origin["how"], origin["text"], origin["source"]["line"]) == ("passed", "thing.patience", 21)
     (fact,) = origin["facts"]
     assert fact["place"] == {"path": "scene.ttl", "line": 6, "column": 18}

@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
-from skillc.cli.main import skillc
+from why.projects import invoke, write_project
 
 pytestmark = pytest.mark.slow
 
@@ -47,41 +46,38 @@ t:Screw-1 a t:Screw ; t:isTight false ; t:torque 1.98 ; t:neededTorque 2.0 .
 BESIDE = "t:Screw-1.isTight is false (torque 1.98 Nm of 2 Nm)"
 
 
-def invoke(*arguments: object) -> str:
-    result = CliRunner().invoke(skillc, list(map(str, arguments)))
-    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
-    return result.output
-
-
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a project whose vocabulary says from which number a property is judged."""
-    files = {
-        "screws.ttl": TERMS,
-        "screws.skill": SKILLS,
-        "scene.ttl": SCENE,
-        "skillc.toml": 'name = "screws"\nversion = "0.1.0"\n',
-    }
-    for name, text in files.items():
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
+    write_project(tmp_path / "screws", {"screws.ttl": TERMS, "screws.skill": SKILLS, "scene.ttl": SCENE})
+    monkeypatch.chdir(tmp_path / "screws")
     monkeypatch.setenv("COLUMNS", "400")
-    return tmp_path
+    return tmp_path / "screws"
 
 
 def test_what_keeps_a_call_or_a_plan_from_succeeding_is_told_with_the_numbers(project: Path) -> None:
     call = ("--call", "Pack(screw: t:Screw-1)", "--scene", "scene.ttl", "--library", ".", "--backend", "kinematic")
-    assert BESIDE in invoke("run", *call, "--out", "out", "--no-film")
-    told = invoke("why", "out")
+    assert BESIDE in invoke("run", *call, "--out", "out", "--no-film").output
+    told = invoke("why", "out").output
     assert BESIDE in told and "Ask about a step" not in told
-    assert BESIDE in invoke("plan", "pack")
+    assert BESIDE in invoke("plan", "pack").output
 
 
 def test_an_inspection_that_finds_too_little_says_how_much(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "400")
     call = ("--call", "Inspect(surface: lab:Desk-1)", "--scene", "panda_desk.ttl", "--backend", "kinematic")
-    told = invoke("run", *call, "--out", "out", "--no-film")
+    told = invoke("run", *call, "--out", "out", "--no-film").output
     assert "lab:Desk-1.isClean is false (coverage 0 of 1); needed: true" in told
-    facts = invoke("why", "out", "1").partition("facts at that moment:")[2]
+    facts = invoke("why", "out", "1").output.partition("facts at that moment:")[2]
     assert "lab:Desk-1.coverage == 0" in facts and "lab:Desk-1.cleanThreshold == 1" in facts
+
+
+@pytest.mark.parametrize("word", ["measure", "threshold"])
+def test_a_number_that_no_property_has_is_reported_where_it_is_named(project: Path, word: str) -> None:
+    assert "undeclared-term" not in invoke("check", ".").output
+    said = {"measure": "t:torque", "threshold": "t:neededTorque"}[word]
+    (project / "screws.ttl").write_text(TERMS.replace(f"skillc:{word} {said}", f"skillc:{word} {said}s"), "utf-8")
+    told = invoke("check", ".").output
+    assert f"warning[undeclared-term]: the {word} of `t:isTight`, `{said}s`, is no declared property" in told
+    assert "screws.ttl:10:" in told and f"did you mean `{said}`" in told

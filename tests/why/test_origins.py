@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from textwrap import dedent
 
 import pytest
-from click.testing import CliRunner
 
-from skillc.cli.main import skillc
 from skillc_ontology.catalogue import ROOT
+from why.projects import ask_why, invoke, write_project
 
 pytestmark = pytest.mark.slow
 
@@ -166,30 +166,15 @@ QUESTIONS = {
 }
 
 
-def invoke(*arguments: object) -> str:
-    result = CliRunner().invoke(skillc, list(map(str, arguments)))
-    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
-    return result.stdout
-
-
 @pytest.fixture(scope="module")
 def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a project in which a task with arguments has run."""
-    folder = tmp_path_factory.mktemp("origins") / "rounds"
-    folder.mkdir()
-    files = {
-        "skills.skill": SKILLS,
-        "tasks.skill": TASKS,
-        "looking.py": PYTHON,
-        "scene.ttl": SCENE,
-        "skillc.toml": 'name = "rounds"\nversion = "0.1.0"\n',
-    }
-    for name, text in files.items():
-        (folder / name).write_text(text, encoding="utf-8")
+    files = {"skills.skill": SKILLS, "tasks.skill": TASKS, "looking.py": PYTHON, "scene.ttl": SCENE}
+    folder = write_project(tmp_path_factory.mktemp("origins") / "rounds", files)
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         given = ("first=lab:crate", "rest=0.25 s", "--backend", "kinematic", "--out", "out", "--no-film")
-        assert "succeeded" in invoke("run", "rounds", *given)
+        assert "succeeded" in invoke("run", "rounds", *given).stdout
     return folder
 
 
@@ -199,13 +184,12 @@ def test_a_value_is_followed_through_outputs_loops_and_arguments(
 ) -> None:
     monkeypatch.chdir(project)
     question, answer = QUESTIONS[kind]
-    lines = invoke("why", "out", question).splitlines()[1:]
-    assert [line.strip() for line in lines] == [line.strip() for line in answer.splitlines() if line.strip()]
+    assert ask_why("out", question) == dedent(answer).strip()
 
 
 def test_the_origin_as_data_has_the_value_of_each_name(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(project)
-    (origin,) = json.loads(invoke("why", "out", "6.spell", "--json"))["origins"]
+    (origin,) = json.loads(invoke("why", "out", "6.spell", "--json").stdout)["origins"]
     (item,) = origin["names"]
     (given,) = item["names"]
     assert (item["how"], item["value"]["label"], given["how"], given["value"]["label"]) == (
@@ -220,5 +204,5 @@ def test_a_shipped_scene_is_named_as_users_name_it(tmp_path: Path, monkeypatch: 
     monkeypatch.chdir(tmp_path)
     call = ("--call", "PressButton(button: lab:Button-1)", "--scene", "panda_button", "--library", "contact")
     invoke("run", *call, "--backend", "kinematic", "--out", "out", "--no-film")
-    told = invoke("why", "out", "Push.force")
+    told = invoke("why", "out", "Push.force").stdout
     assert "  (panda_button.ttl:" in told and str(ROOT) not in told

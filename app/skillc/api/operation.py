@@ -66,7 +66,10 @@ class Operation:
 
     @property
     def contact(self) -> Contact:
-        """What becomes of a tool that pressed when it was paused: `kept`, `lifting`, `taken-off` or `approaching`."""
+        """What becomes of a tool that pressed when it was paused: `kept`, `lifting`, `taken-off` or `approaching`.
+
+        `none` if no tool pressed, or while the run is not paused.
+        """
         return self._shared.contact
 
     @property

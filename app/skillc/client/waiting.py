@@ -95,7 +95,10 @@ class WaitingOperation:
 
     @property
     def contact(self) -> Contact:
-        """What becomes of a tool that pressed when it was paused: `kept`, `lifting`, `taken-off` or `approaching`."""
+        """What becomes of a tool that pressed when it was paused: `kept`, `lifting`, `taken-off` or `approaching`.
+
+        `none` if no tool pressed, or while the run is not paused.
+        """
         return self.status.contact
 
     @property

@@ -50,7 +50,8 @@ def _radians_for_degrees(stated: Statement, written: str, vocabulary: Vocabulary
     angle = float(written)
     eighths = round(4 * angle / math.pi)
     if decimals and 0 < abs(eighths) <= 8 and round(eighths * math.pi / 4, len(decimals[1])) == angle:
-        message = f"{vocabulary.short(stated.predicate)} is read in degrees: this is nearly no turn"
+        name = vocabulary.short(stated.predicate)
+        message = f"{name} is read in degrees, and {written} is a rounded multiple of pi/4"
         yield _in_the_other_unit(stated, message, f"{written} rad", f"{45 * eighths}")
 
 

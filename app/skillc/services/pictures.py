@@ -28,13 +28,17 @@ def draw_declaration(path: Path, name: str) -> PictureBox:
     files = parse_files(library)
     box = make_picture(name, files)
     if box is None:
-        hint = did_you_mean(name, list_drawable(files)) or "it has none"
-        raise RequestError(f"there is no skill or task `{name}` in {library.name}: {hint}")
+        names = list_drawable(files)
+        hint = did_you_mean(name, names) or (f"there is {', '.join(names)}" if names else "it has none")
+        raise RequestError(f"there is no skill or task `{name}` in {library.name}; {hint}")
     return box
 
 
 def draw_plan(path: Path, task: str, reporter: Reporter) -> PictureBox | Unsolvable | GaveUp:
     """Plan for a task of the library at `path` and return the picture of the plan. RequestError without a goal."""
+    library = compile_valid(find_library(path))
+    if task in library.skills and task not in library.tasks:
+        raise RequestError(f"`{task}` is a skill, and plans are for goals of tasks; draw it without --plan")
     with load_task(RunSpec(task=f"{path}:{task}"), reporter) as loaded:
         aim, state = loaded.assignment.objective, loaded.assignment.state
         if not isinstance(aim, AchieveGoal):

@@ -29,7 +29,7 @@ HOW = {
     "given": "an argument of the task",
 }
 OF_BODY = ("let", "loop", "output", "given")
-"""How names get their values that are not parameters of a call."""
+"""How names of a body or task get their values; other names are parameters of a call, whose number is shown."""
 
 
 def format_overview(story: RunHistory, run: str) -> str:

@@ -13,6 +13,7 @@ from msgspec import structs
 from skillc.errors import RequestError
 from skillc.services import task_scenes
 from skillc.services.assignments import assign_call, assign_goal, assign_task
+from skillc.services.files import inspect_path
 from skillc.services.libraries import compile_valid, find_task
 from skillc.services.library_files import LibraryFiles, find_library, find_scene
 from skillc.services.named_goals import make_named_task, named_scene
@@ -55,7 +56,7 @@ def check_request(spec: RunSpec, store: StoreChoice = NO_STORE, calls: bool = Tr
     if spec.task is None and spec.arguments:
         raise RequestError("arguments are the values of the parameters of a TASK; none is named")
     if spec.task is not None:
-        _check_task(spec, calls)
+        _check_task(spec.task, spec, calls)
         return
     choice = "--goal TEXT or --call CALL" if calls else "--goal TEXT"
     if spec.goal is not None and spec.call is not None:
@@ -68,14 +69,18 @@ def check_request(spec: RunSpec, store: StoreChoice = NO_STORE, calls: bool = Tr
         raise RequestError(f"{given} needs the scene: `--scene FILE`, a file here or a shipped one, or `--store`")
 
 
-def _check_task(spec: RunSpec, calls: bool) -> None:
-    """Raise RequestError if a task is named besides a goal or call, or if its name is one of these."""
+def _check_task(task: str, spec: RunSpec, calls: bool) -> None:
+    """Raise RequestError if a goal or call is given besides a task, or in place of its name."""
     if spec.scene or spec.goal or spec.call or spec.library:
         raise RequestError("a TASK cannot be used with --scene, --goal, --call or --library")
-    if _CALL.match(spec.task or "") and calls:
-        raise RequestError(f"a call of a skill is given as `--scene FILE --call '{spec.task}'`")
-    if _CONDITION.search(spec.task or ""):
-        raise RequestError(f"a goal is given as `--scene FILE --goal '{spec.task}'`")
+    path, colon, _ = task.rpartition(":")
+    if colon and inspect_path(Path(path)).kind in ("file", "folder"):
+        return  # names of files may have the characters of a condition
+    if _CALL.match(task):
+        form = f"is given as `--scene FILE --call '{task}'`"
+        raise RequestError(f"a call of a skill {form if calls else 'has no plan: name a task, or give a goal'}")
+    if _CONDITION.search(task):
+        raise RequestError(f"a goal is given as `--scene FILE --goal '{task}'`")
 
 
 @contextmanager

@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from msgspec import structs
 
-from skillc.errors import ServiceError
+from skillc.errors import RequestError, ServiceError
 from skillc.services.assignments import bind_task
 from skillc.services.files import writing_to
 from skillc.services.reporting import Reporter
@@ -25,7 +25,10 @@ from skillc_runtime.evaluation.trials.journal import Heading, JournalError, Tria
 from skillc_runtime.evaluation.trials.judging import judge_series
 from skillc_runtime.evaluation.trials.series import Series
 from skillc_runtime.evaluation.trials.trial import TRIAL_LIMIT_S, Disturbance, Trial
+from skillc_runtime.evaluation.trials.trial_cell import is_without_effect
 from skillc_runtime.evaluation.trials.workers import PreparationError, run_in_processes
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.world_state import WorldState
 
 PAGE = "trials.html"
@@ -58,9 +61,21 @@ def run_trials(request: TrialRequest, watch: StartMonitor, reporter: Reporter) -
     """
     library, task, scene = find_task_in_scene(request.reference)
     state = load_world(scene, library.vocabulary, reporter)
+    require_effect(request.disturbance, state)
     experiment = make_experiment(task, library, scene, state, request.arguments, request.disturbance)
     trials = _run(request, experiment, _heading(experiment, library), watch, reporter)
     return judge_series(experiment.task, request.disturbance, len(request.seeds), trials)
+
+
+def require_effect(disturbance: Disturbance, state: WorldState) -> None:
+    """RequestError for a disturbance that changes nothing in a scene; ServiceError if it cannot be simulated."""
+    try:
+        without_effect = is_without_effect(disturbance, state)
+    except (SheetError, FrameError) as error:
+        raise ServiceError(f"the scene cannot be simulated: {error}") from error
+    if without_effect:
+        affected = "surface, fixture or person" if disturbance == "missing" else "surface or fixture"
+        raise RequestError(f"the disturbance `{disturbance}` changes nothing here: the scene has no {affected}")
 
 
 def make_experiment(

@@ -19,7 +19,7 @@ from skillc.services.library_files import find_scene
 from skillc.services.reporting import SilentReporter
 from skillc.services.run_recordings import KnownStart, describe_contents, recorded_in
 from skillc.services.stores import load_world
-from skillc.services.trial_runs import make_experiment
+from skillc.services.trial_runs import make_experiment, require_effect
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.trials.disturbance import TrialCell
@@ -42,6 +42,7 @@ def check_trials(job: CheckTrials, known: CellSnapshot) -> None:
     library, request = known.library, job.request
     state = load_world(find_scene(Path(job.scene)), library.vocabulary, SilentReporter())
     assign_task(find_task(library, request.task), library, state, request.arguments)
+    require_effect(request.disturb, state)
 
 
 def run_trial(job: RunTrial, known: CellSnapshot) -> Trial | None:

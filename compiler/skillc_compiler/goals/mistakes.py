@@ -17,6 +17,7 @@ EXAMPLES: dict[InputKind, str] = {
     "call": "a call is `Skill(parameter: value, ..)`",
 }
 _CALL = re.compile(r"\s*(?:do\s+)?\w+\s*(?:[(\[]|$)")
+_PARENTHESIS = re.compile(r"[()]")
 _COMMENT = re.compile(r"[#;].*")
 MOST_SOUGHT = 20
 """For so many words of a goal a similar name is looked for."""
@@ -27,17 +28,17 @@ _DECLARED = re.compile(r"\b([A-Za-z]\w*+)\s*+:\s")
 def find_mistakes(
     text: str, what: InputKind, individuals: Iterable[str], means_something: Callable[[str], bool]
 ) -> tuple[Diagnostic, ...]:
-    """Report an empty text, what is no call, unbalanced parentheses, and individuals without their prefix.
+    """Report an empty text, a call that is none, unbalanced parentheses, and individuals without their prefix.
 
     `individuals` are the qualified names of the scene's individuals; `means_something` is true for a bare name that
     already has a meaning.
     """
     if not text.strip():
         return (Diagnostic("syntax", Span(what, 1, 1, 1, 2), f"the {what} is empty", EXAMPLES[what]),)
-    if what == "call" and not _CALL.match(text):
+    lines = [_COMMENT.sub("", line) for line in text.split("\n")]
+    if what == "call" and not _CALL.match("\n".join(lines)):
         help_ = f"{EXAMPLES['call']}; a condition is given as a goal"
         return (Diagnostic("syntax", Span(what, 1, 1, 1, 2), "this is not a call of a skill", help_),)
-    lines = [_COMMENT.sub("", line) for line in text.split("\n")]
     return tuple(_parentheses(lines, what)) or tuple(_prefixes(lines, what, sorted(individuals), means_something))
 
 
@@ -50,15 +51,13 @@ def reword(problem: Diagnostic, what: InputKind) -> tuple[str, str]:
 
 def _parentheses(lines: list[str], what: InputKind) -> Iterator[Diagnostic]:
     opened: list[Span] = []
-    for number, line in enumerate(lines, start=1):
-        for found in re.finditer(r"[()]", line):
-            span = Span(what, number, found.start() + 1, number, found.end() + 1)
-            if found.group() == "(":
-                opened.append(span)
-            elif opened:
-                opened.pop()
-            else:
-                yield Diagnostic("syntax", span, "this `)` closes nothing", "remove it, or add the `(` before it")
+    for mark, span in _find(_PARENTHESIS, lines, what):
+        if mark == "(":
+            opened.append(span)
+        elif opened:
+            opened.pop()
+        else:
+            yield Diagnostic("syntax", span, "this `)` closes nothing", "remove it, or add the `(` before it")
     for span in opened:
         yield Diagnostic("syntax", span, "this `(` is not closed: a `)` is missing", "add `)` where it ends")
 
@@ -69,15 +68,19 @@ def _prefixes(
     local = {name.rpartition(":")[2]: name for name in individuals}
     variables = {name for line in lines for name in _DECLARED.findall(line)}
     sought: dict[str, list[str]] = {}
+    for word, span in _find(_BARE, lines, what):
+        alike = [word] if word in local else _similar(word, local, sought) if "-" in word else []
+        if alike and word not in variables and not means_something(word):
+            meant = local[alike[0]]
+            fix = Fix(span, meant, f"write `{meant}`")
+            yield Diagnostic("missing-prefix", span, f"`{word}` has no prefix", f"write `{meant}`", fix=fix)
+
+
+def _find(pattern: re.Pattern[str], lines: list[str], what: InputKind) -> Iterator[tuple[str, Span]]:
+    """Yield what matches a pattern, with its place."""
     for number, line in enumerate(lines, start=1):
-        for found in _BARE.finditer(line):
-            word = found.group()
-            alike = [word] if word in local else _similar(word, local, sought) if "-" in word else []
-            if alike and word not in variables and not means_something(word):
-                span = Span(what, number, found.start() + 1, number, found.end() + 1)
-                meant = local[alike[0]]
-                fix = Fix(span, meant, f"write `{meant}`")
-                yield Diagnostic("missing-prefix", span, f"`{word}` has no prefix", f"write `{meant}`", fix=fix)
+        for found in pattern.finditer(line):
+            yield found.group(), Span(what, number, found.start() + 1, number, found.end() + 1)
 
 
 def _similar(word: str, names: Collection[str], sought: dict[str, list[str]]) -> list[str]:

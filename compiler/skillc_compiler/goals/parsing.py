@@ -52,9 +52,9 @@ def parse_goal(
     """Parse a goal such as `lab:Board.isClean == true` or `(skiros:contain lab:Box-1 lab:Part-1)`.
 
     `individuals` are the IRIs of the scene with their classes, `prefixes` those that its file declares, and `home` the
-    namespaces that bare names refer to first (see `home_of`). One of the `skills` in place of a condition is told
-    so. The value is None if there are errors; spans are positions in `text`, with the path `goal`. A goal may also be
-    a condition in JSON, as a compiled library has it.
+    namespaces that bare names refer to first (see `home_of`). If the text names one of the `skills` instead of a
+    condition, the error says which condition to write. The value is None if there are errors; spans are positions in
+    `text`, with the path `goal`. A goal may also be a condition in JSON, as a compiled library has it.
     """
     if is_json(text):
         return _goal_in_json(text, vocabulary, individuals, prefixes or {})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -12,7 +12,7 @@ from skillc_model.format_condition import format_condition
 from skillc_model.skills import Skill
 from skillc_rdf.vocabulary.types import Vocabulary
 
-_FIRST = re.compile(r"[\s(]*(?:(?:do|goal|run|call)\s+)?(?P<name>[A-Za-z]\w*)(?![\w:.-])")
+_FIRST = re.compile(r"(?:[\s(]|[#;].*\n)*(?:(?:do|goal|run|call)\s+)?(?P<name>[A-Za-z]\w*)(?![\w:.-])")
 _INDIVIDUAL = re.compile(r"(?:\b(?P<label>\w+)\s*(?::|=)\s*)?(?P<name>\b[A-Za-z]\w*:[A-Za-z][\w-]*)")
 
 
@@ -24,30 +24,30 @@ def report_skill_as_goal(text: str, skills: Mapping[str, Skill], vocabulary: Voc
     if found is None or name is None:
         return None
     skill = skills[name]
-    values = _values(skill, text[found.end() :])
-    passed = ", ".join(f"{each.name}: {values[each.name]}" for each in skill.parameters if each.name in values)
+    required = [each.name for each in skill.parameters if each.direction == "in"]
+    values = _values(required, text[found.end() :])
+    passed = ", ".join(f"{each}: {values.get(each, '..')}" for each in required)
     run = f"to run it, call it (`--call` on the command line): `{name}({passed})`"
     made = [each.condition for each in skill.post if not isinstance(each.condition, Not)]
-    meant = _with_values(format_condition(made[0], vocabulary), values) if made else ""
-    help_ = f"write what it makes true: `{meant}`; {run}" if made else run
-    span = _span_of(text, found)
-    return Diagnostic("not-a-condition", span, f"`{name}` is a skill, and a goal is a condition", help_)
+    help_ = run
+    if made:
+        help_ = f"write what it makes true: `{_with_values(format_condition(made[0], vocabulary), values)}`; {run}"
+    message = f"`{name}` is a skill, and a goal is a condition"
+    return Diagnostic("not-a-condition", _span_of(text, found), message, help_)
 
 
-def _values(skill: Skill, arguments: str) -> Mapping[str, str]:
-    """Return the values of the required parameters: individuals with their label, or the only one; `..` otherwise."""
-    required = [each.name for each in skill.parameters if each.direction == "in"]
+def _values(required: Sequence[str], arguments: str) -> Mapping[str, str]:
+    """Return the values of required parameters: individuals with their label, or the only one for the only one."""
     written = [(each["label"], each["name"]) for each in _INDIVIDUAL.finditer(arguments)]
     labelled = {label: name for label, name in written if label in required}
     if not labelled and len(written) == len(required) == 1:
-        labelled = {required[0]: written[0][1]}
-    return {each: labelled.get(each, "..") for each in required}
+        return {required[0]: written[0][1]}
+    return labelled
 
 
 def _with_values(condition: str, values: Mapping[str, str]) -> str:
     """Return the condition with the parameters that have a value replaced by it."""
-    known = {name: value for name, value in values.items() if value != ".."}
-    return re.sub(r"(?<![\w.:-])[A-Za-z]\w*(?![\w:-])", lambda word: known.get(word[0], word[0]), condition)
+    return re.sub(r"(?<![\w.:-])[A-Za-z]\w*(?![\w:-])", lambda word: values.get(word[0], word[0]), condition)
 
 
 def _span_of(text: str, found: re.Match[str]) -> Span:

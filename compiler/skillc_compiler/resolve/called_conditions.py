@@ -1,4 +1,4 @@
-"""Conditions as other languages write them: `hasA(arm, tool)`, `Tool(x)`, a skill as a condition, `a.state is Idle`."""
+"""Conditions as other languages write them: `hasA(arm, tool)`, `Tool(x)`, a skill as a condition, `a equals b`."""
 
 from __future__ import annotations
 
@@ -46,6 +46,16 @@ def report_relation_first(context: FileContext, scope: Scope, relation: s.Name, 
     fix = Fix(written.span, meant, f"write `{meant}`", safe=False)
     problem = Diagnostic("unknown-parameter", relation.span, message, f"write `{meant}`", fix=fix)
     context.names.problems.append(problem)
+
+
+def report_equals(context: FileContext, relation: s.Name) -> bool:
+    """Report `a equals b`, which is read as a relation that is not declared; whether it is so."""
+    if relation.text != "equals" or context.names.is_term("relation", relation.text):
+        return False
+    fix = Fix(relation.span, "==", "write `==`", safe=False)
+    message = "there is no relation `equals`: values are compared with `==`"
+    context.names.problems.append(Diagnostic("unknown-relation", relation.span, message, "write `==`", fix=fix))
+    return True
 
 
 def report_compared_by_is(context: FileContext, subject: s.Value, cls: s.Name) -> bool:

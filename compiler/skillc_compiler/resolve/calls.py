@@ -50,12 +50,13 @@ def _report_argument(
     out: Parameter | None,
     written: s.CallSkill,
 ) -> None:
-    """Report an argument that no parameter takes; its value is still resolved, unless it repeats the name."""
+    """Report an argument that no parameter takes; its value is still resolved, unless it is a bare name."""
     name = argument.name.text
     own = scope.variables.get(name) if _is_shorthand(argument) else None
-    is_bare = _is_shorthand(argument) and ":" not in name
+    is_individual = _is_shorthand(argument) and ":" in name
     shown = own.type if own else UNKNOWN
-    kind = shown if is_bare else resolve_value(context, scope, argument.value).type
+    is_name = _is_shorthand(argument) and not is_individual
+    kind = shown if is_name else resolve_value(context, scope, argument.value).type
     if out is not None:
         context.report(
             "unknown-argument",
@@ -67,8 +68,7 @@ def _report_argument(
         return
     free = _free_parameters(context, skill, written, kind)
     needed = [each for each in free if (found := skill.parameter(each)) and found.direction == "in"]
-    is_named = own is not None or (_is_shorthand(argument) and not is_bare)
-    is_value = is_named and len(needed) == 1 and not close_names(name, free)
+    is_value = (own is not None or is_individual) and len(needed) == 1 and not close_names(name, free)
     context.report_unknown(
         UnknownName(
             "argument",

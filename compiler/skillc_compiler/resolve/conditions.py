@@ -12,6 +12,7 @@ from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.called_conditions import (
     report_called_condition,
     report_compared_by_is,
+    report_equals,
     report_relation_first,
 )
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
@@ -93,6 +94,8 @@ def _resolve_relation(context: FileContext, scope: Scope, written: s.Relation) -
     name = _relation_in_place_of_subject(context, scope, written)
     if name is not None:
         report_relation_first(context, scope, name, written)
+        return TypedCondition(And(()), written.span)
+    if report_equals(context, written.relation):
         return TypedCondition(And(()), written.span)
     subject = _resolve_side(context, scope, written.subject)
     object_ = _resolve_side(context, scope, written.object)

@@ -26,15 +26,20 @@ _HINTS = MappingProxyType(
     }
 )
 _MEANT = MappingProxyType(
-    dict(
-        pair.split(" ")
-        for pair in (
-            *("& and", "&& and", "∧ and", "| or", "|| or", "∨ or", "! not", "~ not", "¬ not", "→ implies"),
-            *("≤ <=", "≥ >=", "≠ !=", "× *", "· *", "÷ /", "; ", "$ ", "? "),
-        )
-    )
+    {
+        **dict.fromkeys(("&", "&&", "∧"), "and"),
+        **dict.fromkeys(("|", "||", "∨"), "or"),
+        **dict.fromkeys(("!", "~", "¬"), "not"),
+        **dict.fromkeys(("×", "·"), "*"),
+        "÷": "/",
+        "≤": "<=",
+        "≥": ">=",
+        "≠": "!=",
+        "→": "implies",
+        **dict.fromkeys((";", "$", "?"), ""),
+    }
 )
-"""What replaces characters of other languages."""
+"""What replaces characters of other languages; empty if they are deleted."""
 
 
 class LexerPosition(NamedTuple):

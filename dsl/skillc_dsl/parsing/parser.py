@@ -50,8 +50,9 @@ def parse_with_problems(source: Source, lexed: Outcome[tuple[Token, ...]], wrong
     file = builder.file(tree)
     if wrong is not None:
         return Outcome(file, (wrong,))
-    unread = [*_unexplained(lexed.diagnostics, recovery.explained)]
-    misread = _unexplained((*_before(repaired.diagnostics, unread), *named.diagnostics), recovery.explained)
+    unread = [*_unexplained(lexed.diagnostics, [place for _, place in recovery.foreign])]
+    rewritten = [form.span if form.fix else place for form, place in recovery.foreign]
+    misread = _unexplained((*_before(repaired.diagnostics, unread), *named.diagnostics), rewritten)
     unread_lines = {problem.span.line for problem in unread}
     misfits = [
         each for each in recovery.problems if isinstance(each, ForeignForm) or each.span.line not in unread_lines

@@ -33,7 +33,8 @@ _CALM = 2
 class Recovery:
     """One run over a copy of the tokens of `source`, which repairs change; lines in `reported` already have a problem.
 
-    `errors` are the places where tokens were dropped, `explained` those that a form of another language explains.
+    `errors` are the places where tokens were dropped; `foreign` has the reported forms of other languages, each with
+    the place from it to where parsing goes on.
     """
 
     def __init__(self, tokens: Sequence[Token], source: Source, reported: Collection[int]) -> None:
@@ -43,7 +44,7 @@ class Recovery:
         self.reported = reported
         self.problems: list[Diagnostic] = []
         self.errors: list[s.ErrorNode] = []
-        self.explained: list[Span] = []
+        self.foreign: list[tuple[ForeignForm, Span]] = []
         self._dropped: list[Token] = []
         self._parser: Parser[Tree] = Parser(Tree)
         self._since = _CALM
@@ -89,11 +90,11 @@ class Recovery:
             self._since = 0
             return index
         misfit = second or foreign or self._misfit(before, index)
-        if isinstance(misfit, ForeignForm) or misfit.span.line not in self.reported:
-            self._report(misfit)
+        may_follow = not isinstance(misfit, ForeignForm) and misfit.span.line in self.reported
+        is_new = not may_follow and self._report(misfit)
         position = self._resume(index)
-        if isinstance(misfit, ForeignForm):
-            self.explained.append(self._place_to(misfit.span, position))
+        if is_new and isinstance(misfit, ForeignForm):
+            self.foreign.append((misfit, self._place_to(misfit.span, position)))
         self._leave_error(index, self.tokens[index:position])
         self._since = _CALM if begins_line(self.tokens, position) else 0
         return position
@@ -167,10 +168,15 @@ class Recovery:
         self._close(END)
         return len(self.tokens) - 1
 
-    def _report(self, problem: Diagnostic) -> None:
-        """Add `problem` unless it probably follows from the last one, on the same line or a few tokens before."""
-        if self._since >= _CALM and all(problem.span.line != other.span.line for other in self.problems[-1:]):
+    def _report(self, problem: Diagnostic) -> bool:
+        """Add `problem` unless it probably follows from the last one, on the same line or a few tokens before.
+
+        Whether it was added.
+        """
+        is_new = self._since >= _CALM and all(problem.span.line != other.span.line for other in self.problems[-1:])
+        if is_new:
             self.problems.append(problem)
+        return is_new
 
     def _misfit(self, before: list[int], index: int) -> Diagnostic:
         """Return the diagnostic with the found and the expected tokens; an incomplete member is reported at its end."""

@@ -1,4 +1,4 @@
-"""Lints of vocabularies: several inverses, several domains, axioms beyond OWL 2 DL."""
+"""Lints of vocabularies: inverses, domains, measures and thresholds, axioms beyond OWL 2 DL."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
+from skillc_dsl.spelling import did_you_mean
 from skillc_rdf.vocabulary.graph import Graph
-from skillc_rdf.vocabulary.iris import DOMAIN, INVERSE, RANGE, TYPE
+from skillc_rdf.vocabulary.iris import DOMAIN, INVERSE, RANGE, SKILLC, TYPE
 from skillc_rdf.vocabulary.places import TermPositions
 from skillc_rdf.vocabulary.types import Position, PropertyTerm, RelationTerm, Vocabulary
 
@@ -17,6 +18,8 @@ def lint_ontology(graph: Graph, vocabulary: Vocabulary, places: TermPositions) -
     yield from _lint_inverses(graph, vocabulary, places)
     for iri in (*vocabulary.relations, *vocabulary.properties):
         yield from _lint_domains(graph, vocabulary, iri, places)
+    for iri in vocabulary.properties:
+        yield from _lint_numbers(graph, vocabulary, iri, places)
     yield from _lint_beyond_dl(vocabulary, places)
 
 
@@ -56,6 +59,18 @@ def _lint_domains(graph: Graph, vocabulary: Vocabulary, iri: str, places: TermPo
             else:
                 message = f"the {word} of `{short}` are {both}: in OWL both apply, here either"
                 yield Diagnostic("several-domains", place, message, help_, severity="warning")
+
+
+def _lint_numbers(graph: Graph, vocabulary: Vocabulary, iri: str, places: TermPositions) -> Iterator[Diagnostic]:
+    """Report the measure or threshold of a property that is no property: explanations would leave it out."""
+    short, known = vocabulary.short, vocabulary.properties
+    stated = [(word, each) for word in ("measure", "threshold") for each in graph.iris(iri, f"{SKILLC}{word}")]
+    for word, each in stated:
+        if vocabulary.aliases.get(each, each) not in known:
+            place = places.statement(iri, f"{SKILLC}{word}", each)
+            message = f"the {word} of `{short(iri)}`, `{short(each)}`, is no declared property"
+            help_ = did_you_mean(short(each), map(short, known))
+            yield Diagnostic("undeclared-term", place, message, help_, severity="warning")
 
 
 def _are_two_disjoint(vocabulary: Vocabulary, classes: Sequence[str]) -> bool:

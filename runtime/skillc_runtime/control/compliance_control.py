@@ -41,7 +41,10 @@ class ComplianceControl:
 
     @property
     def commanded_force(self) -> Array:
-        """The force (3,) N, world axes, on the tool by what it presses on, as it is commanded; NaN without a push."""
+        """The force (3,) N on the tool by what it presses on, world axes, that is commanded now; NaN without a push.
+
+        It follows that of `commanded_wrench`, which is the end of the ramp.
+        """
         task, exerted = self._task, self._task.tool.compliance.exerted
         if task.joints is not None or not exerted.any():
             return np.full(3, np.nan)

@@ -221,7 +221,7 @@ class ComplianceInterface(Protocol):
 
     @property
     def commanded_force(self) -> Array:
-        """The force (3,) N, world axes, on the tool by what it presses on, as it is commanded; NaN without a push."""
+        """The force (3,) N on the tool by what it presses on, world axes, that is commanded now; NaN without a push."""
         ...
 
     def release(self, axis: Array, stiffness: float = 0.0) -> None:

@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 Contact: TypeAlias = Literal["none", "kept", "lifting", "taken-off", "approaching"]
 """none: the run is not paused, or no tool pressed when it was; kept: tools press on; lifting: they are being taken off;
-taken-off: they were, and have come to rest; approaching: they approach until they sense contact."""
+taken-off: they were taken off and are at rest; approaching: they approach until they sense contact."""
 
 SENTENCES: dict[Contact, str] = {
     "none": "",
@@ -15,4 +15,4 @@ SENTENCES: dict[Contact, str] = {
     "taken-off": "the tool was taken off the surface; it senses contact again before the task goes on",
     "approaching": "the tool approaches again until it senses contact",
 }
-"""The same for people, without a full stop."""
+"""A sentence for people about each, without a full stop."""

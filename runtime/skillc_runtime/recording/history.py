@@ -61,8 +61,7 @@ class RecordedCall(_Part, frozen=True, kw_only=True):
     `unset` are the parameters that could not be inferred. `chain` leads from this call to the node that failed.
     `expressions` are those of its arguments and defaults, by parameter, and `written` the facts on which these rest
     that were written during the run; `outputs` are its outputs, of which `out` is the name that gets the first.
-    `activity` and `highlights` are those of
-    a primitive.
+    `activity` and `highlights` are those of a primitive.
     """
 
     number: str

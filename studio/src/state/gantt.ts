@@ -64,11 +64,11 @@ export function expectDurations(
   return skills.map((each) => durations.get(each) ?? share);
 }
 
-/** Return the plan of an attempt over time; `begin` is when it was made. */
+/** Return the plan of an attempt over time; `now` is the present if it goes on. */
 export function ganttOf(
   state: OperationState,
   attempt: Attempt,
-  isOngoing: boolean,
+  now: number | null,
   knowledge: GanttKnowledge,
 ): Gantt | null {
   const plan = attempt.plan;
@@ -94,12 +94,12 @@ export function ganttOf(
       values: Object.values(step.arguments).map(formatValue).join(", "),
       devices: devicesOf(step, node?.choice?.bindings ?? {}, knowledge.devices),
       planned: planned[index] ?? { from, to: from },
-      ran: ran ? null : { from: node.startedAt, to: node.endedAt ?? state.time },
+      ran: ran ? null : { from: node.startedAt, to: node.endedAt ?? now ?? state.time },
       status: node?.status ?? "pending",
     };
   });
   const to = Math.max(from + 0.1, ...steps.flatMap((each) => [each.planned.to, each.ran?.to ?? 0]));
-  return { steps, from, to, now: isOngoing && state.time >= from ? state.time : null };
+  return { steps, from, to, now: now !== null && now >= from ? now : null };
 }
 
 /** Return a plan that has not been started over time, from 0 s: as its schedule says, or one step after the other. */

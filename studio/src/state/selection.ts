@@ -16,11 +16,15 @@ export function selectedNode(selection: Selection, operation: OperationState): T
   return selection.kind === "node" ? (operation.nodes.get(selection.key) ?? null) : null;
 }
 
-/** Return the time span that is selected, in s of the cell; an open end is the present. */
-export function selectedSpan(selection: Selection, operation: OperationState): [number, number] | null {
+/** Return the time span that is selected, in s of the cell; what has not ended goes on until `now`. */
+export function selectedSpan(
+  selection: Selection,
+  operation: OperationState,
+  now: number,
+): [number, number] | null {
   if (selection.kind === "time") return [selection.time, selection.time];
   const node = selectedNode(selection, operation);
-  return node === null || node.status === "pending" ? null : [node.startedAt, node.endedAt ?? operation.time];
+  return node === null || node.status === "pending" ? null : [node.startedAt, node.endedAt ?? now];
 }
 
 /** Return the line of source that is selected. */

@@ -38,6 +38,9 @@ const plotted = computed((): Plotted => {
   return dropEmpty(stored.value === null ? own : continuePlot(stored.value, own));
 });
 
+/** Return the names of lines, by which they are told from others. */
+export const namesOf = (lines: readonly SignalLine[]): string => lines.map((each) => each.name).join();
+
 let linesBefore: readonly SignalLine[] = [];
 /** All lines that there are to choose from; the same array until they change. */
 export const allLines = computed(() => {
@@ -45,7 +48,6 @@ export const allLines = computed(() => {
   if (namesOf(lines) !== namesOf(linesBefore)) linesBefore = lines;
   return linesBefore;
 });
-const namesOf = (lines: readonly SignalLine[]): string => lines.map((each) => each.name).join();
 /** What is chosen: a device, and a kind of signal; empty for all. */
 export const chosenDevice = signal("");
 export const chosenKind = signal("");

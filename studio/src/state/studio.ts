@@ -77,7 +77,7 @@ export const sample = signal<Sample | null>(null);
 export const shownSample = computed(() => (replay.value === null ? sample.value : replay.value.sample));
 
 export const selection = signal<Selection>(NOTHING);
-export const span = computed(() => selectedSpan(selection.value, operation.value));
+export const span = computed(() => selectedSpan(selection.value, operation.value, shownTime.value));
 export const place = computed(() => selectedPlace(selection.value, operation.value));
 export const things = computed(() => selectedThings(selection.value, operation.value));
 

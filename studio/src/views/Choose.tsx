@@ -84,6 +84,7 @@ function Offers({ onChoose }: { onChoose: (wish: Wish) => void }) {
   return (
     <>
       <h3>What shall be done?</h3>
+      {tasks.length === 0 && <p class="muted">The library of this cell has no tasks.</p>}
       <ul class="stack" aria-label="Tasks">
         {offers.map(({ task, missing }, index) => (
           <li key={task.name}>

@@ -14,7 +14,17 @@ import {
   type Span,
 } from "../state/gantt";
 import type { OperationState } from "../state/operation";
-import { cell, cellName, library, operation, preview, replay, selection, shownRun } from "../state/studio";
+import {
+  cell,
+  cellName,
+  library,
+  operation,
+  preview,
+  replay,
+  selection,
+  shownRun,
+  shownTime,
+} from "../state/studio";
 import { formatTime } from "../state/text";
 import { LeftOutParts } from "./LeftOutParts";
 import { NodeMark } from "./status";
@@ -65,7 +75,8 @@ function PlanOfRun() {
   const state = operation.value;
   const last = state.attempts.findLast((each) => each.plan !== null);
   if (last?.plan == null) return <div class="empty">{whyEmpty(state)}</div>;
-  const gantt = ganttOf(state, last, shownRun.value?.goesOn ?? false, knowledge.value);
+  const now = shownRun.value?.goesOn === true ? shownTime.value : null;
+  const gantt = ganttOf(state, last, now, knowledge.value);
   if (gantt === null) return null;
   return (
     <div class="gantt" role="group" aria-label="Plan over time" tabIndex={0}>

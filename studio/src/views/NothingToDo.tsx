@@ -12,7 +12,10 @@ export function NothingToDo() {
         <p>
           <button
             disabled={obstacle !== ""}
-            title={obstacle || "The world and what is really so are again as the scene says"}
+            title={
+              obstacle ||
+              "Puts everything back to how the scene says it is, in the world model and in the simulation"
+            }
             onClick={() => void reset()}
           >
             Reset {cell.value?.name} to its scene

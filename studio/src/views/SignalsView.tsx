@@ -9,6 +9,7 @@ import {
   chosenDevice,
   chosenKind,
   isReadingStored,
+  namesOf,
   plotColumns,
   plotLines,
 } from "../state/signals";
@@ -132,7 +133,7 @@ function saveFile(name: string, type: string, text: string): void {
 function Plots() {
   const box = useRef<HTMLDivElement>(null);
   const lines = plotLines.value;
-  const key = `${lines.map((each) => each.name).join("|")} ${isDark.value}`;
+  const key = namesOf(lines);
   useEffect(() => {
     const element = box.current;
     if (element === null || lines.length === 0) return;
@@ -152,7 +153,9 @@ function Plots() {
       made.over.addEventListener("pointerup", () => window.setTimeout(() => (shownRange = rangeOf(made))));
       end = effect(() => {
         const columns = plotColumns.value;
-        if (!pausedAt.value) made.setData(columns as uPlot.AlignedData);
+        // Lines came or went, and so did columns: they are those of the plot that replaces this one.
+        if (namesOf(plotLines.value) !== key) return;
+        if (!pausedAt.value || made.data[0].length === 0) made.setData(columns as uPlot.AlignedData);
         shownRange = rangeOf(made);
       });
     });
@@ -166,7 +169,7 @@ function Plots() {
       end();
       plot?.destroy();
     };
-  }, [key]);
+  }, [key, isDark.value]);
   if (lines.length === 0) return <div class="empty">{describeNothing()}</div>;
   return (
     <div

@@ -46,12 +46,7 @@ export function TrialsPage({ series: { about, result } }: { series: Shown }) {
           <section class="stack" aria-label="Distributions">
             <div class="trials-legend">
               <h3>What was measured</h3>
-              <p class="small muted">
-                A dot is a trial; click it to replay it. The box holds the middle half of the values, the line
-                is their median. <span class="is-waiting">The worst value</span> and{" "}
-                <span class="is-bad">failed trials</span> have colours of their own
-                {result.spreads.some((each) => each.bound !== null) && "; a broken line is what is wanted"}.
-              </p>
+              <Legend spreads={result.spreads} />
             </div>
             {result.spreads.map((each) => (
               <Distribution
@@ -70,6 +65,19 @@ export function TrialsPage({ series: { about, result } }: { series: Shown }) {
         </div>
       )}
     </FullPage>
+  );
+}
+
+/** How distributions are read. */
+function Legend({ spreads }: { spreads: Series["spreads"] }) {
+  if (spreads.length === 0) return <p class="muted">Nothing was measured in these trials.</p>;
+  return (
+    <p class="small muted">
+      A dot is a trial; click it to replay it. The box holds the middle half of the values, the line is their
+      median. <span class="is-waiting">The worst value</span> and <span class="is-bad">failed trials</span>{" "}
+      have colours of their own
+      {spreads.some((each) => each.bound !== null) && "; a dashed line is what is wanted"}.
+    </p>
   );
 }
 

@@ -90,19 +90,21 @@ function Row({ series }: { series: TrialSeries }) {
 
 function NewSeries({ onDone }: { onDone: () => void }) {
   const tasks = library.value?.tasks ?? [];
-  const [name, setName] = useState(tasks[0]?.name ?? "");
+  const [name, setName] = useState("");
+  const task = tasks.find((each) => each.name === name) ?? tasks[0];
   const [values, setValues] = useState<Record<string, string>>({});
   const [number, setNumber] = useState(20);
   const [disturb, setDisturb] = useState<keyof typeof DISTURBANCES>("none");
-  const inputs = (tasks.find((each) => each.name === name)?.parameters ?? []).filter(
+  const inputs = (task?.parameters ?? []).filter(
     (each) => each.direction === "in" || each.direction === "opt",
   );
+  if (task === undefined) return <p class="edit-form muted">The library of this cell has no tasks.</p>;
   const isComplete = inputs.every((each) => each.direction === "opt" || (values[each.name] ?? "") !== "");
   const submit = async (event: Event): Promise<void> => {
     event.preventDefault();
     const given = inputs.map((each) => [each.name, values[each.name] ?? ""] as const);
     const request: TrialsRequest = {
-      task: name,
+      task: task.name,
       arguments: Object.fromEntries(given.filter(([, value]) => value !== "")),
       number,
       disturb,
@@ -113,7 +115,7 @@ function NewSeries({ onDone }: { onDone: () => void }) {
     <form class="edit-form stack" onSubmit={(event) => void submit(event)}>
       <label class="stack">
         <span class="small muted">Task</span>
-        <select aria-label="Task" value={name} onChange={(event) => setName(event.currentTarget.value)}>
+        <select aria-label="Task" value={task.name} onChange={(event) => setName(event.currentTarget.value)}>
           {tasks.map((each) => (
             <option key={each.name} value={each.name}>
               {each.name}

@@ -18,10 +18,10 @@ CallPair = tuple[RecordedCall, RecordedCall]
 
 @dataclass(frozen=True, slots=True)
 class PairedCalls:
-    """The calls that both runs have, outermost first, and calls inside these that one of them lacks."""
+    """The calls that both runs have, outermost first, and calls inside these that one of them lacks, with None."""
 
     pairs: list[CallPair] = field(default_factory=list)
-    alone: list[tuple[RecordedCall, None] | tuple[None, RecordedCall]] = field(default_factory=list)
+    alone: list[tuple[RecordedCall | None, RecordedCall | None]] = field(default_factory=list)
 
 
 def compare_plans(one: RunHistory, other: RunHistory) -> Iterator[Difference]:
@@ -65,8 +65,8 @@ def compare_outcomes(calls: PairedCalls) -> Iterator[Difference]:
         if end not in inner:
             yield from find_difference("outcomes", _name_pair(call, same), end)
     for first, second in calls.alone:
-        said = tuple(None if each is None else _describe_outcome(each) for each in (first, second))
-        yield from find_difference("outcomes", _name_pair(first, second), (said[0], said[1]))
+        said, other = (None if each is None else _describe_outcome(each) for each in (first, second))
+        yield from find_difference("outcomes", _name_pair(first, second), (said, other))
 
 
 def compare_durations(pairs: list[CallPair]) -> Iterator[Difference]:
@@ -95,12 +95,12 @@ def _find_other_steps(first: Attempt, second: Attempt) -> Iterator[Difference]:
     for one, other in _align(first.steps, second.steps):
         number = next(each.number for each in (one, other) if each is not None)
         if one is None or other is None or _is_planned_otherwise(one, other):
-            names = (None if one is None else _name_step(one), None if other is None else _name_step(other))
-            yield from find_difference("plan", f"step {number}", names)
+            name, same = (None if each is None else _name_step(each) for each in (one, other))
+            yield from find_difference("plan", f"step {number}", (name, same))
 
 
 def _is_planned_otherwise(first: RecordedCall, second: RecordedCall) -> bool:
-    """Whether two steps were planned with other arguments; of one that has not started more is told."""
+    """Whether two steps were planned with other arguments; False if only one has started, which binds more of them."""
     comparable = first.planned and second.planned and (first.started is None) is (second.started is None)
     return comparable and _name_step(first) != _name_step(second)
 
@@ -131,10 +131,8 @@ def _add_pairs(first: RecordedCall, second: RecordedCall, found: PairedCalls) ->
     for call, same in _align(first.calls, second.calls):
         if call is not None and same is not None:
             _add_pairs(call, same, found)
-        elif call is not None:
-            found.alone.append((call, None))
-        elif same is not None:
-            found.alone.append((None, same))
+        else:
+            found.alone.append((call, same))
 
 
 def _name_pair(first: RecordedCall | None, second: RecordedCall | None) -> str:

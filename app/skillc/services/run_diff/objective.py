@@ -4,19 +4,38 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-
-import msgspec
+from typing import assert_never
 
 from skillc.contract.run_diff import Difference
 from skillc.services.run_diff.alignment import align
 from skillc.services.run_diff.difference import find_difference
 from skillc_model.format_condition import format_condition, format_expression
 from skillc_model.traversal import children
-from skillc_model.tree import Call, ForEach, Parallel, Repeat, Retry, Timeout, Wait, While
+from skillc_model.tree import (
+    Apply,
+    Call,
+    Check,
+    ForEach,
+    If,
+    Invert,
+    Node,
+    Once,
+    Parallel,
+    Repeat,
+    Retry,
+    Selector,
+    Sequence,
+    Timeout,
+    Try,
+    Wait,
+    WaitUntil,
+    While,
+    With,
+)
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.recording.events import TaskStarted
 
-_NAMESPACE = re.compile(r"(?<![a-z])[a-z]+://[^\"\s]*[#/]")
+_NAMESPACE = re.compile(r"(?<![a-z\"])[a-z]+://[^\"\s]*[#/]")
 _WORDS = Vocabulary()
 """A recording does not keep the prefixes of names, which are shown by their local parts."""
 
@@ -25,51 +44,68 @@ def compare_objectives(first: TaskStarted, second: TaskStarted) -> Iterator[Diff
     """Yield the goals if they differ, or the nodes of two bodies that differ or that only one run has."""
     one, other = _describe(first), _describe(second)
     if first.goal is not None or second.goal is not None:
-        yield from find_difference("settings", "objective", ("; ".join(one), "; ".join(other)))
+        yield from _find_difference("; ".join(one), "; ".join(other))
         return
     for pair in align(one, other, lambda line: line, _first_word):
-        yield from find_difference("settings", "objective", pair)
+        yield from _find_difference(*pair)
+
+
+def _find_difference(one: str | None, other: str | None) -> tuple[Difference, ...]:
+    """Return a difference by local names, or by whole names if the local ones are the same."""
+    first, second = (None if each is None else _NAMESPACE.sub("", each) for each in (one, other))
+    return find_difference("settings", "objective", (one, other) if first == second else (first, second))
 
 
 def _first_word(line: str) -> str:
     """Return the skill of a call, or the kind of another node."""
-    return re.split(r"\W", line, maxsplit=1)[0]
+    return re.split(r"\W", line.removeprefix("reactive "), maxsplit=1)[0]
 
 
 def _describe(start: TaskStarted) -> list[str]:
     """Return a goal, or the nodes of a body in order, as an author writes them."""
     if start.goal is not None:
-        lines = [format_condition(start.goal, _WORDS)]
-    else:
-        lines = [] if start.body is None else list(_list_nodes(start.body))
-    return [_NAMESPACE.sub("", line) for line in lines]
+        return [format_condition(start.goal, _WORDS)]
+    return [] if start.body is None else list(_list_nodes(start.body))
 
 
-def _list_nodes(node: msgspec.Struct) -> Iterator[str]:
+def _list_nodes(node: Node) -> Iterator[str]:
     yield _describe_node(node)
-    if not isinstance(node, Call):
-        inner = (each for each in children(node) if hasattr(each, "source"))
-        yield from (line for each in inner for line in _list_nodes(each))
+    inner = (each for each in children(node) if isinstance(each, Node))
+    yield from (line for each in inner for line in _list_nodes(each))
 
 
-def _describe_node(node: msgspec.Struct) -> str:
+def _describe_node(node: Node) -> str:
+    """Return a node as an author writes it, without the nodes inside it."""
     match node:
-        case Call(skill, implementation, arguments):
-            given = ", ".join(f"{name}: {format_expression(each, _WORDS)}" for name, each in arguments.items())
-            return f"{skill}{f'[{implementation}]' if implementation else ''}({given})"
-        case Retry(count) | Repeat(count):
-            return f"{_kind(node)} {count}"
-        case Timeout(seconds) | Wait(seconds):
-            return f"{_kind(node)} {format_expression(seconds, _WORDS)} s"
-        case Parallel(policy):
+        case Call():
+            return _describe_call(node)
+        case Sequence(reactive=reactive) | Selector(reactive=reactive):
+            return f"{'reactive ' if reactive else ''}{_kind(node)}"
+        case Parallel(policy=policy):
             return f"par {policy}"
-        case ForEach(variable, items):
+        case Retry(count=count) | Repeat(count=count):
+            return f"{_kind(node)} {count}"
+        case Timeout(seconds=seconds) | Wait(seconds=seconds):
+            return f"{_kind(node)} {format_expression(seconds, _WORDS)} s"
+        case ForEach(variable=variable, items=items):
             return f"for {variable} in {format_expression(items, _WORDS)}"
         case While(text=text, limit=limit):
             return f"while {text} max {limit}"
+        case WaitUntil(text=text) | If(text=text) | Check(text=text):
+            return f"{_kind(node)} {text}"
+        case Apply(labels=labels):
+            return f"apply {', '.join(labels)}"
+        case Try() | Invert() | Once() | With():
+            return _kind(node)
         case _:
-            return f"{_kind(node)} {getattr(node, 'text', '')}".strip()
+            assert_never(node)
 
 
-def _kind(node: msgspec.Struct) -> str:
+def _describe_call(call: Call) -> str:
+    fixed = f"[{call.implementation}]" if call.implementation else ""
+    given = ", ".join(f"{name}: {format_expression(each, _WORDS)}" for name, each in call.arguments.items())
+    return f"{call.skill}{fixed}({given}){f' -> {call.out}' if call.out else ''}"
+
+
+def _kind(node: Node) -> str:
     return str(node.__struct_config__.tag).replace("-", " ")

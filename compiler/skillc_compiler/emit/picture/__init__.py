@@ -1,4 +1,4 @@
-"""Pictures of skills and tasks: `drawing` converts declarations to boxes, `svg` and `mermaid` draw them.
+"""Pictures of skills and tasks: `drawing` converts declarations to boxes, `svg`, `mermaid` and `text` draw them.
 
 Start at `drawing`.
 """

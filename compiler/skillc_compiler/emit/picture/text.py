@@ -22,7 +22,8 @@ def _lines(box: PictureBox, first: str, rest: str, width: int) -> Iterator[str]:
     room = max(NARROWEST, width - len(below))
     title, *wrapped = wrap_text(f"{box.symbol} {box.title}", room)
     yield first + title
-    yield from (below + line for text in (*wrapped, *box.lines) for line in wrap_text(text, room))
+    yield from (below + line for line in wrapped)
+    yield from (below + line for text in box.lines for line in wrap_text(text, room))
     for child in box.children:
         is_last = child is box.children[-1]
         yield from _lines(child, rest + ("└─" if is_last else "├─"), rest + ("  " if is_last else "│ "), width)

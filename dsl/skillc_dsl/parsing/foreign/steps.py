@@ -10,9 +10,11 @@ _KIND = r"(?:var|const|val|auto|int|float|double|bool|string|def|set)"
 _VALUE = r"values are named before the steps: `let \g<a> = \g<b>` above `do`"
 _LOOP = "write `repeat 3 { .. }`, or `while C max 10 { .. }`"
 
-_COUNT = r"(?:\w+\s+)?\w+\s*=\s*0\s*;\s*\w+\s*<\s*(?P<a>\d+)\s*;[^)]*"
+_COUNT = r"(?:\w+\s+)?\w+\s*=\s*0\s*;\s*\w+\s*<\s*(?P<a>\d+)\s*;\s*(?:\+\+\s*\w+|\w+\s*(?:\+\+|\+=\s*1))\s*"
 _FOR = "write `repeat 3 { .. }`, `for x in LIST { .. }` or `while C max 10 { .. }`"
 _SEQ_FAILS = "delete it: a `seq` fails as soon as one of its steps fails"
+_SEL = "write `sel { seq { .. } seq { .. } }`: the second runs if the first fails"
+_PAR = "write `par all`, `par any`, `par race` or `par lead`"
 
 FORMS = (
     inner(r"(?<=:\s)\{(?P<a>\w+)\}", r"\g<a>"),
@@ -23,14 +25,13 @@ FORMS = (
         r"for\s+\w+\s+in\s+range\(\s*(?:0\s*,\s*)?(?P<a>\d+)\s*\)\s*:?", r"repeat \g<a>", r"write `repeat \g<a> { .. }`"
     ),
     leading(r"for\s+\w+\s+in\s+\[.*", None, "a list is a parameter of the type `[T]`, or what a function returns"),
-    leading(r"if\b.*\breturn\b.*", None, _SEQ_FAILS),
+    leading(r"if\b[^{]*\b[A-Z]\w*\(.*\breturn\b.*", None, _SEQ_FAILS),
+    leading(r"if\b.*\breturn\b.*", None, "put the steps after it into `if not (C) { .. }`"),
     leading(r"do\s*\{", None, "write `while C max 10 { .. }`", "RBRACE"),
     leading(r"RetryUntilSuccessful\s*\(\s*\w+\s*[=:]\s*(?P<a>\d+)\s*\)", r"retry \g<a>"),
     leading(r"Repeat\s*\(\s*\w+\s*[=:]\s*(?P<a>\d+)\s*\)", r"repeat \g<a>"),
     leading(r"Timeout\s*\(\s*msec\s*[=:]\s*(?P<a>\d+)\s*\)", r"timeout \g<a> ms"),
-    leading(
-        r"[Pp]arallel(?:All)?\s*\(.*\)(?=\s*\{)", "par all", "write `par all`, `par any`, `par race` or `par lead`"
-    ),
+    leading(r"[Pp]arallel(?:All)?\s*\(.*\)(?=\s*\{)", "par all", _PAR),
     leading(r"ForceSuccess\b(?=\s*\{)", "try"),
     leading(r"ReactiveSequence\b(?=\s*\{)", "reactive seq"),
     leading(r"ReactiveFallback\b(?=\s*\{)", "reactive sel"),
@@ -41,12 +42,8 @@ FORMS = (
         r"try\s*\{(?P<a>[^{}]*)\}\s*(?:catch|except|else)\b\s*(?:\([^)]*\))?\s*\{(?P<b>[^{}]*)\}",
         r"sel { seq {\g<a>} seq {\g<b>} }",
     ),
-    leading(
-        r"(?:catch|except|rescue)\b\s*(?:\([^)]*\))?",
-        None,
-        "write `sel { seq { .. } seq { .. } }`: the second runs if the first fails",
-    ),
-    leading(r"try\s*:", None, "write `sel { seq { .. } seq { .. } }`: the second runs if the first fails"),
+    leading(r"(?:catch|except|rescue)\b\s*(?:\([^)]*\))?", None, _SEL),
+    leading(r"try\s*:", None, _SEL),
     leading(r"finally\b", None, "what is undone however a block ends is a scoped skill: `with CALL { .. }`"),
     leading(r"(?P<a>retry|repeat)\s*\(\s*(?P<b>\d+)\s*\)", r"\g<a> \g<b>"),
     leading(r"(?P<a>retry|repeat)\s+(?:up\s+to|at\s+most)\s+(?P<b>\d+)(?:\s+times)?", r"\g<a> \g<b>"),
@@ -104,7 +101,7 @@ FORMS = (
     leading(r"wait\s+(?!until\b)(?:for\s+)?(?P<a>[^{}]*[=<>].*\S)", r"wait until \g<a>"),
     leading(r"wait\s+for\b", "wait"),
     leading(r"within\b", "timeout"),
-    leading(r"(?:[Pp]arallel\b|par(?=\s*\{))", "par all", "write `par all`, `par any`, `par race` or `par lead`"),
+    leading(r"(?:[Pp]arallel\b|par(?=\s*\{))", "par all", _PAR),
     leading(r"(?:[Ss]equence|Seq)\b", "seq"),
     leading(r"(?:[Ss]elector|[Ff]allback|Sel)\b(?=\s*\{)", "sel"),
     leading(r"(?:[Ii]nverter|not)\b(?=\s*\{)", "invert"),
@@ -112,7 +109,7 @@ FORMS = (
     leading(rf"(?:do|run)\s+(?={_CALL})", "", where="SEQ"),
     leading(rf"(?:call|execute|await|start)\s+(?={_CALL})", "", where="LSQB"),
     leading(r"(?:begin|end)\b", None, "a block stands in braces: `{ .. }`"),
-    leading(r"(?P<a>\w+)\.(?P<b>[A-Z]\w*)\(\s*\)", r"\g<b>(\g<a>)"),
+    leading(r"(?P<a>\w+)\.(?P<b>[A-Z]\w*)\(\s*\)\s*;?", r"\g<b>(\g<a>)"),
     leading(r"(?P<a>\w+)\.(?P<b>[A-Z]\w*)\(", r"\g<b>(\g<a>, "),
     leading(r"(?P<a>[A-Z]\w*)\s+(?P<b>\w+)\s*$", r"\g<a>(\g<b>)", where="LSQB"),
     leading(r"(?P<a>[A-Z]\w*)\s*$", r"\g<a>()", where="LSQB"),

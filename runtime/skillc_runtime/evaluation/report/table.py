@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from math import floor
-
+from skillc_runtime.evaluation.metrics.coverage_text import format_coverage
 from skillc_runtime.evaluation.report.result import ChoiceResult, PlacementResult, StepResult, TaskResult, WipingResult
 from skillc_runtime.evaluation.report.work_rows import list_work_rows, shorten_rows
 from skillc_runtime.recording.failure_text import list_details
@@ -122,7 +121,7 @@ def _wiping_rows(wiping: WipingResult, one_of_several: bool) -> list[tuple[str, 
     share = wiping.force_rmse_n / wiping.force_command_n
     return [
         *([("surface", str(wiping.surface))] if one_of_several else []),
-        ("coverage", f"{floor(1000 * wiping.coverage) / 1000:.1%}"),
+        ("coverage", f"{format_coverage(wiping.coverage)}%"),
         ("force", f"{wiping.force_mean_n:.2f} N mean of {wiping.force_command_n:g} N"),
         ("force RMSE", f"{wiping.force_rmse_n:.2f} N, {share:.1%}"),
         ("contact lost", f"{wiping.contact_lost:.2%}"),

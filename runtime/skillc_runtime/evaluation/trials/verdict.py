@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import assert_never
 
 from skillc_runtime.evaluation.measures.work import InsertingWork, PolishingWork, PressingWork, WipingWork
+from skillc_runtime.evaluation.metrics.coverage_text import format_coverage
 from skillc_runtime.evaluation.trials.targets import MetricValue, list_trial_values, list_work_values
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 
@@ -28,7 +29,7 @@ def _outcome_problems(trial: Trial, disturbance: Disturbance) -> Iterator[str]:
                 yield "there was no push: nothing is done along a path or in a search"
             yield from _require_success(trial)
             if trial.coverage is not None and trial.coverage < 1.0:
-                yield f"coverage {100 * trial.coverage:.1f} %, wanted 100 % in the end"
+                yield f"coverage {format_coverage(trial.coverage)} %, wanted 100 % in the end"
         case "take":
             if not trial.taken:
                 yield "nothing was taken: nothing is held for long enough"
@@ -68,14 +69,21 @@ def _claimed_work(trial: Trial) -> Iterator[str]:
     fixed = [work for work in trial.works if isinstance(work, PressingWork | InsertingWork)]
     worked = [work for work in trial.works if isinstance(work, WipingWork | PolishingWork)]
     if trial.status == "succeeded" and worked and trial.coverage is not None and trial.coverage < 1.0:
-        yield f"succeeded, wanted a failure that says why: coverage {100 * trial.coverage:.1f} %"
+        yield f"succeeded, wanted a failure that says why: coverage {format_coverage(trial.coverage)} %"
     if trial.status == "succeeded" and fixed:
         claims = (_describe_unmet(value) for work in fixed for value in list_work_values(work))
         yield f"succeeded, wanted a failure that says why: {', '.join(claims)}"
 
 
 def _describe_unmet(value: MetricValue) -> str:
-    return f"{value.metric.name} {value.value:.3g} {value.metric.unit}, wanted {value.metric.target_text}"
+    return f"{value.metric.name} {_format_value(value)} {value.metric.unit}, wanted {value.metric.target_text}"
+
+
+def _format_value(value: MetricValue) -> str:
+    """Return a value with three digits, or with as many as tell on which side of the target it is."""
+    is_met = value.metric.is_met
+    texts = (f"{value.value:.{digits}g}" for digits in range(3, 18))
+    return next(text for text in texts if is_met(float(text)) is is_met(value.value))
 
 
 def _safety_problems(trial: Trial) -> Iterator[str]:

@@ -18,8 +18,11 @@ from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
-MEASURED = 1e-4
-"""How much two measurements of the same differ, in SI units: lengths by a tenth of a millimetre."""
+NOISE = 1e-4
+"""By how much a number may differ and count as unchanged, relative or in SI units: lengths by a tenth of a millimetre.
+
+Whoever wrote it: two measurements of the same thing differ by about as much.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,8 +43,8 @@ class FailedSteps:
     """The steps that failed in the attempts at one goal.
 
     An implementation that failed for some arguments is not tried for them again until a fact changes that the skill
-    reads, or that is about one of the arguments: a primitive may read anything about them. A number that was measured
-    again has not changed if it differs by less than MEASURED.
+    reads, or that is about one of the arguments: a primitive may read anything about them. A number has not
+    changed if it differs by no more than NOISE.
     """
 
     def __init__(self, library: SkillLibrary) -> None:
@@ -131,13 +134,13 @@ class FailedSteps:
 
 
 def _is_noise(fact: FactPattern, before: WorldState, after: WorldState) -> bool:
-    """Whether two versions of the world differ in a number by no more than two measurements of the same."""
+    """Whether a fact in which two versions of the world differ is a number that differs by no more than NOISE."""
     if fact.term is None or fact.subject is None or fact.object is not None:
         return False
     one, other = before.value(fact.subject, fact.term), after.value(fact.subject, fact.term)
     if not isinstance(one, float) or not isinstance(other, float):
         return False
-    return isclose(one, other, rel_tol=MEASURED, abs_tol=MEASURED)
+    return isclose(one, other, rel_tol=NOISE, abs_tol=NOISE)
 
 
 def _step_of(skill: str, arguments: Mapping[str, Value]) -> Step:

@@ -61,19 +61,29 @@ def import_primitive(python: str) -> type[Primitive]:
         raise PrimitiveError(f"`{python}` is not a subclass of skillc_runtime.primitives.primitive.Primitive")
     if found.tick is Primitive.tick:
         raise PrimitiveError(f"`{python}` has no method `tick`")
-    if not _is_valid_text_names(found.text_names):
-        raise PrimitiveError(f"`text_names` of `{python}` is not {{parameter: (parameter, relation, .., property)}}")
-    if found.activity not in get_args(Activity):
-        raise PrimitiveError(f"`activity` of `{python}` is none of {', '.join(filter(None, get_args(Activity)))}")
-    if not _are_highlights(found.highlights):
-        raise PrimitiveError(f"`highlights` of `{python}` is not ((begins or ends, parameter, word), ..)")
-    if not isinstance(found.uses_devices, bool):
-        raise PrimitiveError(f"`uses_devices` of `{python}` is not True or False")
+    problem = _check_declarations(found, python)
+    if problem is not None:
+        raise PrimitiveError(problem)
     for name, values in METHOD_ARGUMENTS.items():
         problem = _check_call(getattr(found, name), None, *values)
         if problem is not None:
             raise PrimitiveError(f"the method `{name}` of `{python}` cannot be called: {problem}")
     return found
+
+
+def _check_declarations(cls: type[Primitive], python: str) -> str | None:
+    """Return which class attribute of a primitive has the wrong form, None if all are right."""
+    if not _is_valid_text_names(cls.text_names):
+        return f"`text_names` of `{python}` is not {{parameter: (parameter, relation, .., property)}}"
+    if cls.activity not in get_args(Activity):
+        return f"`activity` of `{python}` is none of {', '.join(filter(None, get_args(Activity)))}"
+    if not _are_highlights(cls.highlights):
+        return f"`highlights` of `{python}` is not ((begins or ends, parameter, word), ..)"
+    if not _is_valid_moves(cls.moves):
+        return f"`moves` of `{python}` is neither None nor {{parameter: parameter of the place or None}}"
+    if not isinstance(cls.uses_devices, bool):
+        return f"`uses_devices` of `{python}` is not True or False"
+    return None
 
 
 def _is_valid_text_names(names: object) -> bool:
@@ -95,6 +105,14 @@ def _are_highlights(highlights: object) -> bool:
         and all(isinstance(part, str) for part in each)
         and each[0] in get_args(Phase)
         for each in highlights
+    )
+
+
+def _is_valid_moves(moves: object) -> bool:
+    """Whether this has the form of `Primitive.moves`."""
+    return moves is None or (
+        isinstance(moves, Mapping)
+        and all(isinstance(thing, str) and (place is None or isinstance(place, str)) for thing, place in moves.items())
     )
 
 

@@ -11,7 +11,7 @@ from skillc_model.skills import Implementation
 from skillc_model.traversal import free_variables_in_order
 from skillc_rdf.vocabulary.types import ListType, Position
 from skillc_runtime.execution.tree.context import TreeContext
-from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
+from skillc_runtime.execution.tree.lexical_scope import LexicalScope
 from skillc_runtime.execution.tree.loop_nodes import ForEachNode
 from skillc_runtime.execution.tree.node import Node
 from skillc_runtime.execution.tree.task_parameters import OriginalExpression, find_original
@@ -71,17 +71,20 @@ class EnclosingBody:
     def _write_in(
         self, state: WorldState, original: OriginalExpression, source: Position, value: LabelledValue | None = None
     ) -> WrittenExpression:
+        given = {name: value_of(each, self.state, {}) for name, (each, _) in original.given.items()}
+        explained = {
+            name: NameInExpression(name=name, how="given", value=label_value(given[name], type_, self.state.vocabulary))
+            for name, (_, type_) in original.given.items()
+        }
+        names = free_variables_in_order(original.expression)
         return WrittenExpression(
             text=_write(original.expression, value, state),
             source=source,
-            facts=facts_read(original.expression, state, {**self._scope.frame, **self._values_of(original)}),
-            names=tuple(self._explain(each, original) for each in free_variables_in_order(original.expression)),
+            facts=facts_read(original.expression, state, {**self._scope.frame, **given}),
+            names=tuple(explained.get(each) or self._explain(each) for each in names),
         )
 
-    def _explain(self, name: str, original: OriginalExpression) -> NameInExpression:
-        if name in original.given:
-            value, type_ = self._values_of(original)[name], original.given[name][1]
-            return NameInExpression(name=name, how="given", value=label_value(value, type_, self.state.vocabulary))
+    def _explain(self, name: str) -> NameInExpression:
         if name in self._loops:
             return self._explain_item(name, self._loops[name])
         if name in self._lets:
@@ -97,9 +100,6 @@ class EnclosingBody:
         item = label_value(value, type_.element, self.state.vocabulary) if isinstance(type_, ListType) else None
         items = self.write(name, loop.items, loop.source)
         return NameInExpression(name=name, how="loop", expression=items, value=item)
-
-    def _values_of(self, original: OriginalExpression) -> Frame:
-        return {name: value_of(value, self.state, {}) for name, (value, _) in original.given.items()}
 
 
 def _write(expression: Expression, value: LabelledValue | None, state: WorldState) -> str:

@@ -206,9 +206,9 @@ def _rotate(vectors: Array, rotation: Array) -> Array:
 
 
 def _find_commanded(exerted: Array, reference: Array) -> Array:
-    """Return the forces (n, 3) in N on the tool, in base, that are commanded; NaN without a push. Empty if they are.
+    """Return the forces (n, 3) in N on the tool, in base, that are commanded; NaN without a push.
 
-    exerted (n, 3): N, along the axes of the reference, whose rows are (n, 8, 3).
+    exerted (n, 3): N, along the axes of the reference, whose rows are (n, 8, 3). The result is empty if it is.
     """
     if not exerted.size:
         return exerted

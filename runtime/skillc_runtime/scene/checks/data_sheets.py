@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import chain
 
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
@@ -41,6 +42,11 @@ KINDS = (
     (INSPECTION_CAMERA, (INSPECTION_SHEET,)),
 )
 """Kinds of devices with the kinds of sheets that describe them; other kinds are not checked."""
+
+
+def list_sheet_kinds(vocabulary: Vocabulary, cls: str) -> frozenset[str]:
+    """Return the kinds of sheets that describe devices of a class; none if it is not a known kind of device."""
+    return frozenset(kind for device, kinds in KINDS if vocabulary.is_a(cls, device) for kind in kinds)
 
 
 def check_data_sheets(state: WorldState) -> Iterator[SceneViolation]:
