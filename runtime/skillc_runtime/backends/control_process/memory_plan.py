@@ -14,7 +14,7 @@ TIME, STAMP, LOST, LATE = range(4)
 """The first entries of a row: s of the machine's clock and of the device's, cycles lost so far, s."""
 
 FIRST: Final = 4
-"""Where the rest of a row begins: q, dq (nv,), then velocity (3,), force (3,), wrench (6,), reference (24,) of `LiveArm`."""
+"""Where the rest of a row begins: q, dq (nv,), velocity (3,), force (3,), wrench (6,), reference (24,) of `LiveArm`."""
 
 
 class MemoryPlan:
