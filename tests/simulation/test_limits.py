@@ -22,16 +22,23 @@ DEGREES = np.pi / 180
 RANGES = {
     "ur5e": [(-360, 360), (-360, 360), (-180, 180), (-360, 360), (-360, 360), (-360, 360)],
     "iiwa14": [(-170, 170), (-120, 120), (-170, 170), (-120, 120), (-170, 170), (-120, 120), (-175, 175)],
+    "fr3": [(-157, 157), (-102, 102), (-166, 166), (-174, -9), (-161, 161), (31, 259), (-173, 173)],
     "panda": [(-166, 166), (-101, 101), (-166, 166), (-176, -4), (-166, 166), (-1, 215), (-166, 166)],
 }
 """deg: the makers' data sheets, the elbow of the UR5e as its maker halves it for planning."""
 
-SPEEDS = {"ur5e": [180] * 6, "iiwa14": [85, 85, 100, 75, 130, 135, 135], "panda": [124.6] * 4 + [149.5] * 3}
-"""deg/s: the makers' data sheets; the Panda's as its interface has them, 2.175 and 2.61 rad/s."""
+SPEEDS = {
+    "ur5e": [180] * 6,
+    "iiwa14": [85, 85, 100, 75, 130, 135, 135],
+    "fr3": [150.1] * 4 + [301.4, 239.5, 301.4],
+    "panda": [124.6] * 4 + [149.5] * 3,
+}
+"""deg/s: the makers' data sheets; those of the Panda and the Franka Research 3 as their interface has them, in rad/s."""
 
 EFFORTS = {
     "ur5e": [150, 150, 150, 28, 28, 28],
     "iiwa14": [320, 320, 176, 176, 110, 40, 40],
+    "fr3": [87] * 4 + [12] * 3,
     "panda": [87] * 4 + [12] * 3,
 }
 """N m."""
