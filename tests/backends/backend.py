@@ -1,14 +1,16 @@
 """What the conformance suite needs of a backend, and the backends there are.
 
-A new one, simulated or real, adds a function to `BACKENDS` that makes it; nothing else.
+A new one adds a function to `BACKENDS` that opens it. One for a robot has the suite in a file of its own, beside its
+emulator: `tests/robots/NAME/test_conformance.py` imports all of `backends.test_conformance`, and has a fixture `make`
+of its own.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, ExitStack
 from functools import partial
-from typing import Any, Protocol, TypeVar
+from typing import Any, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -186,21 +188,29 @@ ARMS = {
     "panda": ("panda_desk",),
 }
 
+MakeBackend: TypeAlias = Callable[[], Backend]
+"""Returns an arm at its home, at rest and with nothing before it."""
 
-def remote(scene: str) -> Backend:
-    """Return an arm whose law runs in a control process, the robot being in another one."""
-    from backends.remote import RemoteBackend
-
-    made: Any = RemoteBackend(scene)
-    backend: Backend = made
-    return backend
+OpenBackend: TypeAlias = Callable[[ExitStack], MakeBackend]
+"""Starts what serves all tests of a module, to be ended with the stack."""
 
 
-BACKENDS: dict[str, Callable[[], Backend]] = {
+def open_toy(scene: str, opened: ExitStack) -> MakeBackend:
+    """Start the toy robot of a scene, whose law runs in a control process."""
+    from control_process.conformance import open_toy
+
+    return open_toy(scene, opened)
+
+
+def _open_model(make: MakeBackend, _: ExitStack) -> MakeBackend:
+    return make
+
+
+BACKENDS: dict[str, OpenBackend] = {
     **{
-        f"{name} {arm}": partial(make, *how)
+        f"{name} {arm}": partial(_open_model, partial(make, *how))
         for name, make in (("mujoco", mujoco), ("kinematic", kinematic), ("kinematic thread", real_time))
         for arm, how in ARMS.items()
     },
-    **{f"remote {arm}": partial(remote, ARMS[arm][0]) for arm in ("iiwa14", "ur5e")},
+    **{f"toy {arm}": partial(open_toy, ARMS[arm][0]) for arm in ("iiwa14", "ur5e")},
 }

@@ -1,25 +1,51 @@
-"""Arms that a control process controls, the robot being in another process, for the conformance suite."""
+"""Arms that a control process controls, the robot being in another one, for the conformance suite."""
 
 from __future__ import annotations
 
-import atexit
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from functools import cache
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
-import pytest
+import numpy as np
 
-from control_process.toy_link import MUCH_PATIENCE, Toy
-from simulation.cells import ARM
+from skillc_runtime.backends.control_process.handshake import Patience
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.real_time.device_cell import DeviceCell
 from skillc_runtime.devices.arm import Arm, ArmLoad, ArmState, Capabilities, Command, Mode, ModeRefused
-from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.motion.pose import Array
 
 T = TypeVar("T")
 LOOK_S, LONGEST_S = 0.002, 60.0
+
+CONFORMANCE = Patience(tree_s=1.5, process_s=60.0, gap_s=60.0)
+"""With this, cells of the suite are opened: an arm that is neglected stops while it still moves slowly."""
+
+
+class Surroundings(Protocol):
+    """What the emulator of a robot is told and asked from outside, as a person in the cell would."""
+
+    home: Array
+    """A posture (nv,) in rad from which the tool can move 10 cm in all directions."""
+
+    def put_wall(self, gap_m: float) -> Array:
+        """Put a soft wall before the tool, along its z; return the unit vector out of the wall, in the world.
+
+        `Wall` of `backends.backend` says how soft.
+        """
+        ...
+
+    def remove_wall(self) -> None:
+        """Take it away; nothing happens if there is none."""
+        ...
+
+    def wall_force_n(self) -> float:
+        """Return with how much the tool really presses on the wall; 0 without one."""
+        ...
+
+    def violations(self) -> Sequence[str]:
+        """Return which commands so far were beyond the limits that the maker of the robot has published."""
+        ...
 
 
 class RemoteArm(Arm):
@@ -80,32 +106,22 @@ class RemoteDriver:
         self._driver.process.call("driver", "hold_still", reason)
 
 
-@cache
-def open_toy(scene: str) -> tuple[Toy, Any]:
-    """Return a robot and its cell, which serve all tests."""
-    toy = Toy(scene)
-    atexit.register(toy.close)
-    cell = toy.open(patience=MUCH_PATIENCE)
-    atexit.register(cell.close)
-    return toy, cell
-
-
 class RemoteBackend:
     """One arm of a robot in another process; its time is that of the robot."""
 
-    period_s = 0.001
-
-    def __init__(self, scene: str) -> None:
+    def __init__(self, cell: DeviceCell, individual: str, around: Surroundings) -> None:
         """Bring the robot to its home, at rest and with nothing before it."""
-        self._toy, self._cell = open_toy(scene)
-        self._remote = self._cell._arms[ARM[scene]]
-        assert isinstance(self._remote, RemoteArmDriver)
-        self.arm, self.driver = RemoteArm(self._remote), RemoteDriver(self._remote)
+        self._around, self._cell = around, cell
+        remote = cell._arms[individual]
+        assert isinstance(remote, RemoteArmDriver)
+        self._remote, self._beat = remote, remote.process._beat
+        self.period_s = remote.process.connected.period_s
+        self.arm, self.driver = RemoteArm(remote), RemoteDriver(remote)
         self._settle()
 
     @property
     def force_n(self) -> float:
-        return float(self._toy.ask("wall_force_n"))
+        return self._around.wall_force_n()
 
     def advance(self, seconds: float) -> None:
         self.watch(seconds, lambda: None)
@@ -119,34 +135,38 @@ class RemoteBackend:
         return found
 
     def neglect(self) -> None:
-        pytest.skip("a control process commands its arm as long as it has control")
+        """Let the control process hear nothing of this one, until it has stopped the arm for that."""
+        self._remote.process._beat = np.zeros(1)
+        while self.driver.fault is None:
+            self.advance(0.02)
 
     def attend(self) -> None:
-        """Do nothing."""
+        self._remote.process._beat = self._beat
 
     def put_wall(self, gap_m: float) -> Array:
-        normal: Array = self._toy.ask("put_wall", gap_m)
-        return normal
+        return self._around.put_wall(gap_m)
 
     def at_once(self) -> AbstractContextManager[object]:
         return nullcontext()
 
     def close(self) -> None:
         """Leave the robot as it is: the next test brings it home."""
+        assert list(self._around.violations()) == []
 
     def _now(self) -> float:
         return self._remote.process.read().number("stamp_s")
 
     def _settle(self) -> None:
-        self._toy.ask("remove_wall")
+        self.attend()
+        self._around.remove_wall()
         if self._cell.stops.report is not None:
             self._cell.stops.clear()
-        driver: ArmDriver = self._remote
-        self._remote.secure()
-        self._remote.set_load(None)
+        driver = self._remote
+        driver.secure()
+        driver.set_load(None)
         self.advance(0.3)
         driver.take_fault()
-        driver.motion.move_joints(self._toy.ask("home"), 0.3)
+        driver.motion.move_joints(self._around.home, 0.3)
         while not driver.motion.done:
             self.advance(0.05)
         self.advance(0.2)
