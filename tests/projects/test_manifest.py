@@ -24,6 +24,7 @@ MISTAKES = [
     ('name = "sorting"\nscenes = "a.ttl"\n', "unknown-key", 2, "there is no key `scenes`"),
     ('name = "sorting"\n[tool.run]\n\nsede = 1\n', "unknown-key", 4, "in `[tool.run]`"),
     ('name = "sorting"\n[tool.run]\nseed = "one"\n', "wrong-setting", 3, "`tool.run.seed`: expected a whole number"),
+    ('name = "sorting"\n[tool.run]\nbackend = "mujco"\n', "wrong-setting", 3, "there is no backend `mujco`; there are"),
     ('name = "sorting"\n[tool.fly]\n', "unknown-key", 2, "`fly`"),
     ('name = "sorting"\n[dependencies]\na = { pth = "." }\n', "unknown-key", 3, "`pth`"),
     ('name = "sorting"\n[dependencies]\na = {}\n', "wrong-setting", 3, "needs one of `path`, `package`"),

@@ -10,7 +10,7 @@ import numpy as np
 from robots.franka import limits
 
 TAU, FINISHED, COMMAND = slice(314, 370), 370, 371
-Q, DQ = slice(596, 624), slice(652, 680)
+EFFORT, Q, DQ = slice(512, 540), slice(596, 624), slice(652, 680)
 
 
 @dataclass

@@ -7,9 +7,9 @@ loop around the torque behind each gear, so that little of the gear's friction i
 is commanded before the gear. Its own position controller would not be stable with less friction.
 SCENE is a MuJoCo model whose bodies and geoms are added. "ready" is printed when the robot answers. Lines on standard
 input are answered with one line of JSON: `pose BODY` (position in m), `force GEOM` (N that press on it), `travel JOINT`
-(m), `wipe GEOM
-BODY` (from now on, a body wipes the top of a box), `wiped` (the share of the top that was), `save FILE` (writes the
-samples, one a step: time s, N on the box, tilt of the body in rad).
+(m), `carry KG` (from now on, so much more in the hand, which nobody knows of), `wipe GEOM BODY` (from now on, a body wipes the
+top of a box), `wiped` (the share of the top that was), `save FILE` (writes the samples, one a step: time s, N on the
+box, tilt of the body in rad).
 """
 
 from __future__ import annotations
@@ -83,6 +83,9 @@ class Observer:
                     return self._force(model.geom(*names).id)
                 case "travel":
                     return float(data.joint(*names).qpos[0])
+                case "carry":
+                    hand = next(each for each in range(model.nbody) if model.body(each).name.endswith("hand"))
+                    model.body_mass[hand] += float(names[0])
                 case "wipe":
                     self._wiping = Wiping(model, *names)
                 case "wiped":

@@ -4,8 +4,9 @@
 
 "ready" is printed when it listens on ADDRESS. Lines on standard input: `drop SHARE` and `delay MS` of packets of both
 directions; `strict`: stop as a robot does that has had no command for `LOST_IN_ROW` states; `reflex ERROR` and
-`user-stop`, as a robot does it, which the simulated one does not; `release` ends the latter; `report` is answered with
-one line of JSON. The layouts of packets are those of libfranka's message types.
+`user-stop`, as a robot does it, which the simulated one does not; `mode NUMBER`: be in that mode of libfranka (robot_mode)
+with nothing to stop; `release` ends all modes; `swap I J`: exchange two joints in all states, none if I is J; `report`
+is answered with one line of JSON. The layouts of packets are those of libfranka's message types.
 """
 
 from __future__ import annotations
@@ -20,7 +21,9 @@ import sys
 from time import monotonic
 from typing import Any
 
-from robots.franka.checker import Checker, Report
+import numpy as np
+
+from robots.franka.checker import DQ, EFFORT, Checker, Q, Report
 from robots.franka.priority import run_promptly
 
 ROBOT, HAND = 1337, 1338
@@ -161,6 +164,7 @@ class Proxy:
         self.address, self.robot, self.report = address, robot, Report()
         self.checker, self.strict = Checker(self.report), False
         self.mode: int | None = None
+        self._swapped = (0, 0)
         self._error, self._drop, self._delay = 0, 0.0, 0.0
         self._waiting: list[tuple[float, int, socket.socket, bytes, Any]] = []
         self._sent, self._chance = 0, random.Random(1)
@@ -172,9 +176,16 @@ class Proxy:
 
     def patch(self, packet: bytes) -> bytes:
         """Return a state as a robot in this mode would send it."""
-        if self.mode is None:
+        one, other = self._swapped
+        if self.mode is None and one == other:
             return packet
         changed = bytearray(packet)
+        for joints in (Q, DQ, EFFORT):
+            values = np.frombuffer(packet[joints], dtype="<f4").copy()
+            values[[one, other]] = values[[other, one]]
+            changed[joints] = values.tobytes()
+        if self.mode is None:
+            return bytes(changed)
         changed[MODE] = self.mode
         if self.mode == REFLEX:
             changed[len(packet) + ERROR_FLAGS + self._error] = changed[len(packet) + REASON_FLAGS + self._error] = 1
@@ -219,12 +230,16 @@ class Proxy:
                     heapq.heapify(self._waiting)
                     relay.close()
 
-    def _obey(self, order: str, value: str = "") -> None:
+    def _obey(self, order: str, value: str = "", other: str = "") -> None:
         match order:
             case "drop":
                 self._drop = float(value)
             case "delay":
                 self._delay = 1e-3 * float(value)
+            case "mode":
+                self.mode = int(value)
+            case "swap":
+                self._swapped = int(value), int(other)
             case "strict":
                 self.strict = True
             case "reflex" | "user-stop":

@@ -14,6 +14,7 @@ import pytest
 
 from robots.franka.cells import LAB, carry_out, own_scene, real_cell
 from robots.franka.running import Peer, proxy, robot, run_module
+from skillc_ontology import catalogue
 from skillc_runtime.backends.control_process.link import make_state
 from skillc_runtime.backends.franka.link import FrankaDescription
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
@@ -108,7 +109,7 @@ def test_an_arm_whose_program_is_killed_in_mid_motion_comes_to_rest_and_is_given
         assert monotonic() < ends, "the robot is still commanded"
         last = commands
         sleep(0.3)
-    link = FrankaDescription(before.address).make_link()
+    link = FrankaDescription(before.address, catalogue.model_path("robots/fr3.xml")).make_link()
     link.connect()
     assert link.condition.kind == "ready"
     state = make_state(7)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from projects.folders import checked, write_project
 from skillc.services import libraries
 from skillc_ontology import catalogue
 from skillc_runtime.backends.franka.cell import make_backend
@@ -32,6 +33,7 @@ def test_the_address_and_the_reflex_are_those_of_the_arm_or_its_sheet(tmp_path: 
     (arm,) = read_scene_spec(world(tmp_path, AT).snapshot()).arms
     told = describe(arm)
     assert told.name == "the robot at 127.1.2.3"
+    assert (told.model.name, told.gravity, told.rest_torque_n_m) == ("fr3.xml", (0.0, 0.0, -9.81), 2.5)
     assert told.reflex_torques == (80.0, 80.0, 70.0, 70.0, 12.0, 12.0, 12.0)
     (arm,) = read_scene_spec(world(tmp_path, f'{AT} franka:reflexForces "50 50 50 9 9 9" ;').snapshot()).arms
     assert describe(arm).reflex_forces == (50.0, 50.0, 50.0, 9.0, 9.0, 9.0)
@@ -46,6 +48,7 @@ def test_the_address_and_the_reflex_are_those_of_the_arm_or_its_sheet(tmp_path: 
             r"must be 6 numbers above 0: '50 50 50'",
         ),
         (f'{AT} franka:reflexTorques "1 1 1 1 1 1 x" ;', "must be 7 numbers above 0"),
+        (f"{AT} franka:restTorque -1.0 ;", "must be a number above 0"),
     ],
 )
 def test_what_is_missing_or_wrong_is_told(tmp_path: Path, facts: str, says: str) -> None:
@@ -56,5 +59,9 @@ def test_what_is_missing_or_wrong_is_told(tmp_path: Path, facts: str, says: str)
 
 def test_without_the_library_it_is_said_how_to_install_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pylibfranka", None)
+    skills = write_project(tmp_path / "project", 'name = "sorting"\n[tool.run]\nbackend = "franka"\n')
+    (found,) = checked(skills)
+    assert (found["name"], found["line"]) == ("wrong-setting", 3)
+    assert "needs what is not installed (pylibfranka): pip install 'skillc[franka]'" in found["message"]
     with pytest.raises(BackendUnavailable, match=r"needs pylibfranka.*pip install 'skillc\[franka\]'"):
         make_backend(world(tmp_path, AT), BackendStart())

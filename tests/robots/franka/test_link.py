@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Iterator
+from dataclasses import replace
 from time import sleep
 from typing import Any
 
@@ -33,9 +34,15 @@ HAND_KG = 0.76
 NOTHING = PointMass(0.0, np.zeros(3))
 
 
+def description(address: str) -> FrankaDescription:
+    """Return what the facts of a Franka Research 3 say."""
+    return FrankaDescription(address, catalogue.model_path("robots/fr3.xml"), rest_torque_n_m=2.5)
+
+
 @pytest.fixture
 def link(before: Peer) -> Iterator[FrankaLink]:
-    link = FrankaDescription(before.address, (80.0,) * 4 + (12.0,) * 3, (100.0,) * 3 + (30.0,) * 3).make_link()
+    reflex = (80.0,) * 4 + (12.0,) * 3, (100.0,) * 3 + (30.0,) * 3
+    link = replace(description(before.address), reflex_torques=reflex[0], reflex_forces=reflex[1]).make_link()
     link.connect()
     yield link
     link.close()
@@ -56,7 +63,7 @@ def hold(link: FrankaLink, cycles: int, push: float = 0.0) -> str:
 
 
 def raw(link: FrankaLink) -> Any:
-    """Return a state as the library has it, without control."""
+    """Return a state of now as the library has it, without control."""
     for _ in range(20):
         state = link._robot.read_once()
     return state
@@ -121,6 +128,54 @@ def test_a_load_is_told_in_the_frame_of_the_robots_flange_without_losing_control
     assert raw(link).m_load == 0.0
 
 
+@pytest.mark.parametrize(
+    ("mode", "kind", "says"),
+    [
+        (0, "wrong-mode", "unlock its joints and activate FCI in Desk"),
+        (2, "not-in-control", "another program or an app in Desk moves the robot; end it"),
+        (3, "wrong-mode", "the robot is guided by hand"),
+        (6, "wrong-mode", "the robot recovers from an error; wait"),
+    ],
+)
+def test_a_robot_in_a_mode_without_control_says_what_to_do(
+    link: FrankaLink, before: Peer, mode: int, kind: str, says: str
+) -> None:
+    before.tell(f"mode {mode}")
+    raw(link)
+    link.read(STATE)
+    assert link.condition.kind == kind
+    with pytest.raises(ControlRefused, match=says):
+        link.take_control("torque")
+    before.tell("release")
+    raw(link)
+    link.take_control("torque")
+    assert hold(link, 20) == "in-control"
+    assert before.ask("report")["violations"] == []
+
+
+def test_a_robot_that_is_not_the_one_of_the_facts_gets_no_command(
+    link: FrankaLink, before: Peer, simulated: Peer
+) -> None:
+    def refuse(says: str, hand_kg: float = 0.73) -> None:
+        link.set_load(PointMass(hand_kg, np.array([0.0, 0.0, 0.03])), NOTHING)
+        raw(link)
+        with pytest.raises(ControlRefused, match=says):
+            link.take_control("torque")
+
+    before.tell("swap 1 3")
+    refuse(r"its flange is \d+ mm and \d+ deg away .* is that of another one")
+    before.tell("swap 0 0")
+    refuse(r"its end effector in Desk has 0.73 kg, the hand of the facts 1.50 kg", 1.5)
+    simulated.ask("carry 1.5")
+    sleep(1.0)
+    refuse(r"N m on joint \d .* its load or tool is another one")
+    simulated.ask("carry -1.5")
+    sleep(1.0)
+    assert before.ask("report")["commands"] == 0
+    link.take_control("torque")
+    assert hold(link, 20) == "in-control"
+
+
 def test_commands_of_another_kind_are_refused(link: FrankaLink) -> None:
     with pytest.raises(ControlRefused, match="takes torques, and no commands of the kind 'position'"):
         link.take_control("position")
@@ -179,7 +234,7 @@ def test_a_robot_that_gets_no_commands_stops_and_says_why(link: FrankaLink, befo
 
 def test_a_robot_that_is_silent_or_gone_is_lost_with_its_address() -> None:
     with robot() as simulated, proxy(simulated) as between:
-        link = FrankaDescription(between.address).make_link()
+        link = description(between.address).make_link()
         link.connect()
         link.take_control("torque")
         assert hold(link, 50) == "in-control"
@@ -198,6 +253,6 @@ def test_a_robot_that_is_silent_or_gone_is_lost_with_its_address() -> None:
 
 
 def test_nobody_at_an_address_is_told_with_what_to_do() -> None:
-    link = FrankaDescription(own_address()).make_link()
+    link = description(own_address()).make_link()
     with pytest.raises(BackendUnavailable, match=r"Connection to FCI refused.*skiros:DriverAddress.*activated in Desk"):
         link.connect()

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc.errors import RequestError
+from skillc.extras import MODULES, require
+from skillc.services.backends import require_backend
 from skillc.services.library_files import LibraryFiles
 from skillc.services.project.lock import check_lock
 from skillc.services.project.project import Project
@@ -30,9 +33,22 @@ def check_project(project: Project, files: LibraryFiles) -> Iterator[Diagnostic]
         yield Diagnostic(
             "wrong-setting", project.place_of("task"), message, did_you_mean(manifest.task, task_names(files))
         )
+    yield from _check_backend(project)
     if project.ontologies:
         # What reads data sheets imports much.
         from skillc.services.device_checks import check_project_sheets
 
         yield from check_project_sheets(project)
     yield from check_lock(project)
+
+
+def _check_backend(project: Project) -> Iterator[Diagnostic]:
+    """Yield a diagnostic if `run` would not find the back end, or the packages that it needs."""
+    backend = project.manifest.tool.run.backend
+    if backend is None:
+        return
+    try:
+        require_backend(backend)
+        require(f"the back end `{backend}`", *({backend} & MODULES.keys()))
+    except RequestError as error:
+        yield Diagnostic("wrong-setting", project.place_of("tool", "run", "backend"), str(error))

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from typing import Final
 
+import numpy as np
+
 from skillc_runtime.backends.franka.link import FrankaDescription
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.terms import DRIVER_ADDRESS, FRANKA
 
 REFLEX_TORQUES, REFLEX_FORCES = FRANKA + "reflexTorques", FRANKA + "reflexForces"
+REST_TORQUE = FRANKA + "restTorque"
 AXES: Final = 6
+GRAVITY: Final = np.array([0.0, 0.0, -9.81])
 
 
 def describe(facts: ArmSpec) -> FrankaDescription:
@@ -20,7 +24,11 @@ def describe(facts: ArmSpec) -> FrankaDescription:
         stated, missing = (REFLEX_FORCES, REFLEX_TORQUES) if torques is None else (REFLEX_TORQUES, REFLEX_FORCES)
         short = facts.sheet.state.vocabulary.short
         raise SheetError(f"{short(facts.individual)} states {short(stated)} and not {short(missing)}; state both")
-    return FrankaDescription(read_address(facts), torques, forces)
+    rest = _numbers(facts, REST_TORQUE, 1)
+    gravity = tuple((facts.base.rotation.T @ GRAVITY).tolist())
+    return FrankaDescription(
+        read_address(facts), facts.model, gravity, torques, forces, None if rest is None else rest[0]
+    )
 
 
 def read_address(facts: ArmSpec) -> str:
@@ -46,6 +54,6 @@ def _numbers(facts: ArmSpec, property_: str, count: int) -> tuple[float, ...] | 
     except ValueError:
         numbers = ()
     if len(numbers) != count or min(numbers) <= 0.0:
-        short = state.vocabulary.short
-        raise SheetError(f"{short(property_)} of {short(facts.individual)} must be {count} numbers above 0: {found!r}")
+        short, wanted = state.vocabulary.short, "a number" if count == 1 else f"{count} numbers"
+        raise SheetError(f"{short(property_)} of {short(facts.individual)} must be {wanted} above 0: {found!r}")
     return numbers

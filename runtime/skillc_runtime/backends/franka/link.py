@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from math import pi
+from pathlib import Path
 from time import monotonic
 from typing import Any
 
@@ -22,12 +23,12 @@ from skillc_runtime.backends.control_process.link import (
     RobotLink,
     StateView,
 )
+from skillc_runtime.backends.franka.arm_model import FLANGE_TURN, ArmModel, find_other_hand
 from skillc_runtime.backends.franka.library import load_library
 from skillc_runtime.backends.franka.robot_condition import IN_CONTROL, read_condition
 from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
-from skillc_runtime.motion.pose import Array
 
-PERIOD_S = 0.001
+PERIOD_S, JOINTS = 0.001, 7
 
 SILENCE_S = 1.0
 """How long the library waits for a state before it gives up."""
@@ -41,20 +42,21 @@ TORQUE_STEP_N_M = 0.98
 LOAD_DENSITY = 1000.0
 """A held mass counts as a ball of this density in kg/m^3: the robot refuses a mass without inertia."""
 
-FLANGE_TURN_RAD = -pi / 4
-"""By how much the flange of the model, which is turned like the hand on it, is turned about z on the robot's flange."""
-
 
 @dataclass(frozen=True, slots=True)
 class FrankaDescription:
-    """Where a robot is, and from where on it counts a force as a collision, by facts of the arm.
+    """Where a robot is, what it must be, and from where on it counts a force as a collision, by facts of the arm.
 
-    torques (nv,) in N m at the joints and forces (6,) in N and N m on the tool; None leaves what the robot has.
+    gravity: m/s^2 in the base. reflex_torques (nv,) in N m at the joints, reflex_forces (6,) in N and N m on the tool;
+    None leaves what the robot has. rest_torque_n_m: which torque on a joint at rest is too much, None for none.
     """
 
     address: str
+    model: Path
+    gravity: tuple[float, ...] = (0.0, 0.0, -9.81)
     reflex_torques: tuple[float, ...] | None = None
     reflex_forces: tuple[float, ...] | None = None
+    rest_torque_n_m: float | None = None
 
     @property
     def name(self) -> str:
@@ -72,6 +74,9 @@ class FrankaLink(RobotLink):
     def __init__(self, description: FrankaDescription, library: Any) -> None:
         self._description, self._library = description, library
         self._torques = library.Torques
+        self._model = ArmModel(description.model, np.array(description.gravity))
+        self._carried: tuple[PointMass, PointMass] | None = None
+        self._weighed = description.rest_torque_n_m is None
         self._robot: Any = None
         self._control: Any = None
         self._sent = np.zeros(0)
@@ -138,18 +143,15 @@ class FrankaLink(RobotLink):
             self._condition = read_condition(state, controls=False)
             if self._condition.kind != "ready":
                 raise ControlRefused(f"{self._description.name} does not give control: {self._condition.sentence}")
-            try:
-                self._control = self._robot.start_torque_control()
-            except (self._library.CommandException, self._library.ControlException) as error:
-                raise ControlRefused(f"{self._description.name} does not give control: {_sentence(error)}") from error
-        self._sent, self._condition = np.zeros(len(state.q)), IN_CONTROL
+            self._compare(state)
+        self._start()
 
     def give_back(self) -> None:
         """End the torque control with a last command; the robot's own controller holds the arm then."""
         if self._control is None:
             return
         control, self._control = self._control, None
-        last = self._torques([0.0] * 7)
+        last = self._torques([0.0] * JOINTS)
         last.motion_finished = True
         with self._naming_silence():
             with suppress(self._library.ControlException):  # It has ended by itself; the state says why.
@@ -174,15 +176,15 @@ class FrankaLink(RobotLink):
 
     def set_load(self, hand: PointMass, held: PointMass) -> None:
         """Tell the robot what the hand holds: the hand is a setting in Desk. No load may change in motion."""
-        had_control = self._control is not None
+        had_control, self._carried = self._control is not None, (hand, held)
         self.give_back()
         with self._naming_silence():
             try:
-                self._robot.set_load(held.mass_kg, _on_robot_flange(held.centre).tolist(), ball_inertia(held.mass_kg))
+                self._robot.set_load(held.mass_kg, (FLANGE_TURN @ held.centre).tolist(), ball_inertia(held.mass_kg))
             except self._library.CommandException as error:
                 raise ControlRefused(f"{self._description.name} does not take the load: {_sentence(error)}") from error
         if had_control:
-            self.take_control("torque")
+            self._start()
 
     def tare(self) -> None:
         """Do nothing: no wrench is measured."""
@@ -214,6 +216,30 @@ class FrankaLink(RobotLink):
         self._condition = read_condition(self._robot.read_once(), controls=False)
         return self._condition
 
+    def _start(self) -> None:
+        """Start the torque control of a robot that waits for it; ControlRefused."""
+        with self._naming_silence():
+            try:
+                self._control = self._robot.start_torque_control()
+            except (self._library.CommandException, self._library.ControlException) as error:
+                raise ControlRefused(f"{self._description.name} does not give control: {_sentence(error)}") from error
+        self._sent, self._condition = np.zeros(JOINTS), IN_CONTROL
+
+    def _compare(self, state: Any) -> None:
+        """Raise ControlRefused if a robot at rest is not the one of the facts; what it carries is looked at once.
+
+        Later it may rest against something, where it stopped.
+        """
+        difference = self._model.find_other_arm(state)
+        if difference is None and self._carried is not None:
+            difference = find_other_hand(state, self._carried[0].mass_kg)
+        if difference is None and self._carried is not None and not self._weighed:
+            assert self._description.rest_torque_n_m is not None
+            difference = self._model.find_other_weight(state, self._carried, self._description.rest_torque_n_m)
+            self._weighed = difference is None
+        if difference is not None:
+            raise ControlRefused(f"{self._description.name} is not as the facts say: {difference}")
+
     def _lose_control(self, error: Exception) -> None:
         self._control = None
         self._condition = Condition("protective-stop", f"{self._description.name} ended the motion: {_sentence(error)}")
@@ -240,13 +266,6 @@ def ball_inertia(mass_kg: float) -> list[float]:
     """Return the inertia (9,) in kg m^2, by columns, of a ball of `LOAD_DENSITY`: 2/5 m r^2."""
     radius = (0.75 * mass_kg / (pi * LOAD_DENSITY)) ** (1 / 3)
     return [float(each) for each in 0.4 * mass_kg * radius**2 * np.eye(3).ravel()]
-
-
-def _on_robot_flange(centre: Array) -> Array:
-    """Return a point (3,) in m of the model's flange in the frame of the robot's."""
-    cosine, sine = np.cos(FLANGE_TURN_RAD), np.sin(FLANGE_TURN_RAD)
-    turned: Array = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]]) @ centre
-    return turned
 
 
 def _sentence(error: Exception) -> str:
