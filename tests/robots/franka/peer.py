@@ -7,9 +7,10 @@ loop around the torque behind each gear, so that little of the gear's friction i
 is commanded before the gear. Its own position controller would not be stable with less friction.
 SCENE is a MuJoCo model whose bodies and geoms are added. "ready" is printed when the robot answers. Lines on standard
 input are answered with one line of JSON: `pose BODY` (position in m), `force GEOM` (N that press on it), `travel JOINT`
-(m), `carry KG` (from now on, so much more in the hand, which nobody knows of), `wipe GEOM BODY` (from now on, a body wipes the
-top of a box), `wiped` (the share of the top that was), `save FILE` (writes the samples, one a step: time s, N on the
-box, tilt of the body in rad).
+(m), `carry KG` (from now on, so much more in the hand, which nobody knows of), `wall GAP` (puts one GAP m before the
+tool, and returns its normal), `wall-force` (in N), `no-wall`, `wipe GEOM BODY` (from now on, a body wipes the top of a
+box), `wiped` (the share of the top that was), `save FILE` (writes the samples, one a step: time s, N on the box, tilt
+of the body in rad).
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ from franky_sim.franka_robot_server import ControlMode
 from franky_sim.mujoco_simulator import MujocoSimulator
 
 from robots.franka.priority import run_promptly
+from robots.franka.wall import Wall
 
 KP, KV = (4500.0, 4500.0, 3500.0, 3500.0, 2000.0, 2000.0, 500.0), (450.0, 450.0, 350.0, 350.0, 200.0, 200.0, 50.0)
 """Gains of its own position controller: with those for the last joint that are usual there, it never comes to rest."""
@@ -70,7 +72,8 @@ class Observer:
     def __init__(self, simulator: MujocoSimulator) -> None:
         self._simulator, self._turn = simulator, threading.Lock()
         self._wiping: Wiping | None = None
-        simulator.register_pre_step_callback(lambda _: self._turn.acquire())
+        self._wall: Wall | None = None
+        simulator.register_pre_step_callback(self._before_step)
         simulator.register_post_step_callback(self._after_step)
 
     def answer(self, question: str, *names: str) -> object:
@@ -86,6 +89,14 @@ class Observer:
                 case "carry":
                     hand = next(each for each in range(model.nbody) if model.body(each).name.endswith("hand"))
                     model.body_mass[hand] += float(names[0])
+                case "wall":
+                    self._wall = Wall(model, data, float(names[0]))
+                    return self._wall.normal.tolist()
+                case "wall-force":
+                    return 0.0 if self._wall is None else self._wall.force_n
+                case "no-wall" if self._wall is not None:
+                    self._wall.remove()
+                    self._wall = None
                 case "wipe":
                     self._wiping = Wiping(model, *names)
                 case "wiped":
@@ -95,6 +106,11 @@ class Observer:
                     assert self._wiping is not None
                     np.save(names[0], np.array(self._wiping.samples))
             return None
+
+    def _before_step(self, _: MujocoSimulator) -> None:
+        self._turn.acquire()
+        if self._wall is not None:
+            self._wall.step()
 
     def _after_step(self, _: MujocoSimulator) -> None:
         if self._wiping is not None:

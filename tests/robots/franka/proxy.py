@@ -4,9 +4,9 @@
 
 "ready" is printed when it listens on ADDRESS. Lines on standard input: `drop SHARE` and `delay MS` of packets of both
 directions; `strict`: stop as a robot does that has had no command for `LOST_IN_ROW` states; `reflex ERROR` and
-`user-stop`, as a robot does it, which the simulated one does not; `mode NUMBER`: be in that mode of libfranka (robot_mode)
-with nothing to stop; `release` ends all modes; `swap I J`: exchange two joints in all states, none if I is J; `report`
-is answered with one line of JSON. The layouts of packets are those of libfranka's message types.
+`user-stop`, as a robot does it, which the simulated one does not; `mode NUMBER`: say to be in that mode of libfranka;
+`release` ends all modes; `swap I J`: exchange two joints in all states, none if I is J; `report` is answered with one
+line of JSON. The layouts of packets are those of libfranka's message types.
 """
 
 from __future__ import annotations

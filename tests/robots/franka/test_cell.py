@@ -28,16 +28,34 @@ LOOKED_S = 0.2
 """A cell has looked at its devices after this time."""
 
 
-@pytest.fixture
-def cell(before: Peer, tmp_path: Path) -> Iterator[DeviceCell]:
-    """A cell with nothing around its arm, which moves."""
-    with real_cell(own_scene("sorting", "sort_parts", before.address, tmp_path)) as cell:
+@pytest.fixture(scope="module")
+def between(simulated: Peer) -> Iterator[Peer]:
+    """The proxy before the robot of the cell."""
+    with proxy(simulated) as peer:
+        yield peer
+
+
+@pytest.fixture(scope="module")
+def opened(between: Peer, tmp_path_factory: pytest.TempPathFactory) -> Iterator[DeviceCell]:
+    """A cell with nothing around its arm."""
+    with real_cell(own_scene("sorting", "sort_parts", between.address, tmp_path_factory.mktemp("cell"))) as cell:
         sleep(LOOKED_S)
-        wait(cell, lambda: is_cleared(cell))
-        q = cell.arm(ARM).measured.q
-        cell.arm(ARM).motion.move_joints(q + (0.3 if q[0] < 0.15 else -0.3), 0.1)
-        cell.advance(0.5)
         yield cell
+
+
+@pytest.fixture
+def cell(opened: DeviceCell) -> DeviceCell:
+    """That cell, whose arm moves."""
+    wait(opened, lambda: is_cleared(opened))
+    begin_to_move(opened)
+    return opened
+
+
+def begin_to_move(cell: DeviceCell) -> None:
+    """Begin a slow motion of all joints."""
+    q = cell.arm(ARM).measured.q
+    cell.arm(ARM).motion.move_joints(q + (0.3 if q[0] < 0.15 else -0.3), 0.1)
+    cell.advance(0.5)
 
 
 def is_cleared(cell: DeviceCell) -> bool:
@@ -55,17 +73,28 @@ def wait(cell: DeviceCell, until: Callable[[], bool]) -> None:
         sleep(0.02)
 
 
-def test_an_arm_moves_within_limits_and_comes_to_rest(cell: DeviceCell, before: Peer) -> None:
-    wait(cell, lambda: cell.arm(ARM).motion.done)
-    assert cell.stops.report is None
-    assert cell.arm(ARM).motion.tracking_error_message is None
-    report = before.ask("report")
+def test_an_arm_moves_within_limits_while_packets_are_lost_and_late(cell: DeviceCell, between: Peer) -> None:
+    def arrive() -> None:
+        wait(cell, lambda: cell.arm(ARM).motion.done)
+        assert cell.stops.report is None
+        assert cell.arm(ARM).motion.tracking_error_message is None
+
+    arrive()
+    between.tell("drop 0.02")
+    between.tell("delay 3")
+    begin_to_move(cell)
+    arrive()
+    between.tell("drop 0")
+    between.tell("delay 0")
+    report = between.ask("report")
     assert report["commands"] > 500
+    assert report["dropped"] > 10
     assert report["violations"] == []
+    assert report["greatest_speed_share"] < 1.0
 
 
-def test_a_reflex_in_mid_motion_stops_the_cell_until_it_is_acknowledged(cell: DeviceCell, before: Peer) -> None:
-    before.tell("reflex joint_reflex")
+def test_a_reflex_in_mid_motion_stops_the_cell_until_it_is_acknowledged(cell: DeviceCell, between: Peer) -> None:
+    between.tell("reflex joint_reflex")
     wait(cell, lambda: cell.stops.report is not None)
     assert cell.stops.report is not None
     assert cell.stops.report.kind == "protective-stop"
@@ -73,32 +102,76 @@ def test_a_reflex_in_mid_motion_stops_the_cell_until_it_is_acknowledged(cell: De
     wait(cell, lambda: is_cleared(cell))
     cell.arm(ARM).motion.move_joints(cell.arm(ARM).measured.q + 0.05, 0.1)
     wait(cell, lambda: cell.arm(ARM).motion.done)
-    assert before.ask("report")["violations"] == []
+    assert between.ask("report")["violations"] == []
 
 
-def test_a_stop_button_is_an_emergency_stop_that_persists_until_it_is_released(cell: DeviceCell, before: Peer) -> None:
-    before.tell("user-stop")
+def test_a_stop_button_is_an_emergency_stop_that_persists_until_it_is_released(cell: DeviceCell, between: Peer) -> None:
+    between.tell("user-stop")
     wait(cell, lambda: cell.stops.report is not None and cell.stops.report.kind == "emergency-stop")
     with pytest.raises(StopPersists, match="release it"):
         cell.stops.clear()
-    before.tell("release")
+    between.tell("release")
     wait(cell, lambda: is_cleared(cell))
 
 
-def test_a_robot_that_dies_stops_the_cell_with_its_name(tmp_path: Path) -> None:
-    with robot() as simulated, real_cell(own_scene("sorting", "sort_parts", simulated.address, tmp_path)) as cell:
-        os.kill(simulated.process.pid, signal.SIGKILL)
-        wait(cell, lambda: cell.stops.report is not None)
-        assert cell.stops.report is not None
-        assert simulated.address in cell.stops.report.reason
-        with pytest.raises(StopPersists, match=r"cannot be used"):
-            cell.stops.clear()
-
-
-def test_an_arm_whose_program_is_killed_in_mid_motion_comes_to_rest_and_is_given_back(
-    before: Peer, tmp_path: Path
+def test_a_robot_that_is_paused_stops_the_cell_with_its_name_and_goes_on_once_it_answers(
+    cell: DeviceCell, simulated: Peer, between: Peer
 ) -> None:
-    program = run_module("mover", before.address, str(tmp_path))
+    os.kill(simulated.process.pid, signal.SIGSTOP)
+    wait(cell, lambda: cell.stops.report is not None)
+    assert cell.stops.report is not None
+    assert f"the robot at {between.address} does not answer any more" in cell.stops.report.reason
+    os.kill(simulated.process.pid, signal.SIGCONT)
+    wait(cell, lambda: is_cleared(cell))
+    assert np.abs(cell.arm(ARM).measured.dq).max() < 0.05
+    begin_to_move(cell)
+    wait(cell, lambda: cell.arm(ARM).motion.done)
+    assert between.ask("report")["violations"] == []
+
+
+def test_an_arm_that_is_not_ready_when_its_cell_is_opened_is_reported_and_one_that_dies_with_its_name(
+    tmp_path: Path,
+) -> None:
+    with robot() as simulated, proxy(simulated) as between:
+        between.tell("mode 3")
+        between.tell("swap 1 3")
+        with real_cell(own_scene("sorting", "sort_parts", between.address, tmp_path)) as cell:
+            wait(cell, lambda: cell.stops.report is not None)
+            assert cell.stops.report is not None
+            assert "the robot is guided by hand" in cell.stops.report.reason
+            between.tell("release")
+            sleep(LOOKED_S)
+            with pytest.raises(StopPersists, match=r"is not as the facts say: .* that of another one"):
+                cell.stops.clear()
+            assert between.ask("report")["commands"] == 0
+            between.tell("swap 0 0")
+            sleep(LOOKED_S)
+            cell.stops.clear()
+            begin_to_move(cell)
+            os.kill(simulated.process.pid, signal.SIGKILL)
+            wait(cell, lambda: cell.stops.report is not None)
+            assert between.address in cell.stops.report.reason
+            assert between.ask("report")["violations"] == []
+            with pytest.raises(StopPersists, match=r"cannot be used"):
+                cell.stops.clear()
+
+
+def test_an_arm_whose_program_is_killed_in_mid_motion_comes_to_rest_and_is_given_back(tmp_path: Path) -> None:
+    with robot() as simulated, proxy(simulated) as before:
+        kill_in_motion(before, tmp_path)
+        link = FrankaDescription(before.address, catalogue.model_path("robots/fr3.xml")).make_link()
+        link.connect()
+        assert link.condition.kind == "ready"
+        state = make_state(7)
+        link.read(state)
+        assert np.abs(state.dq).max() < 0.02
+        link.close()
+        assert before.ask("report")["violations"] == []
+
+
+def kill_in_motion(before: Peer, folder: Path) -> None:
+    """Kill a program that moves the arm, and wait until nobody commands it any more."""
+    program = run_module("mover", before.address, str(folder))
     assert program.stdout is not None
     assert program.stdout.readline() == "moving\n"
     sleep(0.5)
@@ -109,14 +182,6 @@ def test_an_arm_whose_program_is_killed_in_mid_motion_comes_to_rest_and_is_given
         assert monotonic() < ends, "the robot is still commanded"
         last = commands
         sleep(0.3)
-    link = FrankaDescription(before.address, catalogue.model_path("robots/fr3.xml")).make_link()
-    link.connect()
-    assert link.condition.kind == "ready"
-    state = make_state(7)
-    link.read(state)
-    assert np.abs(state.dq).max() < 0.02
-    link.close()
-    assert before.ask("report")["violations"] == []
 
 
 def test_a_button_is_pressed_within_limits(tmp_path: Path) -> None:

@@ -5,18 +5,24 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import mujoco
+import numpy as np
 import pytest
 
 from projects.folders import checked, write_project
+from robots.franka import limits
 from skillc.services import libraries
 from skillc_ontology import catalogue
 from skillc_runtime.backends.franka.cell import make_backend
 from skillc_runtime.backends.franka.facts import describe
 from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
+from skillc_runtime.control.kinematics import JOINT_RAMP_S
 from skillc_runtime.devices.backend import BackendStart, BackendUnavailable
+from skillc_runtime.motion.joint_path import joint_path
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.data_sheet import DataSheet, SheetError
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import SKILLC
 
 AT = 'skiros:DriverAddress "127.1.2.3" ;'
 
@@ -37,6 +43,23 @@ def test_the_address_and_the_reflex_are_those_of_the_arm_or_its_sheet(tmp_path: 
     assert told.reflex_torques == (80.0, 80.0, 70.0, 70.0, 12.0, 12.0, 12.0)
     (arm,) = read_scene_spec(world(tmp_path, f'{AT} franka:reflexForces "50 50 50 9 9 9" ;').snapshot()).arms
     assert describe(arm).reflex_forces == (50.0, 50.0, 50.0, 9.0, 9.0, 9.0)
+
+
+@pytest.mark.parametrize("joint", range(7))
+@pytest.mark.parametrize("share", [0.1, 1.0])
+def test_motions_to_the_ends_of_the_joints_keep_the_limits_of_speed_that_fall_there(joint: int, share: float) -> None:
+    scene = load_scene(catalogue.scene_path("panda_desk"), libraries.load_vocabulary())
+    sheet = DataSheet(scene, SKILLC + "fr3-sheet")
+    speed, most = sheet.limits("jointSpeeds", 7), sheet.limits("jointAccelerations", 7)
+    ends = mujoco.MjModel.from_xml_path(str(catalogue.model_path("robots/fr3.xml"))).jnt_range
+    for end in (0, 1):
+        start, goal = ends.mean(axis=1), ends.mean(axis=1)
+        goal[joint] = ends[joint, end]
+        path = joint_path([start, goal], share * speed, np.minimum(share * speed / JOINT_RAMP_S, most), [])
+        for time in np.linspace(0.0, path.duration, 2000).tolist():
+            here = path.at(time)
+            low, high = limits.fastest(here.q)
+            assert low[joint] - 1e-9 <= here.dq[joint] <= high[joint] + 1e-9, (here.q[joint], here.dq[joint])
 
 
 @pytest.mark.parametrize(

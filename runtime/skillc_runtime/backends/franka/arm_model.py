@@ -41,8 +41,8 @@ class ArmModel:
         if away < FAR_M and turned < TURNED_RAD:
             return None
         return (
-            f"by its own account its flange is {1e3 * away:.0f} mm and {np.degrees(turned):.0f} deg away from where the "
-            "model has it: the data sheet of the arm is that of another one"
+            f"by its own account its flange is {1e3 * away:.0f} mm and {np.degrees(turned):.0f} deg away from where "
+            "the model has it: the data sheet of the arm is that of another one"
         )
 
     def find_other_weight(self, state: Any, carried: tuple[PointMass, ...], most_n_m: float) -> str | None:
@@ -56,9 +56,9 @@ class ArmModel:
             return None
         kg = sum(each.mass_kg for each in carried)
         return (
-            f"there are {left[joint]:.1f} N m on joint {joint + 1} that the weight of the arm and of the {kg:.2f} kg that "
-            "it carries by the facts does not explain: something touches it, its load or tool is another one, or its "
-            "base is not as upright as the scene says"
+            f"there are {left[joint]:.1f} N m on joint {joint + 1} that the weight of the arm and of the {kg:.2f} kg "
+            "that it carries by the facts does not explain: something touches it, its load or tool is another one, "
+            "or its base is not as upright as the scene says"
         )
 
     def _flange_at(self, q: Array) -> Pose:
@@ -86,8 +86,8 @@ def find_other_hand(state: Any, hand_kg: float) -> str | None:
     if abs(state.m_ee - hand_kg) < HAND_KG:
         return None
     return (
-        f"its end effector in Desk has {state.m_ee:.2f} kg, the hand of the facts {hand_kg:.2f} kg: set the end effector, "
-        "or correct the hand in the scene"
+        f"its end effector in Desk has {state.m_ee:.2f} kg, the hand of the facts {hand_kg:.2f} kg: set the end "
+        "effector, or correct the hand in the scene"
     )
 
 
