@@ -8,10 +8,11 @@ from typing import Any
 
 import pytest
 
-from simulation.cells import world
+from simulation.cells import ARM, LAB, world
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
 from skillc_runtime.devices.backend import BackendBroken, DeviceStop, StopPersists
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import DEVICE_STATE
 
 DEADLINE_S = 30.0
 
@@ -72,13 +73,26 @@ def wait_until(holds: Callable[[], bool]) -> None:
 
 def test_an_emergency_stop_is_reported_as_such_and_told_once(make: Make) -> None:
     reports, arm = Reports(), Device()
-    cell = make(reports, arms={"arm": arm})
+    cell = make(reports, arms={ARM["iiwa_table"]: arm})
     reports.fault = DeviceStop("emergency-stop", "the button at the door is pressed")
     wait_until(lambda: arm.reasons == ["the button at the door is pressed"])
     assert cell.stops.report == reports.fault
     with pytest.raises(BackendBroken, match="the button at the door"):
         cell.advance(0.001)
     cell.advance(0.001)
+
+
+def test_an_arm_is_faulty_in_the_world_model_from_its_stop_until_that_is_acknowledged(make: Make) -> None:
+    reports, arm = Reports(), ARM["iiwa_table"]
+    cell = make(reports, arms={arm: Device()})
+    states = [cell.world.snapshot().value(arm, DEVICE_STATE)]
+    reports.fault = DeviceStop("protective-stop", "it has bumped into something", (arm,))
+    wait_until(lambda: cell.stops.report is not None)
+    cell.publish()
+    states.append(cell.world.snapshot().value(arm, DEVICE_STATE))
+    cell.stops.clear()
+    states.append(cell.world.snapshot().value(arm, DEVICE_STATE))
+    assert states == ["Idle", "Fault", "Idle"]
 
 
 def test_a_later_emergency_stop_replaces_a_protective_one(make: Make) -> None:
@@ -105,7 +119,7 @@ def test_a_stop_is_acknowledged_by_the_devices_or_stays(make: Make) -> None:
 
 def test_a_device_that_cannot_be_stopped_keeps_no_other_from_it_and_is_named(make: Make) -> None:
     reports, bad, good, gripper = Reports(), Device(fails=True), Device(), Device()
-    cell = make(reports, arms={"a": bad, "b": good}, grippers={"g": gripper})
+    cell = make(reports, arms={ARM["iiwa_table"]: bad, LAB + "Robotiq-1": good}, grippers={"g": gripper})
     reports.fault = "it has bumped into something"
     wait_until(lambda: not good.moving and not gripper.moving)
     wait_until(lambda: "no route to the device" in str(cell.stops.report))

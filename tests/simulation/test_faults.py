@@ -1,5 +1,7 @@
 """An arm that cannot be controlled is known to the world model, for good, and the skills that need it do not run."""
 
+from collections.abc import Callable
+
 import mujoco
 import numpy as np
 import pytest
@@ -41,7 +43,9 @@ def test_an_arm_that_reports_no_numbers_is_broken_once(scene: str) -> None:
         mujoco.mj_forward(there.model, there.data)
     assert np.isfinite(there.data.ctrl).all()
     assert device_state(there, scene) == "Fault"
-    assert [event.origin for event in found] == ["the arm reports something that is not a number"]
+    assert [event.origin.partition(": ")[2] for event in found] == ["the arm reports something that is not a number"]
+    there.stops.clear()
+    assert device_state(there, scene) == "Idle"
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -75,6 +79,23 @@ def test_a_blocked_arm_is_broken_and_a_new_cell_starts_afresh() -> None:
     assert "blocked" in found[0].origin
     again = SimulatedCell(WorldModel(there.world.snapshot()))
     assert device_state(again, scene) == "Idle"
+
+
+@pytest.mark.parametrize("lost", [True, False], ids=["lost", "emergency stop"])
+def test_an_arm_whose_stop_is_over_is_faulty_until_somebody_acknowledges_it(lost: bool) -> None:
+    scene = "iiwa_table"
+    there = cell(scene)
+    stop: Callable[[bool], None] = (
+        (lambda on: there.stops.lose(ARM[scene], on)) if lost else (lambda on: there.stops.press(on))
+    )
+    stop(True)
+    there.advance(0.01)
+    assert device_state(there, scene) == "Fault"
+    stop(False)
+    there.advance(0.01)
+    assert device_state(there, scene) == "Fault"
+    there.stops.clear()
+    assert device_state(there, scene) == "Idle"
 
 
 def test_an_arm_that_a_skill_stopped_is_not_broken() -> None:

@@ -52,6 +52,7 @@ class CellCondition:
         if found is None or (known is not None and (known.kind == found.kind or known.kind == "emergency-stop")):
             return
         self._set(found)
+        self._loop.backend.publish()
         self._loop.abort(f"{found.kind.replace('-', ' ')}: {found.reason}")
 
     def acknowledge(self, commit: Callable[[], None]) -> None:

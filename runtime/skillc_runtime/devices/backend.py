@@ -23,10 +23,14 @@ class BackendUnavailable(Exception):
 
 @dataclass(frozen=True, slots=True)
 class DeviceStop:
-    """Why devices have stopped by themselves, and may not move before somebody has acknowledged that."""
+    """Why devices have stopped by themselves, and may not move before somebody has acknowledged that.
+
+    `devices` are the IRIs of those that report it; none if it concerns the cell as a whole.
+    """
 
     kind: Literal["protective-stop", "emergency-stop"]
     reason: str
+    devices: tuple[str, ...] = ()
 
 
 class StopPersists(Exception):
@@ -106,6 +110,9 @@ class Backend(Protocol):
     def advance(self, seconds: float) -> None:
         """Let time pass, in s. BackendBroken if the cell breaks or has broken; other errors of its controllers."""
         ...
+
+    def publish(self) -> None:
+        """Write to the world model what devices have reported; `advance` does that as well, while time passes."""
 
     def secure(self, devices: Collection[str] | None = None) -> Sequence[str]:
         """Stop devices, release all their forces and make arms stiff; return what had to be corrected."""

@@ -21,9 +21,7 @@ from skillc_runtime.devices.backend import BackendUnavailable, DeviceStop
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.motion.numerics.compiled import compile_imported
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.terms import DEVICE_STATE
 
 DescribeLink: TypeAlias = Callable[[ArmSpec], LinkDescription]
 """Returns the device of an arm from its facts; SheetError if one is missing."""
@@ -64,7 +62,6 @@ def open_cell(
                 arm.take_control()
         cell = _make_cell(world, scene, arms, others)
         opened.pop_all()
-    world.commit([SetProperty(arm, DEVICE_STATE, "Idle") for arm in sorted(arms)], "start of the cell", "reported")
     return cell
 
 

@@ -41,7 +41,7 @@ class RemoteArmDriver:
         safety, kinematics = read_safety_limits(facts), Kinematics(load_virtual_model(facts.model))
         self.motion = RemoteMotion(process, base, kinematics, limits, safety)
         self.compliance = RemoteCompliance(process, base)
-        self._reason: str | None = None
+        self._individual, self._reason = facts.individual, None
 
     @property
     def at_rest(self) -> bool:
@@ -74,11 +74,13 @@ class RemoteArmDriver:
     def find_stop(self) -> DeviceStop | None:
         """Return why the arm may not move before somebody has acknowledged that; None if it may."""
         if (silence := self.process.find_silence()) is not None:
-            return DeviceStop("protective-stop", silence)
+            return DeviceStop("protective-stop", silence, (self._individual,))
         if not self.process.read().holds("stopped"):
             return None
         stop: DeviceStop | None = self.process.call("device", "explain")
-        return None if stop is None else DeviceStop(stop.kind, f"{self.process.name}: {stop.reason}")
+        if stop is None:
+            return None
+        return DeviceStop(stop.kind, f"{self.process.name}: {stop.reason}", (self._individual,))
 
     def recover(self) -> None:
         """Acknowledge a stop and take control again; StopPersists, with what somebody has to do."""

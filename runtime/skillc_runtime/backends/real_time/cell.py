@@ -159,6 +159,10 @@ class RealTimeCell:
         if error is not None:
             raise error
 
+    def publish(self) -> None:
+        """Write to the world model what devices have reported."""
+        self._simulated.publish()
+
     def secure(self, devices: Collection[str] | None = None) -> Sequence[str]:
         """Stop devices, all if None, and pushes, and restore releases; return what was not in order."""
         with self._turn:

@@ -16,6 +16,7 @@ from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.capabilities import BackendCapabilities
 from skillc_runtime.devices.cell import Cell, Watchdog
 from skillc_runtime.devices.device_map import DeviceMap, NoSuchDevice
+from skillc_runtime.devices.device_states import DeviceStates
 from skillc_runtime.devices.device_stopper import DeviceStopper, StoppableArm
 from skillc_runtime.devices.drawing import Drawing
 from skillc_runtime.devices.gripper import Gripper
@@ -64,7 +65,7 @@ class DeviceCell(Backend, Cell):
     """A cell of real devices, implementing `Cell` and `Backend`: nothing of it is simulated, so it offers no truth.
 
     `advance` waits. A thread of its own stops all devices if no heartbeat comes any more; if one of them cannot go on,
-    all stop, until somebody has acknowledged that and it can.
+    all stop, until somebody has acknowledged that and it can. The world model has the state of each arm.
     """
 
     def __init__(self, world: WorldModel, devices: CellDevices) -> None:
@@ -79,6 +80,8 @@ class DeviceCell(Backend, Cell):
         self._buttons = DeviceMap("button", devices.buttons, names)
         self._capabilities = BackendCapabilities(live=devices.live, drawing=devices.drawing)
         self._stopper = DeviceStopper(devices.arms, devices.grippers, devices.bases, names)
+        self._states = DeviceStates(world, devices.arms)
+        self._states.begin()
         self._turn, self._closing = CellLock(), Event()
         self._began = self._due = monotonic()
         self._broken: str | None = None
@@ -141,6 +144,7 @@ class DeviceCell(Backend, Cell):
             if (fault := self._find_fault()) is not None:
                 raise StopPersists(fault.reason)
             self._fault = None
+        self._states.clear()
 
     def arm(self, individual: str) -> ArmDriver:
         """Return an arm's driver; KeyError if the cell has no such arm."""
@@ -184,8 +188,13 @@ class DeviceCell(Backend, Cell):
         with self._turn:
             fault, is_told, self._is_told = self._fault, self._is_told, True
         self._devices.passed()
+        self._states.note(fault)
         if fault is not None and not is_told:
             raise BackendBroken(fault.reason)
+
+    def publish(self) -> None:
+        """Write to the world model which arms have stopped."""
+        self._states.note(self._fault)
 
     def secure(self, devices: Collection[str] | None = None) -> Sequence[str]:
         """Stop devices, all if None, and pushes, and restore releases; return what was not in order."""

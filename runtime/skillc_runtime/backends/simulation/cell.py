@@ -35,16 +35,17 @@ from skillc_runtime.backends.simulation.twin import keep_reported
 from skillc_runtime.backends.simulation.variation import Variation
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
-from skillc_runtime.devices.backend import BackendBroken
+from skillc_runtime.devices.backend import BackendBroken, DeviceStop
 from skillc_runtime.devices.capabilities import BackendCapabilities
 from skillc_runtime.devices.device_map import DeviceMap
+from skillc_runtime.devices.device_states import DeviceStates
 from skillc_runtime.devices.device_stopper import DeviceStopper
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.frames import relocation_changes, size
-from skillc_runtime.world.state.changes import Change, SetProperty
+from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import DEVICE_STATE
@@ -57,7 +58,7 @@ class ModelledCell(ABC, Generic[A, G]):
     """A cell in lock step, implementing `Cell` and `Backend`; subclasses make arms and grippers, and move all of it.
 
     `variation` is how reality differs from the facts of `scene`. Between calls of `advance` all measurements are of the
-    present instant. The world model has the state of each arm: `Idle` at the start, `Fault` once it is broken.
+    present instant. The world model has the state of each arm: `Idle`, or `Fault` from a stop until it is acknowledged.
     """
 
     cargo_type: type[Cargo] = Cargo
@@ -92,6 +93,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self._prepare()
         drivers = {a.individual: make_driver(a, self.arms[a.individual], self.period_s) for a in scene.arms}
         self._drivers = DeviceMap("arm", drivers, names)
+        self._states = DeviceStates(world, drivers)
         self._stopper = DeviceStopper(self._drivers, self._grippers, self._bases, names)
         self._observers = {
             tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in scene.tools
@@ -106,7 +108,7 @@ class ModelledCell(ABC, Generic[A, G]):
             scene, variation, self._observers, self.coverage, self._buttons, self.people, self._touches, self._grippers,
             self.data,
         )  # fmt: skip
-        self.stops = SimulatedStops(self._drivers, self._stopper, world, names)
+        self.stops = SimulatedStops(self._drivers, self._stopper, self._states, names)
         self.disturber = SimulatedDisturber(self, scene, self.model, self.data, self._hands, self.stops)
         self.drawing = ModelDrawing(scene, variation, self.model, self.data)
         self.live = make_live_signals(scene, self.period_s, self.arms, self._drivers, self.model, self.data)
@@ -120,10 +122,7 @@ class ModelledCell(ABC, Generic[A, G]):
     def _report_idle(self) -> None:
         """Report that arms are idle; one that goes on from a checkpoint has reported it unless it was busy then."""
         first, state = self._restored is None, self._world.snapshot()
-        busy = [arm for arm in sorted(self._drivers) if first or state.value(arm, DEVICE_STATE) != "Idle"]
-        if busy:
-            idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in busy]
-            self._world.commit(idle, "start of the cell", "reported")
+        self._states.begin(arm for arm in sorted(self._drivers) if first or state.value(arm, DEVICE_STATE) != "Idle")
 
     @property
     def now(self) -> float:
@@ -210,6 +209,9 @@ class ModelledCell(ABC, Generic[A, G]):
         reports, self._reports = self._reports, []
         for changes, origin, evidence in reports:
             self._world.commit(changes, origin, evidence)
+        if self._broken is not None:
+            self._states.note(DeviceStop("protective-stop", self._broken, tuple(sorted(self._drivers))))
+        self._states.note(self.stops.report)
 
     def save(self) -> bytes:
         """Return the true state of the cell as an encoded checkpoint, from which it can be built again."""
@@ -284,7 +286,6 @@ class ModelledCell(ABC, Generic[A, G]):
             self._step_devices(self.data.time)
         except BackendBroken as error:
             self._broken = str(error)
-            self._report([SetProperty(arm, DEVICE_STATE, "Fault") for arm in sorted(self._drivers)], self._broken)
             raise
 
     def _step_devices(self, now: float) -> None:
@@ -293,7 +294,7 @@ class ModelledCell(ABC, Generic[A, G]):
                 self.stop_all("the tree is not ticked any more")
             for individual, arm in self._drivers.items():
                 if individual not in self._stopper.lost:
-                    self._control(individual, arm, now)
+                    self._control(arm, now)
             for listen in self.live.listeners:
                 listen()
         self._move_devices(now)
@@ -347,11 +348,6 @@ class ModelledCell(ABC, Generic[A, G]):
                 self._touches.add(self.scene.names[robot], base.touched, self.now, None)
                 base.touched = None
 
-    def _control(self, individual: str, arm: CompliantArmDriver, now: float) -> None:
-        """Run a control period of one arm; report, once, that it is broken."""
-        worked = arm.broken is None
-        try:
-            arm.step(now)
-        finally:
-            if worked and arm.broken is not None:
-                self._report([SetProperty(individual, DEVICE_STATE, "Fault")], arm.broken)
+    def _control(self, arm: CompliantArmDriver, now: float) -> None:
+        """Run a control period of one arm."""
+        arm.step(now)

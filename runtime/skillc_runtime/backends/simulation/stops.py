@@ -7,10 +7,8 @@ from collections.abc import Iterator, Mapping
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.devices.backend import DeviceStop, StopPersists
+from skillc_runtime.devices.device_states import DeviceStates
 from skillc_runtime.devices.device_stopper import DeviceStopper
-from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.terms import DEVICE_STATE
 
 
 class SimulatedStops:
@@ -20,22 +18,22 @@ class SimulatedStops:
         self,
         arms: Mapping[str, CompliantArmDriver],
         stopper: DeviceStopper,
-        world: WorldModel,
+        states: DeviceStates,
         names: Mapping[str, str],
     ) -> None:
-        self._arms, self._stopper, self._world, self._names = arms, stopper, world, names
+        self._arms, self._stopper, self._states, self._names = arms, stopper, states, names
         self._pressed = False
 
     @property
     def report(self) -> DeviceStop | None:
         """The worst stop that was reported and not cleared, or whose cause is still there; None for none."""
         if self._pressed:
-            return DeviceStop("emergency-stop", "an emergency stop is pressed")
+            return DeviceStop("emergency-stop", "an emergency stop is pressed", tuple(sorted(self._arms)))
         for individual, arm in self._arms.items():
             lost = "it does not answer" if individual in self._stopper.lost else None
             why = lost or arm.broken or arm.violation
             if why is not None:
-                return DeviceStop("protective-stop", f"{self._names[individual]}: {why}")
+                return DeviceStop("protective-stop", f"{self._names[individual]}: {why}", (individual,))
         return None
 
     def clear(self) -> None:
@@ -47,11 +45,9 @@ class SimulatedStops:
             raise StopPersists(f"{lost} does not answer yet; connect it again")
         if problems := [f"{self._names[each]}: {why}" for each, why in self._find_unmeasured()]:
             raise StopPersists("; ".join(problems))
-        if broken := sorted(individual for individual, arm in self._arms.items() if arm.broken is not None):
-            idle = [SetProperty(arm, DEVICE_STATE, "Idle") for arm in broken]
-            self._world.commit(idle, "the stop was acknowledged", "reported")
         for arm in self._arms.values():
             arm.recover()
+        self._states.clear()
 
     def press(self, pressed: bool) -> None:
         """Press or release the emergency stop; all devices stop when it is pressed."""
