@@ -15,7 +15,7 @@ from skillc_runtime.recording.run_spec import ATTENDED_ELSEWHERE, RunRequest, Ru
 
 FILE = Path(__file__).parents[1] / "app/skillc/values/run_keywords.py"
 TARGET, PLACE = TaskRequest.__struct_fields__, ("scene", "library")
-ATTENDED = ("pace", "step", "breakpoints")
+ATTENDED = ("pace", "step", "breakpoints", "confirm_steps")
 """What only makes sense where somebody operates the run."""
 HEAD = '''"""The keyword arguments with which programs run something, made from its specification; do not edit.
 

@@ -55,6 +55,44 @@ def test_a_fast_motion_takes_longer_to_stop(speed, stands_after):
     assert not generator.done(100.0)
 
 
+@settings(max_examples=25)
+@given(share=st.floats(0.05, 1.0), stopped_at=st.floats(0.05, 0.95))
+def test_a_slower_motion_goes_the_same_way_and_stops_as_soon_as_it_may(share, stopped_at):
+    path = path_through([START, CORNER, GOAL], MotionLimits(0.4, DECELERATION))
+    usual, slower = ReferenceGenerator(START, DECELERATION), ReferenceGenerator(START, DECELERATION)
+    slower.set_speed(share, 0.0)
+    for generator in (usual, slower):
+        generator.follow(path, 10.0)
+    for time in np.linspace(0.0, stopped_at * path.duration, 20):
+        expected, found = usual.sample(10.0 + time), slower.sample(10.0 + time / share)
+        assert np.allclose(found.pose.position, expected.pose.position, atol=1e-9)
+        assert np.allclose(found.twist, share * expected.twist, atol=1e-9)
+        assert np.allclose(found.acceleration, share**2 * expected.acceleration, atol=1e-9)
+    speed, now = np.linalg.norm(found.twist[:3]), 10.0 + time / share
+    rests_at = slower.stopping_pose(now).position
+    slower.stop(now)
+    _, braking = sampled(slower, now, now + speed / DECELERATION)
+    changes = np.linalg.norm(np.diff(braking, axis=0), axis=1)
+    assert changes.max(initial=0.0) <= 1.5 * DECELERATION * PERIOD
+    assert slower.done(now + 1.5 * speed / DECELERATION + 1e-6)
+    assert np.allclose(slower.sample(now + 10.0).pose.position, rests_at)
+
+
+def test_slower_joints_stop_as_soon_as_they_may_and_go_on_after_a_pause():
+    generator = JointReferenceGenerator(np.zeros(2), np.zeros(2), 1.0, 0.0, speed=0.25)
+    motion = joint_motion(np.zeros(2), np.array([1.0, 0.5]), np.full(2, 1.0), np.full(2, 2.0))
+    generator.follow(motion, 0.0)
+    middle = generator.sample(2.0 * motion.duration)
+    assert np.allclose(middle.q, motion.at(motion.duration / 2).q)
+    assert np.allclose(middle.dq, 0.25 * motion.at(motion.duration / 2).dq)
+    generator.pause(2.0 * motion.duration)
+    assert generator.stationary(2.0 * motion.duration + 1.0)
+    generator.resume(100.0)
+    assert np.allclose(generator.sample(101.0).dq, middle.dq)
+    generator.stop(101.0)
+    assert generator.done(101.0 + np.abs(middle.dq).max() / 1.0 + 1e-6)
+
+
 def test_an_overlay_pauses_with_its_motion_and_by_itself():
     generator = ReferenceGenerator(START, DECELERATION)
     handle = generator.add(Circle(0.02, 1.0), np.eye(3), 0.5, 0.0)

@@ -54,6 +54,20 @@ def test_a_task_is_stepped_paused_and_continued_to_its_end(tmp_path: Path) -> No
     assert isinstance(events[-1], TaskEnded) and events[-1].status == "succeeded"
 
 
+def test_each_step_waits_for_enter_and_a_letter_stops(tmp_path: Path) -> None:
+    with Terminal(command(tmp_path, "--confirm-steps", far_s=20), ENVIRONMENT) as terminal:
+        terminal.expect(r"paused since 0\.\d s: Deliver is to be confirmed\s+next  Deliver  call:1")
+        terminal.expect(r"Enter go on  s stop")
+        terminal.type("i\n")
+        assert terminal.wait() == 0
+    with Terminal(command(tmp_path, "--confirm-steps"), ENVIRONMENT) as terminal:
+        terminal.expect("Deliver is to be confirmed")
+        terminal.type("s")
+        assert terminal.wait() == 3
+        assert "stopped by the user" in terminal.shown
+    assert not [event for event in read_events(tmp_path) if isinstance(event, NodeStarted) and event.name == "Lift"]
+
+
 def test_a_task_pauses_at_breakpoints_and_after_what_is_around_a_call(tmp_path: Path) -> None:
     places = ("--breakpoints", "Lift", "--breakpoints", f"depot.skill:{LOWER.partition(':')[2]}")
     with Terminal(command(tmp_path, *places, far_s=20), ENVIRONMENT) as terminal:

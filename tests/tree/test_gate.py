@@ -22,10 +22,11 @@ class Debugged:
     body: tree.Node
     library: Library = field(default_factory=Library)
     breakpoints: tuple[Breakpoint, ...] = ()
+    confirms_steps: bool = False
 
     def __post_init__(self) -> None:
         self.stage = Stage(world(), {name: [Script(ticks=3)] for name in "abcdefg"})
-        self.gate = Gate(self.breakpoints)
+        self.gate = Gate(self.breakpoints, self.confirms_steps)
         self.run = TreeRun(self.body, self.library.build(), self.stage, gate=self.gate)
 
     def tick(self, ticks: int = 30) -> str:
@@ -52,6 +53,15 @@ def nested(*, outer: PausePolicy | None = None, inner: PausePolicy | None = None
     around = Skill(name="Outer", source=here(), pause=outer or PausePolicy())
     library.add(around, Compound(seq(act("b"), call("Inner"), act("e"))))
     return seq(act("a"), call("Outer"), act("f")), library
+
+
+def test_who_confirms_steps_is_waited_for_before_each_call_that_no_other_one_is_around() -> None:
+    body, library = nested()
+    debugged = Debugged(body, library, confirms_steps=True)
+    for started, step in (("", "Act"), ("a", "Outer"), ("abcde", "Act")):
+        assert debugged.tick() == started and debugged.gate.reason == f"{step} is to be confirmed"
+        debugged.gate.open()
+    assert debugged.tick() == "abcdef" and debugged.run.status is Status.SUCCESS
 
 
 def test_without_a_gate_and_with_an_open_one_a_run_is_the_same() -> None:

@@ -53,6 +53,26 @@ class BackendType(click.ParamType[str]):
 BACKEND = BackendType()
 
 
+class ShareType(click.ParamType[float]):
+    """A share above 0 to 1, in per cent or as a number."""
+
+    name = "share"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the share."""
+        number, sign, rest = str(value).partition("%")
+        try:
+            share = float(number) / (100.0 if sign else 1.0)
+        except ValueError:
+            share = 0.0
+        if rest or not 0.0 < share <= 1.0:
+            self.fail(f"`{value}` is no share above 0 up to all of it: write it as 10% or 0.1", param, ctx)
+        return share
+
+
+SHARE = ShareType()
+
+
 def grouped_option(group: str, *names: str, **settings: Any) -> Callable[[Function], Function]:
     """Return a decorator that adds an option in the section `group` of the help."""
     return click.option(*names, cls=GroupedOption, group=group, **settings)

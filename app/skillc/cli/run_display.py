@@ -20,7 +20,7 @@ def compose_display(
 ) -> list[str]:
     """Return all lines for a run, as `describe_run` does, with the keys if there is a `pace` that they can change."""
     first, *more = describe_run(run, now, since)
-    keys = [] if pace is None else [f"  {format_help(run.allowed, pace, detachable)}"]
+    keys = [] if pace is None else [f"  {format_help(run, pace, detachable)}"]
     asked = [f"  {format_prompt(run.prompts[0], now)}"] if run.prompts else []
     return [f"{title}  {first}", *more, *asked, *keys, *([f"  {remark}"] if remark else [])]
 

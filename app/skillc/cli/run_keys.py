@@ -9,6 +9,8 @@ from skillc.cli.run_view import RunView
 from skillc_runtime.execution.pace import Pace, format_pace
 from skillc_runtime.recording.commands import Answer, Command, Pause, Resume, StepInto, StepOut, StepOver, Stop
 
+ENTER = "\n"
+
 
 @dataclass(frozen=True, slots=True)
 class Key:
@@ -17,6 +19,11 @@ class Key:
     letter: str
     label: str
     command: Command
+
+    @property
+    def shown(self) -> str:
+        """What is written on the key."""
+        return "Enter" if self.letter == ENTER else self.letter
 
 
 KEYS = (
@@ -27,14 +34,25 @@ KEYS = (
     Key("c", "continue", Resume()),
     Key("q", "stop", Stop("stopped by the user")),
 )
+CONFIRMING_KEYS = (
+    Key(ENTER, "go on", Resume()),
+    Key("s", "stop", Stop("stopped by the user")),
+    Key("p", "pause", Pause()),
+)
+"""The keys of a run whose user confirms each step: the letter of a step stops it, so that nothing moves by mistake."""
 FASTER, SLOWER = "+", "-"
 DETACH = "d"
 
 
-def format_help(allowed: tuple[str, ...], pace: Pace, detachable: bool) -> str:
+def keys_of(run: RunView) -> tuple[Key, ...]:
+    """Return the keys that a run has."""
+    return CONFIRMING_KEYS if run.confirms else KEYS
+
+
+def format_help(run: RunView, pace: Pace, detachable: bool) -> str:
     """Return the line that says which keys do something now."""
     detach = [f"{DETACH} detach"] if detachable else []
-    return "  ".join((*_format_keys(allowed), *detach, f"{FASTER} {SLOWER} pace: {format_pace(pace.factor)}"))
+    return "  ".join((*_format_keys(run), *detach, f"{FASTER} {SLOWER} pace: {format_pace(pace.factor)}"))
 
 
 def find_answer(digit: str, run: RunView) -> Answer | None:
@@ -47,9 +65,9 @@ def find_answer(digit: str, run: RunView) -> Answer | None:
 
 def explain_refusal(key: Key, run: RunView) -> str:
     """Say that a key does nothing now, and which ones do."""
-    possible = ", ".join(_format_keys(run.allowed)) or "no key"
-    return f"{key.letter} ({key.label}) is not possible while the task is {run.state}; possible: {possible}"
+    possible = ", ".join(_format_keys(run)) or "no key"
+    return f"{key.shown} ({key.label}) is not possible while the task is {run.state}; possible: {possible}"
 
 
-def _format_keys(allowed: tuple[str, ...]) -> Iterator[str]:
-    return (f"{key.letter} {key.label}" for key in KEYS if key.command.name in allowed)
+def _format_keys(run: RunView) -> Iterator[str]:
+    return (f"{key.shown} {key.label}" for key in keys_of(run) if key.command.name in run.allowed)

@@ -21,7 +21,9 @@ from skillc_runtime.platforms.keyboard import is_operable
 
 def check_operable(options: RunOptions) -> None:
     """Raise RequestError if a run would pause and nobody could let it go on: keys need a terminal and its display."""
-    wanted = "--step" if options.spec.step else "--breakpoints" if options.spec.breakpoints else None
+    spec = options.spec
+    pausing = {"--step": spec.step, "--breakpoints": spec.breakpoints, "--confirm-steps": spec.confirm_steps}
+    wanted = next((option for option, given in pausing.items() if given), None)
     if wanted is None:
         return
     if options.prints_json:

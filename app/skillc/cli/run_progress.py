@@ -20,7 +20,7 @@ from skillc.cli.interrupts import Interrupted, noting_signals
 from skillc.cli.layout import Style
 from skillc.cli.run_display import compose_display, format_estimate, format_prompt
 from skillc.cli.run_estimate import EndedStep, Estimate, PlanProgress
-from skillc.cli.run_keys import DETACH, FASTER, KEYS, SLOWER, explain_refusal, find_answer
+from skillc.cli.run_keys import DETACH, FASTER, SLOWER, explain_refusal, find_answer, keys_of
 from skillc.cli.run_view import RunView, view_run
 from skillc.cli.settings import output_settings
 from skillc_runtime.execution.pace import Pace
@@ -170,7 +170,7 @@ class RunProgress:
         self.detached |= self._detachable and letter == DETACH
         if letter.isdecimal() and (answer := find_answer(letter, run)) is not None:
             yield answer
-        for key in KEYS:
+        for key in keys_of(run):
             if key.letter == letter:
                 if key.command.name not in run.allowed:
                     self._remark = explain_refusal(key, run)

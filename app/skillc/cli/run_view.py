@@ -40,7 +40,10 @@ class CallStack:
 
 @dataclass(frozen=True, slots=True)
 class RunView:
-    """A run at one moment; `contact` is what becomes of a tool that pressed when it was paused."""
+    """A run at one moment; `contact` is what becomes of a tool that pressed when it was paused.
+
+    `confirms`: the user confirms each step.
+    """
 
     state: State
     reason: str
@@ -48,15 +51,16 @@ class RunView:
     stacks: tuple[CallStack, ...] = ()
     contact: Contact = "none"
     prompts: tuple[Prompt, ...] = ()
+    confirms: bool = False
 
 
 def view_run(run: TaskRun) -> RunView:
     """Return what there is to show of a run of this process."""
-    tree, allowed = run.tree, tuple(run.allowed)
+    tree, allowed, confirms = run.tree, tuple(run.allowed), run.spec.confirm_steps
     if tree is None:
-        return RunView(run.state, _join_reason(run.reason, run.planning), allowed)
+        return RunView(run.state, _join_reason(run.reason, run.planning), allowed, confirms=confirms)
     stacks = tuple(CallStack(_stack(each), tree.holds_back(each)) for each in tree.active_calls)
-    return RunView(run.state, run.reason, allowed, stacks, run.contact, run.prompts)
+    return RunView(run.state, run.reason, allowed, stacks, run.contact, run.prompts, confirms)
 
 
 @dataclass(slots=True)
@@ -88,7 +92,8 @@ class EventView:
     def view(self, status: OperationStatus) -> RunView:
         """Return what there is to show, with the state of its operation."""
         reason = _join_reason(status.reason, status.planning)
-        return RunView(status.state, reason, status.allowed, self.stacks, status.contact, self._prompts)
+        confirms = status.request.confirm_steps
+        return RunView(status.state, reason, status.allowed, self.stacks, status.contact, self._prompts, confirms)
 
     @property
     def stacks(self) -> tuple[CallStack, ...]:

@@ -34,7 +34,7 @@ def parse_breakpoints(texts: Iterable[str], library: SkillLibrary) -> tuple[Brea
 
 def make_gate(request: RunRequest, library: SkillLibrary) -> Gate:
     """Return the gate of a run, which pauses where that is requested; RequestError as of `parse_breakpoints`."""
-    gate = Gate(parse_breakpoints(request.breakpoints, library))
+    gate = Gate(parse_breakpoints(request.breakpoints, library), request.confirm_steps)
     if request.step:
         gate.step("into", ())
     return gate

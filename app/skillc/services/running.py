@@ -135,7 +135,7 @@ class _Run:
         """Run the task once it is planned, and report it."""
         task, options, cell = self.task, self.options, self.cell
         builder = HistoryBuilder()
-        start = summarise_start(task.assignment.name, cell)
+        start = summarise_start(task.assignment.name, cell, options.spec.speed)
         run_id = options.run_id or make_run_id(task.assignment.name)
         with (
             self._recorded(run_id) as recorders,

@@ -20,6 +20,8 @@ class WorkKeywords(TypedDict, total=False):
     step_deadline_s: float | None
     """Let a primitive or a wait fail if it has not ended after these seconds of the cell's time, without those that
     it was paused."""
+    speed: float
+    """Move arms and bases with this share of their speeds, such as `10 %` or 0.1; forces stay as they are."""
     minimise: Literal["makespan", "work"]
     """Minimise the total duration of all steps, or the time until the last one ends."""
     plan_cache: bool
@@ -47,6 +49,8 @@ class AttendedKeywords(TypedDict, total=False):
     """Pause before the first call, and go on step by step."""
     breakpoints: Sequence[str]
     """Pause before each call of a skill, or before the calls in a line."""
+    confirm_steps: bool
+    """Pause before each step, with the arms held, until somebody lets the task go on."""
     pace: float | str
     """Let simulated time pass as fast as it computes, or at most N times as fast as real time."""
 
@@ -99,6 +103,8 @@ class SubmitKeywords(TypedDict, total=False):
     step_deadline_s: float | None
     """Let a primitive or a wait fail if it has not ended after these seconds of the cell's time, without those that
     it was paused."""
+    speed: float
+    """Move arms and bases with this share of their speeds, such as `10 %` or 0.1; forces stay as they are."""
     priority: int
     """Of those that wait for planners or devices, the higher comes first; nothing that runs gives way."""
 
@@ -110,6 +116,8 @@ class OperationKeywords(SubmitKeywords, total=False):
     """Pause before the first call, and go on step by step."""
     breakpoints: Sequence[str]
     """Pause before each call of a skill, or before the calls in a line."""
+    confirm_steps: bool
+    """Pause before each step, with the arms held, until somebody lets the task go on."""
 
 
 class OrderKeywords(SubmitKeywords, total=False):

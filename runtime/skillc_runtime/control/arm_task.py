@@ -22,14 +22,15 @@ TOOL_JUMP_M_S = 3.0
 class ArmTask:
     """What one arm is doing: `joints` generates their reference, or is None while `tool` is controlled.
 
-    `now` s is the time of motions, which stops while the arm is not controlled. `MotionControl` and `ComplianceControl`
-    change it for skills; the driver asks it for a command once a control period.
+    `now` s is the time of motions, which stops while the arm is not controlled. All motions have the share `speed`,
+    above 0 to 1, of theirs. `MotionControl` and `ComplianceControl` change it for skills; the driver asks it for a
+    command once a control period.
     """
 
     def __init__(self, setup: ArmSetup) -> None:
         """Hold the joints at their positions."""
         state = setup.arm.state()
-        self.limits, self.period, self.now = setup.limits, setup.period, 0.0
+        self.limits, self.period, self.now, self.speed = setup.limits, setup.period, 0.0, 1.0
         self._arm, self._tool_position = setup.arm, state.tool.position.tolist()
         self.measured = MeasuredArm(setup.base, self.contact_wrench, state)
         self.controllers = make_controllers(setup.gains, setup.limits, setup.virtual, state, setup.period)
@@ -76,6 +77,13 @@ class ArmTask:
         state = self.measured.state
         return self._joint_reference(self.controllers.joints_now(state), self.controllers.speeds_now(state))
 
+    def set_speed(self, speed: float) -> None:
+        """Let all motions, also the present one, have a share of their speed, above 0 to 1; forces stay as they are."""
+        self.speed = speed
+        self.tool.reference_generator.set_speed(speed, self.now)
+        if self.joints is not None:
+            self.joints.set_speed(speed, self.now)
+
     def stop(self) -> None:
         """Come to rest within the acceleration limit; compliance, push and overlays are kept."""
         (self.joints or self.tool.reference_generator).stop(self.now)
@@ -97,4 +105,4 @@ class ArmTask:
         return self.measured.base()
 
     def _joint_reference(self, q: Array, dq: Array) -> JointReferenceGenerator:
-        return JointReferenceGenerator(q, dq, float(self.limits.velocity.min()) / JOINT_RAMP_S, self.now)
+        return JointReferenceGenerator(q, dq, float(self.limits.velocity.min()) / JOINT_RAMP_S, self.now, self.speed)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 from typing import assert_never
 
@@ -115,6 +116,7 @@ class ComplianceControl:
 
     def start_push(self, push: GuardedPush) -> ActivePush:
         """Begin to approach and then to push; the result gives the progress."""
+        push = replace(push, approach_m_s=push.approach_m_s * self._task.speed)
         active = ActivePush(push, self._task.measured.in_base(push.along), self._task.measured.felt_wrench)
         self._approach(push)
         self.active_pushes = (*self.active_pushes, active)

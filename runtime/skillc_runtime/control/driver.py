@@ -38,6 +38,15 @@ class CompliantArmDriver:
         self._seen = self._lost = 0.0
 
     @property
+    def speed(self) -> float:
+        """The share, above 0 to 1, of their speeds that motions and approaches have."""
+        return self._task.speed
+
+    def set_speed(self, share: float) -> None:
+        """Let motions, also the present one, and approaches have this share of their speeds."""
+        self._task.set_speed(share)
+
+    @property
     def at_rest(self) -> bool:
         """Whether reference and joints are at rest and no skill pushes."""
         return self.motion.at_rest and not self.compliance.pushing and self.measured.still

@@ -315,6 +315,18 @@ class ArmDriver(Protocol):
         """The compliance and push of the tool."""
         ...
 
+    @property
+    def speed(self) -> float:
+        """The share, above 0 to 1, of their speeds that motions, overlays and approaches have."""
+        ...
+
+    def set_speed(self, share: float) -> None:
+        """Let motions, overlays and approaches have this share of their speeds from now on; forces stay as they are.
+
+        What the motion is stays the same: it takes its time divided by the share.
+        """
+        ...
+
     def take_fault(self) -> str | None:
         """Return why the arm stopped by itself, once; None if it did not."""
         ...

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from skillc_runtime.devices.arm import NotOffered
 from skillc_runtime.motion.pose import Pose
 
 
@@ -29,6 +30,16 @@ class MobileBase(Protocol):
     def fault(self) -> str | None:
         """Why the base stopped by itself on the way to the last goal, for example its bumper; None if it did not."""
         ...
+
+    @property
+    def speed(self) -> float:
+        """The share, above 0 to 1, of its speeds with which the base drives."""
+        return 1.0
+
+    def set_speed(self, share: float) -> None:
+        """Drive with this share of the speeds from the next goal on; NotOffered if something else chooses them."""
+        if share < 1.0:
+            raise NotOffered("the speed of the base is chosen by its own navigation: lower it there")
 
     def drive_to(self, goal: Pose) -> None:
         """Begin to drive to a pose: rotate towards it, drive straight, rotate to its heading; returns at once.

@@ -121,7 +121,7 @@ class Attempt:
             context.locks,
             EarlierTrees(nodes_before, failures),
             context.gate,
-            context.spec.step_deadline_s,
+            context.spec,
         )
         self.ticking, self.ended = True, False
         self._invalidated: str | None = None

@@ -114,7 +114,7 @@ class _Player:
         self._arrivals = deque(event for event in recorded if isinstance(event, PlanArrived))
         origin = CellOrigin(started.scene, started.seed, started.backend)
         self.loop = CellLoop(backend, library, self._prepare, origin, after_tick, ticks=ticks)
-        gate = Gate(map(read_breakpoint, started.breakpoints))
+        gate = Gate(map(read_breakpoint, started.breakpoints), started.settings.confirm_steps)
         if started.stepped:
             gate.step("into", ())
         self.run = self.loop.submit(_make_assignment(started, backend), self._listeners, started.settings, gate)

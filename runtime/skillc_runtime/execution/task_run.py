@@ -29,6 +29,7 @@ from skillc_runtime.execution.tree.gate import format_breakpoints, read_breakpoi
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.contact import Contact
 from skillc_runtime.recording.events import Event, Replanned, Requested, StateChanged, TaskEnded
@@ -229,7 +230,8 @@ class TaskRun(RunStatus):
         """Fail if the deadline has passed, nobody has decided, or the cell is broken before an attempt has begun."""
         limit, broken = self.spec.deadline_s, self._context.backend.broken
         if limit is not None and self._now - self._submitted_at > limit + EPSILON_S:
-            self._stop("failed", Failure(kind="timeout", message=f"the task exceeded its deadline of {limit:g} s"))
+            late = f"the task exceeded its deadline of {limit:g} s{describe_slowness(self.spec.speed)}"
+            self._stop("failed", Failure(kind="timeout", message=late))
         elif self.waits_for_person and self._now - self._state_since >= DECISION_LIMIT_S:
             why = f"nobody has decided for {DECISION_LIMIT_S:g} s how it goes on"
             self._stop("failed", Failure(kind="timeout", message=why))

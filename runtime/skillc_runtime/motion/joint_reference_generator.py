@@ -7,26 +7,34 @@ import numpy as np
 from skillc_runtime.motion.joint import JointReference, JointTrajectory
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.stopping_motion import stopping_motion
-from skillc_runtime.motion.time_scaling import RAMP_S, TimeScaling
+from skillc_runtime.motion.time_scaling import RAMP_S, start_time
 
 
 class JointReferenceGenerator:
     """The reference of the joints of one arm.
 
-    q, dq (nv,): rad, rad/s. deceleration: of the fastest joint in a stop, rad/s^2. Times `now` in s, of any clock.
+    q, dq (nv,): rad, rad/s. deceleration: of the fastest joint in a stop, rad/s^2. Times `now` in s, of any clock;
+    motions have the share `speed`, above 0 to 1, of the speed that they were made with.
     """
 
-    def __init__(self, q: Array, dq: Array, deceleration: float, now: float) -> None:
+    def __init__(self, q: Array, dq: Array, deceleration: float, now: float, speed: float = 1.0) -> None:
         """Come to rest from joint positions and speeds."""
-        self._deceleration = deceleration
+        self._deceleration, self._speed = deceleration, speed
         self._restart_from(q, dq, now)
 
     def _restart_from(self, q: Array, dq: Array, now: float) -> None:
-        self._time = TimeScaling(since=now)
-        self._stopping = stopping_motion(dq, self._deceleration)
+        speed = self._speed
+        self._time = start_time(now, speed)
+        self._stopping = stopping_motion(dq / speed, self._deceleration / speed**2)
         self._rest = _at_rest(q + self._stopping.displacement)
         self._motion: JointTrajectory | None = None
         self._ends = self._stopping.duration
+
+    def set_speed(self, speed: float, now: float) -> None:
+        """Let motions, also the present one, have this share of the speed that they were made with."""
+        self._speed = speed
+        if self._time.goal > 0.0:
+            self._time = self._time.towards(speed, now)
 
     def follow(self, motion: JointTrajectory, now: float) -> None:
         """Follow a motion from now on; ValueError if it does not start at `stopping_joints`."""
@@ -66,7 +74,7 @@ class JointReferenceGenerator:
 
     def resume(self, now: float) -> None:
         """Continue after `pause`."""
-        self._scale_time(1.0, now)
+        self._scale_time(self._speed, now)
 
     def _scale_time(self, rate: float, now: float) -> None:
         time, fastest = self._time.at(now)[0], 0.0

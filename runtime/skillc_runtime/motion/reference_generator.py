@@ -11,7 +11,7 @@ from skillc_runtime.motion.overlays import FadedOverlay
 from skillc_runtime.motion.pose import Array, Pose, exp, skew
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory, resting_reference
 from skillc_runtime.motion.stopping_motion import stopping_motion
-from skillc_runtime.motion.time_scaling import RAMP_S, TimeScaling
+from skillc_runtime.motion.time_scaling import RAMP_S, TimeScaling, start_time
 
 TURN_DECELERATION = 2.0
 """Deceleration of a rotation in a stop, rad/s^2."""
@@ -24,13 +24,14 @@ class ReferenceGenerator:
     """The reference of one tool, in the base frame.
 
     A motion starts where the one before it comes to rest; the two overlap in time, without a jump.
-    Motion time starts with each motion, overlay time runs on; a pause slows both down to a standstill. `path` is the
-    last sample without overlays. Times `now` are in s, of any clock.
+    Motion time starts with each motion, overlay time runs on, both `speed` times as fast as that of the clock; a pause
+    slows both down to a standstill. Stops take the time that the deceleration wants, at any speed. `path` is the last
+    sample without overlays. Times `now` are in s, of any clock.
     """
 
     def __init__(self, pose: Pose, deceleration: float) -> None:
         """Hold a pose; abandoned motions stop with `deceleration` m/s^2."""
-        self._deceleration = deceleration
+        self._deceleration, self.speed = deceleration, 1.0
         self._overlays: dict[int, tuple[FadedOverlay, Array]] = {}
         self._next_handle = 0
         self._overlay_time = TimeScaling()
@@ -38,10 +39,11 @@ class ReferenceGenerator:
 
     def restart_from(self, pose: Pose, twist: Array, now: float) -> None:
         """Come to rest from a pose and a twist (6,), m/s and rad/s, whatever the motion was before."""
-        self._time, self._overlay_time = TimeScaling(since=now), self._overlay_time.towards(1.0, now)
+        speed = self.speed
+        self._time, self._overlay_time = start_time(now, speed), self._overlay_time.towards(speed, now)
         self._way, self._turn = (
-            stopping_motion(twist[:3], self._deceleration),
-            stopping_motion(twist[3:], TURN_DECELERATION),
+            stopping_motion(twist[:3] / speed, self._deceleration / speed**2),
+            stopping_motion(twist[3:] / speed, TURN_DECELERATION / speed**2),
         )
         self._rest = resting_reference(
             Pose(pose.position + self._way.displacement, exp(self._turn.displacement) @ pose.rotation)
@@ -49,6 +51,13 @@ class ReferenceGenerator:
         self._trajectory: Trajectory | None = None
         self._ends = max(self._way.duration, self._turn.duration)
         self.path = self._rest
+
+    def set_speed(self, speed: float, now: float) -> None:
+        """Let motions, also the present one, have this share, above 0 to 1, of the speed that they were made with."""
+        self.speed = speed
+        if self._time.goal > 0.0:
+            self._time = self._time.towards(speed, now)
+        self._overlay_time = self._overlay_time.towards(speed, now)
 
     def follow(self, trajectory: Trajectory, now: float) -> None:
         """Follow a trajectory from now on; ValueError if it does not start at `stopping_pose`."""
@@ -107,7 +116,7 @@ class ReferenceGenerator:
 
     def resume(self, now: float) -> None:
         """Continue after `pause`."""
-        self._scale_time(1.0, now)
+        self._scale_time(self.speed, now)
 
     def _scale_time(self, rate: float, now: float) -> None:
         time, overlay_time = self._time.at(now)[0], self._overlay_time.at(now)[0]
@@ -137,7 +146,7 @@ class ReferenceGenerator:
     def remove(self, handle: int, now: float) -> None:
         """Fade an overlay out, also while paused; no effect if it has faded out already."""
         if handle in self._overlays:
-            self._overlay_time = self._overlay_time.towards(1.0, now)
+            self._overlay_time = self._overlay_time.towards(self.speed, now)
             faded, axes = self._overlays[handle]
             self._overlays[handle] = (faded.end_at(self._overlay_time.at(now)[0]), axes)
 

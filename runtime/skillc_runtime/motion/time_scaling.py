@@ -10,7 +10,7 @@ RAMP_S = 0.5
 
 @dataclass(frozen=True, slots=True)
 class TimeScaling:
-    """A change of the rate of motion time, linear in time, from `rate` to `goal`, 0 or 1.
+    """A change of the rate of motion time, linear in time, from `rate` to `goal`, each from 0 to 1.
 
     It begins at `since` s, when motion time is `time` s, and would take `ramp_s` s between standstill and full speed.
     Times `now` are in s.
@@ -37,3 +37,8 @@ class TimeScaling:
         """Return the scaling whose rate changes to `goal` from now on."""
         time, rate, _ = self.at(now)
         return TimeScaling(now, time, rate, goal, ramp_s)
+
+
+def start_time(now: float, rate: float) -> TimeScaling:
+    """Return motion time that is 0 now and has a rate."""
+    return TimeScaling(since=now, rate=rate, goal=rate)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
+from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import Quantity
 from skillc_runtime.world.state.labelling import label
@@ -48,7 +49,8 @@ class AwaitSwitch(Primitive):
             return Status.SUCCESS
         if self._switched_at is None and self.cell.now - self._began > self._patience:
             raise SkillFailure(
-                "{button} has not switched within {patience}, pressed with {force:.1f}",
+                "{button} has not switched within {patience}, pressed with {force:.1f}"
+                + describe_slowness(self.arm.speed),
                 button=label(self._button, self.cell.world.snapshot().vocabulary),
                 patience=Quantity(self._patience, "s"),
                 force=Quantity(self._force, "N"),

@@ -120,7 +120,9 @@ class Push(Primitive):
             )
         if self._push.approach_m_s <= 0.0:
             raise SkillFailure("a tool approaches with more than 0 m/s, else it touches nothing")
-        self._ends = self.cell.now + approach_limit_s(self._push.travel.distance_m, self._push.approach_m_s)
+        self._ends = self.cell.now + approach_limit_s(
+            self._push.travel.distance_m, self._push.approach_m_s * self.arm.speed
+        )
         self._progress = compliance.start_push(self._push)
 
     def tick(self) -> Status:

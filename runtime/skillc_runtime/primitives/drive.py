@@ -34,7 +34,7 @@ class DriveBase(Primitive):
         state = self.cell.world.snapshot()
         goal = pose(state, self._to)
         far = float(np.linalg.norm(goal.position[:2] - self._base.pose.position[:2]))
-        self._limit_s = drive_limit_s(state, self._robot, far)
+        self._limit_s = drive_limit_s(state, self._robot, far, self._base.speed)
         self._ends = self.cell.now + self._limit_s
         if leaving := leaving_changes(state, self._robot):
             self.cell.world.commit(leaving, "DriveBase", "reported")

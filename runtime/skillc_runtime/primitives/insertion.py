@@ -9,6 +9,7 @@ import numpy as np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
+from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
@@ -52,7 +53,8 @@ class SinkBelow(Primitive):
             return Status.SUCCESS
         if self.cell.now - self._began > self._patience:
             raise SkillFailure(
-                "nothing gave way within {patience}: the tool sank {sank:.1f mm} below the target, not {wanted:g mm}",
+                "nothing gave way within {patience}: the tool sank {sank:.1f mm} below the target, not {wanted:g mm}"
+                + describe_slowness(self.arm.speed),
                 patience=Quantity(self._patience, "s"),
                 sank=Quantity(self._deepest, "m"),
                 wanted=Quantity(self._depth, "m"),
@@ -101,7 +103,8 @@ class Seat(Primitive):
             words = self.cell.world.snapshot().vocabulary
             rest = "rests" if resting else "still moves after {patience},"
             raise SkillFailure(
-                f"{{object}} {rest} {{depth:.1f mm}} deep in {{socket}}, which is {{hole:.1f mm}} deep",
+                f"{{object}} {rest} {{depth:.1f mm}} deep in {{socket}}, which is {{hole:.1f mm}} deep"
+                + ("" if resting else describe_slowness(self.arm.speed)),
                 object=label(self._peg, words),
                 socket=label(self._socket, words),
                 patience=Quantity(self._patience, "s"),

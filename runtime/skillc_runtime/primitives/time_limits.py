@@ -29,15 +29,23 @@ def finger_limit_s(state: WorldState, gripper: str, stroke_m: float) -> float:
     return stroke_m / _speed(state, gripper, "fingerSpeed") + SETTLING_S
 
 
-def drive_limit_s(state: WorldState, robot: str, distance_m: float) -> float:
-    """Return how long a base may drive a distance, with a full turn on the way; SkillFailure without its speeds."""
+def drive_limit_s(state: WorldState, robot: str, distance_m: float, share: float) -> float:
+    """Return how long a base may drive a distance, with a full turn on the way, with a share of its speeds.
+
+    SkillFailure without its speeds.
+    """
     nominal_s = distance_m / _speed(state, robot, "driveSpeed") + 2 * pi / _speed(state, robot, "turnSpeed")
-    return SLOWER * nominal_s + STARTING_S
+    return SLOWER * nominal_s / share + STARTING_S
 
 
 def approach_limit_s(travel_m: float, approach_m_s: float) -> float:
     """Return how long a tool may approach a surface that is up to `travel_m` m away."""
     return SLOWER * travel_m / approach_m_s + STARTING_S
+
+
+def describe_slowness(share: float) -> str:
+    """Return what to add to a failure for want of time in a run with a share of the speeds; empty with all of it."""
+    return "" if share == 1.0 else f"; the run has {100.0 * share:.3g} % of the speeds, which may be why"
 
 
 def _speed(state: WorldState, device: str, name: str) -> float:

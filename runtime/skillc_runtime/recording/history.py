@@ -139,10 +139,12 @@ class RunHistory(_Part, frozen=True, kw_only=True):
     `scene` is the file of its scene, empty if there is none. `known` are the facts that a success rests on, `verified`
     is whether none of them is only assumed; None if unknown. `false_claims` are sentences about what the world model
     claimed at its end that was not so in the simulator. `chain` leads from the outermost call to the node that failed.
-    `pauses` are when it was paused and resumed, the latter None if it never went on.
+    `pauses` are when it was paused and resumed, the latter None if it never went on. Arms and bases had the share
+    `speed` of their speeds.
     """
 
     task: str
+    speed: float = 1.0
     status: str = ""
     verified: bool | None = None
     known: tuple[KnownFact, ...] = ()

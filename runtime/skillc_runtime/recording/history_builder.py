@@ -91,6 +91,7 @@ class HistoryBuilder:
         ended = self._ended
         return RunHistory(
             task=self._started.task,
+            speed=self._started.settings.speed,
             status=ended.status if ended is not None else "",
             verified=ended.verified if ended is not None else None,
             known=ended.facts if ended is not None else (),

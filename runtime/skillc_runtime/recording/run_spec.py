@@ -65,6 +65,17 @@ class RunRequest(TaskRequest, frozen=True, kw_only=True):
             "Pause before each call of a skill, or before the calls in a line.", EXECUTION, metavar="SKILL|FILE:LINE"
         ),
     ] = ()
+    confirm_steps: Annotated[
+        bool, documented("Pause before each step, with the arms held, until somebody lets the task go on.", EXECUTION)
+    ] = False
+    speed: Annotated[
+        Annotated[float, msgspec.Meta(gt=0.0, le=1.0)],
+        documented(
+            "Move arms and bases with this share of their speeds, such as `10 %` or 0.1; forces stay as they are.",
+            EXECUTION,
+            metavar="SHARE",
+        ),
+    ] = 1.0
     priority: Annotated[
         Annotated[int, msgspec.Meta(ge=-100, le=100)],
         documented(
@@ -132,6 +143,10 @@ class RunSpec(RunRequest, frozen=True, kw_only=True):
             metavar="NAME",
         ),
     ] = "primitive"
+
+
+AS_USUAL = RunSpec()
+"""What a run is given of which nothing is said."""
 
 
 def specify(request: RunRequest, scene: str, seed: int, backend: str) -> RunSpec:

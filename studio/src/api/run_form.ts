@@ -34,6 +34,16 @@ export const RUN_FORM: readonly RunField[] = [
     "text": "Pause before the first call, and go on step by step."
   },
   {
+    "name": "confirm_steps",
+    "kind": "flag",
+    "text": "Pause before each step, with the arms held, until somebody lets the task go on."
+  },
+  {
+    "name": "speed",
+    "kind": "number",
+    "text": "Move arms and bases with this share of their speeds, such as `10 %` or 0.1; forces stay as they are."
+  },
+  {
     "name": "priority",
     "kind": "number",
     "text": "Of those that wait for planners or devices, the higher comes first; nothing that runs gives way."

@@ -15,7 +15,7 @@ from msgspec import structs
 
 from skillc.cli.command import Command
 from skillc.cli.operation_remarks import remark_going_on, remark_status, remark_waiting
-from skillc.cli.options import EXECUTION, grouped_option
+from skillc.cli.options import EXECUTION, SHARE, grouped_option
 from skillc.cli.order_options import order_options
 from skillc.cli.server_access import request_options
 from skillc.cli.server_completions import complete_breakpoint
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 TIMES = {"every": "every_s", "until": "until", "count": "count", "missed": "missed"}
 """The keywords of an order, by its options."""
+ATTENDED = ("step", "breakpoints", "confirm_steps")
+"""The fields of a request for which somebody has to attend to the operation: what is started at a time has none."""
 EXAMPLES = """
 skillc start clean_table --cell iiwa_table
 skillc start deliver tray=lab:Tray-1 --wait
@@ -40,7 +42,7 @@ skillc start clean_table --at 2027-01-04T07:00:00+01:00 --every 86400 --missed s
 @request_options
 @click.option("--wait", is_flag=True, help="Wait for the end.")
 @click.option("--attach", is_flag=True, help="Show the task while it runs, as `skillc attach` does.")
-@struct_options(RunRequest, complete={"breakpoints": complete_breakpoint})
+@struct_options(RunRequest, types={"speed": SHARE}, complete={"breakpoints": complete_breakpoint})
 @grouped_option(EXECUTION, "--key", metavar="TEXT", help="The same request with the same key is one operation.")
 @order_options
 @server_options
@@ -58,14 +60,14 @@ def command(
         raise click.UsageError("--wait and --attach cannot be combined")
     if at is None and any(value is not None for value in repeated.values()):
         raise click.UsageError("--every, --until, --count and --missed need --at")
-    if at is not None and (wait or attach or request.step or request.breakpoints):
-        raise click.UsageError("--at cannot be combined with --wait, --attach, --step and --breakpoints")
+    if at is not None and (wait or attach or any(getattr(request, each) for each in ATTENDED)):
+        raise click.UsageError("--at cannot be combined with --wait, --attach, --step, --breakpoints, --confirm-steps")
     with connect_server() as server:
         place = server.cell(cell)
         wanted = structs.asdict(request)
         if at is not None:
             times = {TIMES[name]: value for name, value in repeated.items() if value is not None}
-            ordered = {name: value for name, value in wanted.items() if name not in ("step", "breakpoints")}
+            ordered = {name: value for name, value in wanted.items() if name not in ATTENDED}
             click.echo(place.order(**ordered, **times, at=at, key=key).id)
             return 0
         remark_waiting(place.status)

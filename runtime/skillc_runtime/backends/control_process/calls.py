@@ -18,7 +18,7 @@ Part: TypeAlias = Literal["driver", "motion", "compliance", "device"]
 
 OFFERED: Final[Mapping[Part, frozenset[str]]] = MappingProxyType(
     {
-        "driver": frozenset({"take_fault", "abort", "hold_still", "secure"}),
+        "driver": frozenset({"take_fault", "abort", "hold_still", "secure", "set_speed"}),
         "motion": frozenset(
             {
                 "stopping_pose", "joints_ahead", "follow_tool", "follow_joints", "stop", "pause", "resume",

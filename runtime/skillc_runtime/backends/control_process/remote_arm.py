@@ -42,6 +42,18 @@ class RemoteArmDriver:
         self.motion = RemoteMotion(process, base, kinematics, limits, safety)
         self.compliance = RemoteCompliance(process, base)
         self._individual, self._reason = facts.individual, None
+        self._speed = 1.0
+
+    @property
+    def speed(self) -> float:
+        """The share, above 0 to 1, of their speeds that motions and approaches have."""
+        return self._speed
+
+    def set_speed(self, share: float) -> None:
+        """Let motions, also the present one, and approaches have this share of their speeds."""
+        if share != self._speed:
+            self.process.call("driver", "set_speed", share)
+            self._speed = share
 
     @property
     def at_rest(self) -> bool:

@@ -53,7 +53,7 @@ class SimulatedBase:
         self._facts, self._data = facts, data
         self._mocap = int(model.body_mocapid[model.body(base_body_name(name)).id])
         self._pose, self._time = facts.pose, 0.0
-        self._done, self._stopped = True, False
+        self._done, self._stopped, self._speed = True, False, 1.0
         self._legs: list[Leg] = []
         self._bumper, self._steps = Bumper(base_body_name(name), model, data), 0
         self._fault: str | None = None
@@ -78,6 +78,15 @@ class SimulatedBase:
     def fault(self) -> str | None:
         """Why the base stopped by itself on the way to the last goal; None if it did not."""
         return self._fault
+
+    @property
+    def speed(self) -> float:
+        """The share, above 0 to 1, of its speeds with which the base drives."""
+        return self._speed
+
+    def set_speed(self, share: float) -> None:
+        """Drive with this share of the speeds from the next goal on."""
+        self._speed = share
 
     def place(self, pose: Pose) -> None:
         """Put a base that is at rest somewhere else."""
@@ -138,11 +147,11 @@ class SimulatedBase:
 
     def _turn(self, start: Pose, heading: float) -> Leg:
         angle = math.remainder(heading - _heading(start), math.tau)
-        profile = trapezoidal_profile(abs(angle), self._facts.turn_speed, self._facts.turn_acceleration)
+        profile = trapezoidal_profile(abs(angle), self._speed * self._facts.turn_speed, self._facts.turn_acceleration)
         return Leg(start, profile, np.zeros(3), math.copysign(1.0, angle))
 
     def _straight(self, start: Pose, way: Array, distance: float) -> Leg:
-        profile = trapezoidal_profile(distance, self._facts.speed, self._facts.acceleration)
+        profile = trapezoidal_profile(distance, self._speed * self._facts.speed, self._facts.acceleration)
         return Leg(start, profile, way / max(distance, NEAR_M), 0.0)
 
 

@@ -132,7 +132,7 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     `wipings` has one entry for each time a surface was wiped, `wiping` is the first of them; `placements` has one for
     each thing that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand
     or base. What only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its
-    clock.
+    clock. Arms and bases had the share `speed` of their speeds.
     """
 
     task: str
@@ -151,6 +151,7 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     sim_time_s: float = 0.0
     wall_time_s: float = 0.0
     real_time_factor: float = 0.0
+    speed: float = 1.0
     seed: int = 0
     variation: str = ""
     simulated: bool = True

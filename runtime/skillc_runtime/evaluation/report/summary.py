@@ -24,7 +24,7 @@ from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, H
 from skillc_runtime.world.state.world_state import WorldState
 
 
-def summarise_start(task: str, backend: Backend) -> TaskResult:
+def summarise_start(task: str, backend: Backend, speed: float = 1.0) -> TaskResult:
     """Return what is known of the result of a task when it starts."""
     state, truth = backend.cell.world.snapshot(), backend.capabilities.truth
     return TaskResult(
@@ -35,6 +35,7 @@ def summarise_start(task: str, backend: Backend) -> TaskResult:
         seed=0 if truth is None else truth.seed,
         variation="" if truth is None else truth.variation,
         simulated=truth is not None,
+        speed=speed,
     )
 
 
@@ -54,7 +55,7 @@ def summarise_run(
     judged = () if truth is None else tuple(rate_wiping(wiping, state, truth) for wiping in wipings)
     targets = find_targets(find_handlings(history, state))
     result = structs.replace(
-        summarise_start(execution.task, backend),
+        summarise_start(execution.task, backend, history.speed),
         status=_find_status(execution),
         verified=execution.verified,
         facts=execution.facts,

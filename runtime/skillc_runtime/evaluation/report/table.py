@@ -63,11 +63,13 @@ def _reality_rows(result: TaskResult) -> list[tuple[str, str]]:
 
 def _time_rows(result: TaskResult) -> list[tuple[str, str]]:
     """Return rows about how long a run took; a real cell has no speed of its own."""
+    slowed = [("motions", f"with {100.0 * result.speed:.3g} % of their speeds")] if result.speed < 1.0 else []
     if not result.simulated:
-        return [("time", f"{result.sim_time_s:.1f} s")]
+        return [("time", f"{result.sim_time_s:.1f} s"), *slowed]
     return [
         ("time", f"{result.sim_time_s:.1f} s simulated in {result.wall_time_s:.1f} s"),
         ("speed", f"{result.real_time_factor:.1f} x real time"),
+        *slowed,
     ]
 
 

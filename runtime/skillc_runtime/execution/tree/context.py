@@ -15,6 +15,7 @@ from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.run_cell import RunCell
 from skillc_runtime.recording.events import Listener, Note
+from skillc_runtime.recording.run_spec import AS_USUAL, RunSpec
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -31,8 +32,8 @@ class TreeContext:
     `state` is the snapshot of the world for this tick; `now` is the run's own time in s, which stops while paused;
     `time` is the cell's clock in s. `emit` is None without listeners; then no events are created. `gate` holds
     calls back where the run pauses; None if it never does. Primitives see the cell as `run_cell`; `active` are those
-    that a pause concerns, `computations` what they compute. A primitive or a wait fails `step_deadline_s` after its
-    start; None if it may take any time. `broken_calls` are those that did not succeed up to now.
+    that a pause concerns, `computations` what they compute. `spec` is what the run is given. `broken_calls` are those
+    that did not succeed up to now.
     """
 
     __slots__ = (
@@ -50,8 +51,8 @@ class TreeContext:
         "locks",
         "now",
         "run_cell",
+        "spec",
         "state",
-        "step_deadline_s",
         "time",
     )
 
@@ -63,15 +64,15 @@ class TreeContext:
         locks: DeviceLocks,
         ids: int = 0,
         gate: Gate | None = None,
-        step_deadline_s: float | None = None,
+        spec: RunSpec = AS_USUAL,
     ) -> None:
         self.library = library
         self.cell = cell
         self.emit = emit
         self.locks = locks
         self.gate = gate
-        self.step_deadline_s = step_deadline_s
-        self.run_cell = RunCell(cell)
+        self.spec = spec
+        self.run_cell = RunCell(cell, spec.speed)
         self.active, self.computations = ActivePrimitives(), Computations()
         self.broken_calls: list[BrokenCall] = []
         self._stopped, self._own_offset = False, 0.0
@@ -88,7 +89,8 @@ class TreeContext:
 
     def find_step_end(self) -> float:
         """Return by when what starts now must have ended, in the run's own time in s; infinite without a limit."""
-        return math.inf if self.step_deadline_s is None else self.now + self.step_deadline_s - EPSILON_S
+        limit_s = self.spec.step_deadline_s
+        return math.inf if limit_s is None else self.now + limit_s - EPSILON_S
 
     def begin_tick(self) -> None:
         """Read the clock and take the newest snapshot."""

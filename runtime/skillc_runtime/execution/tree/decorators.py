@@ -12,6 +12,7 @@ from skillc_runtime.execution.tree.lexical_scope import LexicalScope
 from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.recording.failure import Failure
 
 _INVERTED = {SUCCESS: FAILURE, FAILURE: SUCCESS}
@@ -41,7 +42,8 @@ class TimeoutNode(Node):
 
     def tick(self) -> Status:
         if self.context.now > self._deadline:
-            message = f"{self.child.name} was not done after {self.name.removeprefix('timeout ')}"
+            late = f"{self.child.name} was not done after {self.name.removeprefix('timeout ')}"
+            message = f"{late}{describe_slowness(self.context.spec.speed)}"
             self.stop(message)
             return self.fail(Failure(kind="timeout", message=message, source=self.source))
         status = self._path.tick()

@@ -59,10 +59,11 @@ class Gate:
     """Holds calls back before they start, so that a run can pause there; shared by all attempts of a task run.
 
     `reason` says why the run is to pause; None if it is not. The calls in `waiting` do not start before `open`.
+    `confirms_steps`: the run pauses before each step, a call that no other call is around.
     """
 
-    def __init__(self, breakpoints: Iterable[Breakpoint] = ()) -> None:
-        self.breakpoints = frozenset(breakpoints)
+    def __init__(self, breakpoints: Iterable[Breakpoint] = (), confirms_steps: bool = False) -> None:
+        self.breakpoints, self._confirms_steps = frozenset(breakpoints), confirms_steps
         self.reason: str | None = None
         self.waiting: list[GatedCall] = []
         self._step: Callable[[GatedCall], bool] | None = None
@@ -117,6 +118,8 @@ class Gate:
     def _reason_to_stop(self, call: GatedCall) -> str | None:
         if self._step is not None and self._step(call):
             return f"step: {call.skill_name} is next"
+        if self._confirms_steps and next(call.enclosing_calls(), None) is None:
+            return f"{call.skill_name} is to be confirmed"
         met = next((each for each in self.breakpoints if _is_at(each, call)), None)
         return None if met is None else f"breakpoint at {format_breakpoint(met)}"
 

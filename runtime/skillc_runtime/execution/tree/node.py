@@ -10,6 +10,7 @@ from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import make_error
 from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.recording.events import NodeEnded, NodeStarted
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.reasons import FailedCallContext
@@ -135,7 +136,9 @@ class Node:
 
     def fail_late(self) -> Status:
         """Halt the node and fail because it has reached the deadline of each step."""
-        message = f"{self.name} was not done after {self.context.step_deadline_s:g} s, the deadline of each step"
+        spec = self.context.spec
+        late = f"{self.name} was not done after {spec.step_deadline_s:g} s, the deadline of each step"
+        message = f"{late}{describe_slowness(spec.speed)}"
         self.stop(message)
         return self.fail(Failure(kind="timeout", message=message, source=self.source))
 

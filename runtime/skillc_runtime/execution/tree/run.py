@@ -31,6 +31,7 @@ from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.listeners import Listeners
 from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.run_spec import AS_USUAL, RunSpec
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 from skillc_runtime.world.state.transactions import ChangeEvent
 
@@ -66,17 +67,17 @@ class TreeRun:
         locks: DeviceLocks | None = None,
         earlier: EarlierTrees = NO_EARLIER,
         gate: Gate | None = None,
-        step_deadline_s: float | None = None,
+        spec: RunSpec = AS_USUAL,
     ) -> None:
         """Build the tree; nothing starts.
 
         Runs on the same devices share `locks`. `earlier` are the trees of the same task before this one. `gate` holds
-        calls back where the run pauses. A primitive or a wait that has not ended `step_deadline_s` of the run's own
-        time after its start fails.
+        calls back where the run pauses. `spec` is what the run is given: its deadline of a step, and
+        its speed.
         """
         self._listeners = Listeners(listeners)
         emit = self._listeners if listeners else None
-        self._context = TreeContext(library, cell, emit, locks or DeviceLocks(), earlier.nodes, gate, step_deadline_s)
+        self._context = TreeContext(library, cell, emit, locks or DeviceLocks(), earlier.nodes, gate, spec)
         self._undo = UndoStack()
         self._stop_listening = cell.world.subscribe(self._emit_world_change) if listeners else None
         self._root = build_node(body, self._context, LexicalScope(self._undo, failures=earlier.failures))

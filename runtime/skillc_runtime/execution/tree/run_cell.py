@@ -4,26 +4,29 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from skillc_runtime.devices.arm import NotOffered
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.cell import Cell, Watchdog
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.sensors import Button, Camera
+from skillc_runtime.primitives.primitive import SkillFailure
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.model import WorldModel
 
 
 class RunCell:
-    """A view of a cell with the members of `Cell` only.
+    """A view of a cell with the members of `Cell` only; arms and bases move with a share of their speeds.
 
     `now` is the run's own time in s, which stands still while the run is paused. `arms`, `grippers` and `bases` are
     those that primitives of the run have asked for.
     """
 
-    def __init__(self, cell: Cell) -> None:
-        self._cell = cell
+    def __init__(self, cell: Cell, speed: float = 1.0) -> None:
+        """Let the arms and bases that are asked for have this share, above 0 to 1, of their speeds."""
+        self._cell, self._speed = cell, speed
         self.now = cell.now
         self.arms: dict[str, ArmDriver] = {}
         self.grippers: dict[str, Gripper] = {}
@@ -54,15 +57,25 @@ class RunCell:
 
     def arm(self, individual: str) -> ArmDriver:
         """Return an arm's driver; KeyError if the cell has no such arm."""
-        return self.arms.setdefault(individual, self._cell.arm(individual))
+        if individual not in self.arms:
+            self.arms[individual] = arm = self._cell.arm(individual)
+            arm.set_speed(self._speed)
+        return self.arms[individual]
 
     def gripper(self, individual: str) -> Gripper:
         """Return a gripper; KeyError if the cell has no such gripper."""
         return self.grippers.setdefault(individual, self._cell.gripper(individual))
 
     def base(self, individual: str) -> MobileBase:
-        """Return the mobile base of a robot; KeyError if it has none."""
-        return self.bases.setdefault(individual, self._cell.base(individual))
+        """Return the mobile base of a robot; KeyError if it has none, SkillFailure if it cannot drive so slowly."""
+        if individual not in self.bases:
+            base = self._cell.base(individual)
+            try:
+                base.set_speed(self._speed)
+            except NotOffered as error:
+                raise SkillFailure(str(error)) from error
+            self.bases[individual] = base
+        return self.bases[individual]
 
     def pose_camera(self, individual: str) -> PoseCamera:
         """Return a camera that estimates poses; KeyError if the cell has no such camera."""
