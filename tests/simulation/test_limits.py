@@ -33,7 +33,7 @@ SPEEDS = {
     "fr3": [150.1] * 4 + [301.4, 239.5, 301.4],
     "panda": [124.6] * 4 + [149.5] * 3,
 }
-"""deg/s: the makers' data sheets; those of the Panda and the Franka Research 3 as their interface has them, in rad/s."""
+"""deg/s: the makers' data sheets; the Panda's and the Franka Research 3's as their interface has them, in rad/s."""
 
 EFFORTS = {
     "ur5e": [150, 150, 150, 28, 28, 28],

@@ -41,8 +41,8 @@ class RemoteArmDriver:
         safety, kinematics = read_safety_limits(facts), Kinematics(load_virtual_model(facts.model))
         self.motion = RemoteMotion(process, base, kinematics, limits, safety)
         self.compliance = RemoteCompliance(process, base)
-        self._individual, self._reason = facts.individual, None
-        self._speed = 1.0
+        self._individual, self._speed = facts.individual, 1.0
+        self._reason: str | None = None
 
     @property
     def speed(self) -> float:
