@@ -166,18 +166,24 @@ class ToyLink:
 
 
 class Toy:
-    """A running toy robot; `ask` calls its panel. `running` are the ports of one that somebody else has started."""
+    """A running toy robot; `ask` calls its panel. `running` are the ports of one that somebody else has started.
 
-    def __init__(self, scene: str, paced: bool = False, running: tuple[int, int] | None = None) -> None:
+    `truth` is the socket where it tells what is true.
+    """
+
+    def __init__(
+        self, scene: str, paced: bool = False, running: tuple[int, int] | None = None, truth: Path | None = None
+    ) -> None:
         self.scene, self._turn = scene, Lock()
         if running is None:
-            self._start(scene, paced)
+            self._start(scene, paced, truth)
         else:
             self.port, self.panel_port = running
         self._panel = Client(("127.0.0.1", self.panel_port))
 
-    def _start(self, scene: str, paced: bool) -> None:
+    def _start(self, scene: str, paced: bool, truth: Path | None) -> None:
         command = [sys.executable, "-m", "control_process.toy_robot", scene, "paced" if paced else "patient"]
+        command += [] if truth is None else [str(truth)]
         tests = Path(__file__).parent.parent
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=tests, env=_with_path())
         assert self.process.stdout is not None
@@ -303,10 +309,14 @@ class ToyCamera:
 
 @contextmanager
 def toy_cell(
-    scene: str, paced: bool = False, state: WorldState | None = None, patience: Patience = PATIENCE
+    scene: str,
+    paced: bool = False,
+    state: WorldState | None = None,
+    patience: Patience = PATIENCE,
+    truth: Path | None = None,
 ) -> Iterator[tuple[Toy, DeviceCell]]:
     """Yield a toy robot and its cell."""
-    toy = Toy(scene, paced)
+    toy = Toy(scene, paced, truth=truth)
     try:
         cell = toy.open(state, patience)
         try:

@@ -3,6 +3,7 @@
 The stream has a state a cycle, and what comes back: a command, or a request. The panel is what an operator, the fingers
 and the camera of the robot are asked by: calls of methods of `Panel`, by name. With `paced` the robot waits no longer
 than its period for a command; else for `PATIENCE_S`, so that a slow machine does not disturb what a test looks at.
+A third argument is the socket where it tells what is true.
 """
 
 from __future__ import annotations
@@ -14,10 +15,12 @@ import time
 from collections import deque
 from collections.abc import Sequence
 from multiprocessing.connection import Connection, Listener
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from robots.truth import serve_truth
 from simulation.cells import world
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.names import part_name
@@ -299,6 +302,8 @@ def serve_stream(robot: Robot, stream: socket.socket) -> None:
 def main(arguments: Sequence[str]) -> None:
     scene, paced = arguments[0], arguments[1] == "paced"
     robot = Robot(scene, paced)
+    if len(arguments) > 2:
+        serve_truth(Path(arguments[2]), robot.cell.capabilities.truth, lambda: robot.cell.now)
     panel = Listener(("127.0.0.1", 0))
     threading.Thread(target=serve_panel, args=(robot, panel), daemon=True).start()
     with socket.create_server(("127.0.0.1", 0)) as server:
