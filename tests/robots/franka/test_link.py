@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import signal
 from collections.abc import Iterator
 from dataclasses import replace
 from time import sleep
@@ -13,18 +11,17 @@ import mujoco
 import numpy as np
 import pytest
 
-from robots.franka.running import Peer, own_address, proxy, robot
+from robots.franka.running import Peer, own_address
 from skillc_ontology import catalogue
 from skillc_runtime.backends.control_process.link import (
     KINDS,
     ControlRefused,
-    LinkLost,
     PointMass,
     make_command,
     make_state,
 )
 from skillc_runtime.backends.franka.link import FrankaDescription, FrankaLink
-from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
+from skillc_runtime.devices.backend import BackendUnavailable
 
 pytestmark = [pytest.mark.robot, pytest.mark.slow]
 
@@ -195,20 +192,6 @@ def test_a_reflex_is_told_with_its_cause_and_recovered_from(link: FrankaLink, be
     assert hold(link, 100) == "in-control"
 
 
-def test_a_stop_button_is_told_until_somebody_releases_it(link: FrankaLink, before: Peer) -> None:
-    link.take_control("torque")
-    before.tell("user-stop")
-    assert hold(link, 500) in ("protective-stop", "emergency-stop")
-    link.read(STATE)
-    assert link.condition.kind == "emergency-stop"
-    with pytest.raises(StopPersists, match="release it"):
-        link.recover()
-    before.tell("release")
-    link.recover()
-    link.take_control("torque")
-    assert hold(link, 50) == "in-control"
-
-
 def test_lost_and_late_packets_change_nothing_beyond_limits(link: FrankaLink, before: Peer) -> None:
     link.take_control("torque")
     before.tell("drop 0.05")
@@ -230,26 +213,6 @@ def test_a_robot_that_gets_no_commands_stops_and_says_why(link: FrankaLink, befo
     assert "too many commands came late or not at all" in link.condition.sentence
     link.recover()
     assert link.condition.kind == "ready"
-
-
-def test_a_robot_that_is_silent_or_gone_is_lost_with_its_address() -> None:
-    with robot() as simulated, proxy(simulated) as between:
-        link = description(between.address).make_link()
-        link.connect()
-        link.take_control("torque")
-        assert hold(link, 50) == "in-control"
-        os.kill(simulated.process.pid, signal.SIGSTOP)
-        with pytest.raises(LinkLost, match=f"the robot at {between.address} does not answer any more"):
-            hold(link, 10_000)
-        os.kill(simulated.process.pid, signal.SIGCONT)
-        link.connect()
-        link.take_control("torque")
-        assert hold(link, 50) == "in-control"
-        between.close()
-        with pytest.raises(LinkLost, match=between.address):
-            hold(link, 10_000)
-        link.close()
-        assert link.condition.kind == "wrong-mode"
 
 
 def test_nobody_at_an_address_is_told_with_what_to_do() -> None:

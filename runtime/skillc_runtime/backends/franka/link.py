@@ -161,6 +161,8 @@ class FrankaLink(RobotLink):
 
     def recover(self) -> None:
         """Let the robot recover from what has stopped it; StopPersists, with what somebody has to do."""
+        if self._control is not None:
+            return
         with self._naming_silence():
             if self._ask().kind == "ready":
                 return
