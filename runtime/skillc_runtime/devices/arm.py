@@ -73,7 +73,7 @@ class ModeRefused(Exception):
 
 
 class NotOffered(Exception):
-    """An arm cannot do what is asked for, and stays as it is; the message says why."""
+    """A device cannot do what is asked for, and stays as it is; the message says why."""
 
 
 @dataclass(frozen=True, slots=True)

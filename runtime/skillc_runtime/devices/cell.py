@@ -8,7 +8,7 @@ from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.gripper import Gripper
-from skillc_runtime.devices.sensors import Button, Camera
+from skillc_runtime.devices.sensors import Button, Camera, IoPoint
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.model import WorldModel
@@ -70,4 +70,8 @@ class Cell(Protocol):
 
     def button(self, individual: str) -> Button:
         """Return a button; KeyError if the cell has no such button."""
+        ...
+
+    def io_point(self, individual: str) -> IoPoint:
+        """Return an input or output; KeyError if the cell has no such I/O point."""
         ...

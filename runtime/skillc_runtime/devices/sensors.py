@@ -1,4 +1,4 @@
-"""Interfaces of the sensors of a cell, simulated or real: a camera and buttons."""
+"""Interfaces of a camera, buttons, inputs and outputs of a cell, simulated or real."""
 
 from __future__ import annotations
 
@@ -26,4 +26,17 @@ class Button(Protocol):
     @property
     def switched(self) -> bool:
         """Whether it is pressed so far that it has switched."""
+        ...
+
+
+class IoPoint(Protocol):
+    """An input or output of a controller: 0 or 1 of a digital one, a number in its unit of an analogue one."""
+
+    @property
+    def level(self) -> float:
+        """The level that the controller reports."""
+        ...
+
+    def set(self, level: float) -> None:
+        """Set an output; ValueError if it cannot have that level, NotOffered for an input."""
         ...

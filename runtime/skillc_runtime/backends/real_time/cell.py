@@ -22,7 +22,7 @@ from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.capabilities import BackendCapabilities, LockStep
 from skillc_runtime.devices.cell import Cell, Watchdog
 from skillc_runtime.devices.gripper import Gripper
-from skillc_runtime.devices.sensors import Button, Camera
+from skillc_runtime.devices.sensors import Button, Camera, IoPoint
 from skillc_runtime.world.state.model import WorldModel
 
 CATCH_UP_S = 0.1
@@ -133,6 +133,10 @@ class RealTimeCell:
     def button(self, individual: str) -> Button:
         """Return a button; KeyError if the cell has no such button."""
         return locked(self._simulated.button(individual), self._turn)
+
+    def io_point(self, individual: str) -> IoPoint:
+        """Return an input or output; KeyError if the cell has no such I/O point."""
+        return locked(self._simulated.io_point(individual), self._turn)
 
     def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
         """Whether devices, all if None, neither move nor push."""

@@ -21,7 +21,7 @@ from skillc_runtime.devices.device_stopper import DeviceStopper, StoppableArm
 from skillc_runtime.devices.drawing import Drawing
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.live import LiveSignals
-from skillc_runtime.devices.sensors import Button, Camera
+from skillc_runtime.devices.sensors import Button, Camera, IoPoint
 from skillc_runtime.world.state.model import WorldModel
 
 LOOK_S = 0.02
@@ -52,6 +52,7 @@ class CellDevices:
     bases: Mapping[str, MobileBase] = field(default_factory=dict)
     cameras: Mapping[str, PoseCamera] = field(default_factory=dict)
     buttons: Mapping[str, Button] = field(default_factory=dict)
+    io_points: Mapping[str, IoPoint] = field(default_factory=dict)
     inspection: Camera | None = None
     live: LiveSignals | None = None
     drawing: Drawing | None = None
@@ -78,6 +79,7 @@ class DeviceCell(Backend, Cell):
         self._bases = DeviceMap("mobile base", devices.bases, names)
         self._cameras = DeviceMap("camera", devices.cameras, names)
         self._buttons = DeviceMap("button", devices.buttons, names)
+        self._io_points = DeviceMap("I/O point", devices.io_points, names)
         self._capabilities = BackendCapabilities(live=devices.live, drawing=devices.drawing)
         self._stopper = DeviceStopper(devices.arms, devices.grippers, devices.bases, names)
         self._states = DeviceStates(world, devices.arms)
@@ -171,6 +173,10 @@ class DeviceCell(Backend, Cell):
     def button(self, individual: str) -> Button:
         """Return a button; KeyError if the cell has no such button."""
         return locked(self._buttons[individual], self._turn)
+
+    def io_point(self, individual: str) -> IoPoint:
+        """Return an input or output; KeyError if the cell has no such I/O point."""
+        return locked(self._io_points[individual], self._turn)
 
     def is_at_rest(self, devices: Collection[str] | None = None) -> bool:
         """Whether devices, all if None, neither move nor push."""

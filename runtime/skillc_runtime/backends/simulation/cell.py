@@ -19,6 +19,7 @@ from skillc_runtime.backends.simulation.disturber import SimulatedDisturber
 from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.driver_factory import make_driver
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.io_points import SimulatedPoint, make_points
 from skillc_runtime.backends.simulation.live_signals import make_live_signals
 from skillc_runtime.backends.simulation.model_builder import build_model
 from skillc_runtime.backends.simulation.mujoco_warnings import log_warnings
@@ -102,6 +103,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self._cameras = DeviceMap("camera", self._make_cameras(), names)
         self.watchdog = HeartbeatWatchdog()
         self._buttons = DeviceMap("button", make_buttons(scene.fixtures, variation.fixtures, names, self.data), names)
+        self._io_points = DeviceMap("I/O point", make_points(world.snapshot()), names)
         self.people = make_people(scene, variation, self._drivers, self.data)
         self._touches = TouchRecorder(scene, self.model, self.data, self._held_things)
         self.ground_truth: GroundTruth = SimulatedTruth(
@@ -181,6 +183,10 @@ class ModelledCell(ABC, Generic[A, G]):
     def button(self, individual: str) -> SimulatedButton:
         """Return a button; KeyError if the cell has no such button."""
         return self._buttons[individual]
+
+    def io_point(self, individual: str) -> SimulatedPoint:
+        """Return an input or output; KeyError if the cell has no such I/O point."""
+        return self._io_points[individual]
 
     def advance(self, seconds: float) -> None:
         """Advance controllers and devices, step by step.

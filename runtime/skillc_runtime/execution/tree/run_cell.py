@@ -10,7 +10,7 @@ from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.cell import Cell, Watchdog
 from skillc_runtime.devices.gripper import Gripper
-from skillc_runtime.devices.sensors import Button, Camera
+from skillc_runtime.devices.sensors import Button, Camera, IoPoint
 from skillc_runtime.primitives.primitive import SkillFailure
 
 if TYPE_CHECKING:
@@ -88,3 +88,7 @@ class RunCell:
     def button(self, individual: str) -> Button:
         """Return a button; KeyError if the cell has no such button."""
         return self._cell.button(individual)
+
+    def io_point(self, individual: str) -> IoPoint:
+        """Return an input or output; KeyError if the cell has no such I/O point."""
+        return self._cell.io_point(individual)
