@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TypeAlias
+from dataclasses import replace
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -22,19 +23,21 @@ QUICK = ServoFacts(gain=2000.0, lookahead_s=0.03, acceleration_rad_s2=20.0, stop
 Wanted: TypeAlias = Callable[[int, StateView], Array]
 
 
-def describe(host: str, mode: Mode = "position", silence_s: float = 0.5) -> UrFacts:
-    """Return an arm at an address; time-outs are long, for machines that are busy."""
-    return UrFacts(
-        "Ur5e-1",
-        host,
-        ("position", "velocity", "torque"),
-        QUICK,
-        silence_s,
-        1.0,
-        model_path("robots/ur5e.xml"),
-        0.005,
-        40.0,
+def describe(host: str, **changes: Any) -> UrFacts:
+    """Return an arm at an address, with other facts where they are given; time-outs are long, for busy machines."""
+    facts = UrFacts(
+        arm="Ur5e-1",
+        address=host,
+        modes=("position", "velocity", "torque"),
+        servo=QUICK,
+        silence_s=0.5,
+        command_timeout_s=1.0,
+        model=model_path("robots/ur5e.xml"),
+        tolerance_m=0.005,
+        tolerance_rad=0.02,
+        offset_n=40.0,
     )
+    return replace(facts, **changes)
 
 
 class Loop:
@@ -61,9 +64,9 @@ def send(link: UrLink, command: CommandView, mode: Mode, values: Array) -> None:
 
 
 @contextmanager
-def connected(peer: Peer) -> Iterator[Loop]:
-    """Connect to a controller."""
-    link = UrLink(describe(peer.host))
+def connected(peer: Peer, **changes: Any) -> Iterator[Loop]:
+    """Connect to a controller, with other facts where they are given."""
+    link = UrLink(describe(peer.host, **changes))
     link.connect()
     try:
         loop = Loop(link)

@@ -1,7 +1,8 @@
-"""A network between a client and a controller, in a process of its own: it delays, holds back and cuts what passes.
+"""A network between a client and a controller, in a process of its own: it delays and holds back what passes.
 
 `python -m robots.ur.proxy HOST TO` listens at HOST on the ports of a controller and connects to TO. Lines of JSON on
-its standard input set `delay` and `jitter` in s, for each direction, `hold` (whether anything passes) and `cut`.
+its standard input set `delay` and `jitter` in s, for each direction, `stall` (for how long nothing passes from now on)
+and `hold` (whether anything passes).
 """
 
 from __future__ import annotations
@@ -28,7 +29,6 @@ class Network:
         self._there, self.delay, self.jitter = there, 0.0, 0.0
         self._open = asyncio.Event()
         self._open.set()
-        self._writers: list[asyncio.StreamWriter] = []
         self._random = random.Random(0)
 
     async def serve(self, host: str) -> None:
@@ -41,14 +41,12 @@ class Network:
         self.delay, self.jitter = words.get("delay", self.delay), words.get("jitter", self.jitter)
         if "hold" in words:
             (self._open.clear if words["hold"] else self._open.set)()
-        if words.get("cut"):
-            for writer in self._writers:
-                writer.transport.abort()
-            self._writers.clear()
+        if "stall" in words:
+            self._open.clear()
+            asyncio.get_running_loop().call_later(words["stall"], self._open.set)
 
     async def _join(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, port: int) -> None:
         there_reader, there_writer = await asyncio.open_connection(self._there, port)
-        self._writers += [writer, there_writer]
         await asyncio.gather(self._pass(reader, there_writer), self._pass(there_reader, writer))
 
     async def _pass(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:

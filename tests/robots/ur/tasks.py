@@ -9,7 +9,8 @@ from pathlib import Path
 from robots.ur.emulator.grippers import WSG_PORT
 from robots.ur.peer import Peer
 from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.assignments import assign_call
+from skillc.services.library_files import find_library
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.control_process.handshake import Patience
@@ -49,9 +50,9 @@ class PeerCamera(Camera):
         return float(self._peer.do("rubbed", surface=surface, seconds=seconds))
 
 
-def compiled(name: str) -> SkillLibrary:
-    """Return a shipped library."""
-    outcome = libraries.compile_library(find_library(SHIPPED / name))
+def compiled(path: Path) -> SkillLibrary:
+    """Return a library."""
+    outcome = libraries.compile_library(find_library(path))
     assert outcome.ok, outcome.diagnostics
     return outcome.value
 
@@ -60,7 +61,7 @@ def facts_of(peer: Peer) -> list[Change]:
     """Return what a scene has to say of a peer; time-outs are long, for machines that are busy."""
     return [
         SetProperty(ARM, DRIVER_ADDRESS, peer.host),
-        SetProperty(ARM, UR + "stateTimeout", 5.0),
+        SetProperty(ARM, UR + "stateTimeout", 2.5),
         SetProperty(ARM, UR + "commandTimeout", 1.0),
         SetProperty(HAND, DRIVER_ADDRESS, f"{peer.host}:{WSG_PORT}"),
     ]
@@ -74,11 +75,11 @@ def scene_of(peer: Peer, scene: Path, library: SkillLibrary, changes: Sequence[C
 
 
 @contextmanager
-def opened(peer: Peer, state: WorldState) -> Iterator[DeviceCell]:
+def opened(peer: Peer, state: WorldState, patience: Patience = PATIENCE) -> Iterator[DeviceCell]:
     """Open the cell of a state of the world."""
     compile_imported()
-    cell = open_arms(WorldModel(state), PATIENCE, PeerCamera(peer))
-    cell._heartbeats._timeout = PATIENCE.tree_s
+    cell = open_arms(WorldModel(state), patience, PeerCamera(peer))
+    cell._heartbeats._timeout = patience.tree_s
     try:
         yield cell
     finally:
@@ -89,6 +90,17 @@ def run_goal(
     cell: DeviceCell, state: WorldState, library: SkillLibrary, goal: Condition, listeners: Sequence[Listener] = ()
 ) -> Execution[DeviceCell]:
     """Plan for a goal, and run that to its end."""
-    prepared = prepare_task(Assignment("task", state, AchieveGoal(goal)), library)
+    return _run(cell, library, Assignment("task", state, AchieveGoal(goal)), listeners)
+
+
+def run_call(cell: DeviceCell, state: WorldState, library: SkillLibrary, call: str) -> Execution[DeviceCell]:
+    """Run a call of a skill, in the words of the language, to its end."""
+    return _run(cell, library, assign_call(call, library, state), ())
+
+
+def _run(
+    cell: DeviceCell, library: SkillLibrary, assignment: Assignment, listeners: Sequence[Listener]
+) -> Execution[DeviceCell]:
+    prepared = prepare_task(assignment, library)
     assert isinstance(prepared, PreparedTask), prepared
     return execute_task(prepared, library, cell, listeners)

@@ -7,11 +7,13 @@ from collections.abc import Iterator
 import pytest
 
 from robots.ur.emulator.grippers import ROBOTIQ_PORT, WSG_PORT
-from robots.ur.peer import Peer, running_peer, wait_until
+from robots.ur.peer import Peer, wait_until
 from skillc_runtime.backends.devices.fingers import FingerDevice, FingerFacts, Fingers
 from skillc_runtime.backends.devices.robotiq import RobotiqFingers
 from skillc_runtime.backends.devices.wsg import WsgFingers
-from skillc_runtime.backends.ur.io import InputButton, UrIo
+from skillc_runtime.backends.ur.io import UrIo
+from skillc_runtime.backends.ur.wiring import TERMINALS, Wire, WiredPoint
+from skillc_runtime.devices.arm import NotOffered
 from skillc_runtime.devices.backend import BackendUnavailable
 from skillc_runtime.motion.pose import Pose
 
@@ -21,13 +23,6 @@ FACTS = FingerFacts(max_opening_m=0.11, max_force_n=80.0, opening_error_m=0.001)
 THING = "http://example.org/lab#Eraser-1"
 HERE = Pose.of((0.0, 0.0, 0.0))
 KINDS = ["robotiq", "wsg"]
-
-
-@pytest.fixture(scope="module")
-def peer() -> Iterator[Peer]:
-    """A controller with a gripper, which both kinds of sockets move."""
-    with running_peer() as running:
-        yield running
 
 
 def device_of(kind: str, peer: Peer) -> FingerDevice:
@@ -92,19 +87,16 @@ def test_fingers_stop(hand: tuple[Fingers, list[object]]) -> None:
     assert fingers.opening_m > 0.01
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_gripper_that_falls_silent_is_named_and_comes_back(kind: str) -> None:
-    with running_peer() as peer:
-        fingers = Fingers(device_of(kind, peer), FACTS, lambda *_: None, lambda: None)
-        peer.pause()
-        wait_until(lambda: fingers.find_fault() is not None)
-        assert f"Hand-1 at {peer.host}" in (fingers.find_fault() or "")
-        assert not fingers.moving
-        peer.go_on()
-        fingers.recover()
-        move(fingers, 0.05)
-        assert fingers.find_fault() is None
-        fingers.close()
+def test_a_gripper_that_falls_silent_is_named_and_comes_back(hand: tuple[Fingers, list[object]], peer: Peer) -> None:
+    fingers, _ = hand
+    peer.pause()
+    wait_until(lambda: fingers.find_fault() is not None)
+    assert f"Hand-1 at {peer.host}" in (fingers.find_fault() or "")
+    assert not fingers.moving
+    peer.go_on()
+    fingers.recover()
+    move(fingers, 0.05)
+    assert fingers.find_fault() is None
 
 
 @pytest.mark.parametrize(("kind", "cure"), [("robotiq", "is the URCap of the gripper installed"), ("wsg", "text")])
@@ -116,23 +108,38 @@ def test_a_gripper_that_is_not_there_is_named(kind: str, cure: str) -> None:
 
 def test_inputs_and_outputs_of_the_controller(peer: Peer) -> None:
     io = UrIo("Ur5e-1", peer.host)
-    button = InputButton(io, 3)
-    assert not button.switched
-    peer.do("input", bits=1 << 3)
-    wait_until(lambda: button.switched)
-    for number in (0, 9, 17):
+    points = {terminal: WiredPoint(io, Wire(terminal, 1)) for terminal in TERMINALS}
+    peer.do("input", bits=1 << 1)
+    peer.do("analog", values=[0.0, 2.5])
+    wait_until(lambda: points["digitalInput"].switched and points["analogInput"].level == 2.5)
+    for terminal, level in (("digitalOutput", 1.0), ("analogOutput", 5.0), ("speedSlider", 0.4)):
+        points[terminal].set(level)
+        wait_until(lambda point=points[terminal], level=level: point.level == pytest.approx(level))  # type: ignore[misc]
+    for number in (9, 17):
         io.set_digital_output(number, True)
-    wait_until(lambda: all(io.digital_output(number) for number in (0, 9, 17)))
-    assert peer.tell()["outputs"] == 1 | 1 << 9 | 1 << 17
+    wait_until(lambda: io.digital_output(17))
     io.set_digital_output(9, False)
-    wait_until(lambda: peer.tell()["outputs"] == 1 | 1 << 17)
-    peer.do("analog", values=[2.5, 0.0])
-    wait_until(lambda: io.analog_input(0) == 2.5)
-    io.set_analog_output(1, 0.5)
-    wait_until(lambda: peer.tell()["analog_outputs"][1] == 0.5)
-    io.set_speed_share(0.4)
-    wait_until(lambda: io.speed_share == pytest.approx(0.4))
-    assert io.find_fault() is None
+    wait_until(lambda: peer.tell()["outputs"] == 1 << 1 | 1 << 17)
+    assert (peer.tell()["analog_outputs"], peer.tell()["slider"]) == ([0.0, 0.5], 0.4)
+    points["speedSlider"].set(1.0)
+    for terminal in ("digitalOutput", "analogOutput", "speedSlider"):
+        with pytest.raises(ValueError, match=r"is set to .*, not to 12"):
+            points[terminal].set(12.0)
+    with pytest.raises(NotOffered, match="an input is not set"):
+        points["digitalInput"].set(1.0)
     with pytest.raises(BackendUnavailable, match="somebody else sets speed_slider_mask"):
         UrIo("Ur5e-1", peer.host)
+    io.close()
+
+
+def test_inputs_of_a_controller_that_falls_silent_are_a_fault_until_they_come_back(peer: Peer) -> None:
+    io = UrIo("Ur5e-1", peer.host)
+    peer.pause()
+    wait_until(lambda: io.find_fault() is not None)
+    assert "the inputs and outputs of Ur5e-1 do not answer" in (io.find_fault() or "")
+    peer.go_on()
+    io.recover()
+    peer.do("input", bits=1 << 3)
+    wait_until(lambda: io.digital_input(3))
+    assert io.find_fault() is None
     io.close()

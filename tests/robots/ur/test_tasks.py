@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 
 from robots.ur.peer import Peer, running_peer
-from robots.ur.tasks import HERE, LAB, PATIENT, compiled, opened, run_goal, scene_of
+from robots.ur.tasks import HAND, HERE, LAB, PATIENT, compiled, opened, run_goal, scene_of
+from skillc.services.library_files import SHIPPED
 from skillc_model.conditions import Condition, Holds, Individual
-from skillc_ontology import catalogue
-from skillc_runtime.world.state.changes import Change, SetProperty
-from skillc_runtime.world.state.terms import CONTAIN, SKILLC
+from skillc_runtime.world.state.changes import Change, ClearProperty, SetProperty
+from skillc_runtime.world.state.terms import CONTAIN, DRIVER_ADDRESS, GRIPPER_PROTOCOL, SKILLC
 
 pytest.importorskip("rtde_control", reason="ur-rtde is not installed: pip install 'skillc[ur]'")
 pytestmark = [pytest.mark.robot, pytest.mark.sim]
@@ -28,7 +28,7 @@ the 0.008 of the sheet they met with 76 to 84 N, four times as hard as in simula
 
 
 def goal_of(library: str, task: str) -> Condition:
-    goal = compiled(library).tasks[task].goal
+    goal = compiled(SHIPPED / library).tasks[task].goal
     assert goal is not None
     return goal
 
@@ -41,7 +41,7 @@ def run(
     changes: Sequence[Change] = (),
 ) -> tuple[Any, Any]:
     """Run a goal; return what the peer says at the end, and its answer to one more question."""
-    skills = compiled(library)
+    skills = compiled(SHIPPED / library)
     with running_peer(*PATIENT, "--library", library, scene=scene) as peer:
         state = scene_of(peer, scene, skills, changes)
         with opened(peer, state) as cell:
@@ -65,15 +65,15 @@ def test_the_whiteboard_is_wiped() -> None:
     assert told["payload"] == pytest.approx(1.32), "gripper and eraser"
 
 
-def test_a_button_is_pressed_and_its_input_read() -> None:
-    scene = catalogue.scene_path("ur5e_button")
-    told, _ = run("contact", scene, goal_of("contact", "press_button"))
-    assert told["payload"] == pytest.approx(1.2), "the gripper alone"
-
-
-def test_a_part_is_picked_and_placed() -> None:
+def test_a_part_is_picked_and_placed_by_fingers_behind_the_controller() -> None:
     goal = Holds(Individual(LAB + "Box-A"), CONTAIN, Individual(LAB + "Part-A"))
-    told, _ = run("sorting", HERE / "parts.ttl", goal, changes=[SetProperty(SHEET, SKILLC + "admittance", RIGID)])
+    slower = SetProperty(SHEET, SKILLC + "admittance", RIGID)
+    # The fingers are those of a WSG, behind the socket of a Robotiq gripper at the address of the arm.
+    socket = [
+        SetProperty(SKILLC + "wsg50-sheet", GRIPPER_PROTOCOL, "robotiq-urcap"),
+        ClearProperty(HAND, DRIVER_ADDRESS),
+    ]
+    told, _ = run("sorting", HERE / "parts.ttl", goal, changes=[slower, *socket])
     x, y, z = told["things"]["lab:Part-A"]
     assert (abs(x - 0.45) < 0.1, abs(y - 0.14) < 0.1, 0.6 < z < 0.68) == (True, True, True)
     assert told["carries"] is None

@@ -16,15 +16,13 @@ from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCel
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
 from skillc_runtime.backends.ur.description import UrDescription
 from skillc_runtime.backends.ur.facts import read_address, read_facts
-from skillc_runtime.backends.ur.io import InputButton, UrIo
+from skillc_runtime.backends.ur.io import UrIo
+from skillc_runtime.backends.ur.wiring import WiredPoint, read_wires
 from skillc_runtime.devices.backend import BackendStart, BackendUnavailable, StopPersists
 from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.terms import UR
 from skillc_runtime.world.state.world_state import WorldState
-
-DIGITAL_INPUT = UR + "digitalInput"
 
 
 def make_backend(world: WorldModel, start: BackendStart) -> DeviceCell:
@@ -46,7 +44,7 @@ def open_arms(world: WorldModel, patience: Patience = USUAL_PATIENCE, inspection
 
 
 def _open_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
-    """Connect to grippers, and to the inputs of the first controller where something is wired to them."""
+    """Connect to grippers, and to the inputs and outputs of the controller where something is wired to them."""
     with ExitStack() as opened:
         grippers: dict[str, Fingers] = {}
         for facts in scene.arms:
@@ -56,30 +54,36 @@ def _open_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, Remote
             fingers = open_gripper(state, facts.gripper, address, arm.hold, partial(arm.set_load, None))
             opened.callback(fingers.close)
             grippers[facts.gripper.individual] = fingers
-        wired = {
-            each: value for each in sorted(state.individuals) if (value := state.value(each, DIGITAL_INPUT)) is not None
-        }
-        io = _open_io(state, scene, opened) if wired else None
-        buttons = {} if io is None else {each: InputButton(io, int(str(number))) for each, number in wired.items()}
+        wires = read_wires(state)
+        io = _open_io(state, scene, opened) if wires else None
+        points = {} if io is None else {each: WiredPoint(io, wire) for each, wire in wires.items()}
         closing = opened.pop_all()
 
+    watched: list[Fingers | UrIo] = [*grippers.values(), *([] if io is None else [io])]
+
     def find_fault() -> str | None:
-        faults = [each.find_fault() for each in grippers.values()] + ([] if io is None else [io.find_fault()])
-        return next((fault for fault in faults if fault is not None), None)
+        return next((fault for each in watched if (fault := each.find_fault()) is not None), None)
 
     def recover() -> None:
         try:
-            for each in grippers.values():
+            for each in watched:
                 each.recover()
         except BackendUnavailable as error:
             raise StopPersists(str(error)) from error
 
-    return CellDevices(grippers=grippers, buttons=buttons, find_fault=find_fault, recover=recover, close=closing.close)
+    return CellDevices(
+        grippers=grippers,
+        buttons=points,
+        io_points=points,
+        find_fault=find_fault,
+        recover=recover,
+        close=closing.close,
+    )
 
 
 def _open_io(state: WorldState, scene: SceneSpec, opened: ExitStack) -> UrIo:
     if len(scene.arms) != 1:
-        raise SheetError("what ur:digitalInput is wired to is not stated where a scene has several arms")
+        raise SheetError("to which controller something is wired is not known where a scene has several arms")
     arm = scene.arms[0].individual
     io = UrIo(state.vocabulary.short(arm), read_address(state, arm))
     opened.callback(io.close)

@@ -30,8 +30,8 @@ class UrFacts:
 
     modes: what its sheet says that it takes. silence_s: how long it may be silent. command_timeout_s: how long the
     controller waits for a command before it stops the arm. model: MJCF of the arm; the flange that it gives, and the
-    one that the controller gives, may be `tolerance_m` apart. offset_n: up to which force what a sensor measures first
-    counts as its offset.
+    one that the controller gives, may be `tolerance_m` and `tolerance_rad` apart. offset_n: up to which force what a
+    sensor measures first counts as its offset.
     """
 
     arm: str
@@ -42,6 +42,7 @@ class UrFacts:
     command_timeout_s: float
     model: Path
     tolerance_m: float
+    tolerance_rad: float
     offset_n: float
 
     @property
@@ -70,6 +71,7 @@ def read_facts(state: WorldState, arm: str, sheet: DataSheet, modes: tuple[Mode,
         command_timeout_s=number("commandTimeout", 0.1),
         model=sheet.model,
         tolerance_m=number("flangeTolerance", 0.005),
+        tolerance_rad=number("flangeAngleTolerance", 0.02),
         offset_n=number("offsetForce", 8.0),
     )
 

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from time import monotonic, sleep
+
 from skillc_runtime.backends.ur.exchange import Exchange, ExchangeLost
-from skillc_runtime.devices.backend import BackendBroken
-from skillc_runtime.devices.sensors import Button
+from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable
 
 RATE_HZ = 50.0
 
 READ = (
     "actual_digital_input_bits", "actual_digital_output_bits", "standard_analog_input0", "standard_analog_input1",
-    "target_speed_fraction",
+    "standard_analog_output0", "standard_analog_output1", "target_speed_fraction",
 )  # fmt: skip
 
 SET = (
@@ -26,13 +27,20 @@ BANKS = (("standard", 0), ("configurable", 8), ("tool", 16))
 VOLTAGES = 0b11
 """Both analogue outputs are voltages."""
 
+FREE_S = 1.0
+"""How long a controller may take to notice that a connection has gone, and to let the next one set the same, in s."""
+
+VOLTS = 10.0
+"""The greatest voltage of analogue outputs."""
+
 
 class UrIo:
     """The inputs and outputs of one controller; digital ones are numbered as in `ur:digitalInput`."""
 
     def __init__(self, name: str, address: str) -> None:
         """Connect; BackendUnavailable, with what to do."""
-        self._name, self._exchange = name, Exchange(name, address, RATE_HZ, READ, SET)
+        self._name, self._address = name, address
+        self._exchange = self._connect()
 
     def digital_input(self, number: int) -> bool:
         """Return whether a digital input is on."""
@@ -52,13 +60,17 @@ class UrIo:
         """Return an analogue input, 0 or 1, in V or A, as it is set up at the panel."""
         return self._exchange.fields[f"standard_analog_input{number}"]
 
-    def set_analog_output(self, number: int, share: float) -> None:
-        """Set an analogue output, 0 or 1, to a share of its greatest voltage; BackendBroken."""
+    def analog_output(self, number: int) -> float:
+        """Return an analogue output, 0 or 1, in V."""
+        return self._exchange.fields[f"standard_analog_output{number}"]
+
+    def set_analog_output(self, number: int, volts: float) -> None:
+        """Set an analogue output, 0 or 1, from 0 to `VOLTS`; BackendBroken."""
         self._set(
             {
                 "standard_analog_output_mask": 1 << number,
                 "standard_analog_output_type": VOLTAGES,
-                f"standard_analog_output_{number}": share,
+                f"standard_analog_output_{number}": volts / VOLTS,
             }
         )
 
@@ -75,24 +87,30 @@ class UrIo:
         """Return that the controller does not answer; None if it does."""
         return self._exchange.fault
 
+    def recover(self) -> None:
+        """Connect again if the controller has not answered; BackendUnavailable."""
+        if self._exchange.fault is None:
+            return
+        self._exchange.close()
+        until = monotonic() + FREE_S
+        while True:
+            try:
+                self._exchange = self._connect()
+                return
+            except BackendUnavailable:
+                if monotonic() > until:
+                    raise
+            sleep(FREE_S / 10)
+
     def close(self) -> None:
         """Disconnect."""
         self._exchange.close()
+
+    def _connect(self) -> Exchange:
+        return Exchange(self._name, self._address, RATE_HZ, READ, SET)
 
     def _set(self, values: dict[str, float]) -> None:
         try:
             self._exchange.set(values)
         except ExchangeLost as lost:
             raise BackendBroken(str(lost)) from lost
-
-
-class InputButton(Button):
-    """A button on a digital input of a controller."""
-
-    def __init__(self, io: UrIo, number: int) -> None:
-        self._io, self._number = io, number
-
-    @property
-    def switched(self) -> bool:
-        """Whether it is pressed so far that it has switched."""
-        return self._io.digital_input(self._number)

@@ -179,7 +179,11 @@ class UrLink(RobotLink):
         return self._states
 
     def _update_condition(self) -> None:
-        found = self._connected.read_condition(controls=self._program is not None)
+        states = self._connected
+        found = states.read_condition(controls=self._program is not None)
+        if found.kind == "in-control" and self._program is not None and self._mode is not None:
+            contradiction = self._program.find_contradiction()
+            found = found if contradiction is None else Condition("wrong-mode", contradiction)
         if found != self._condition:
             self._condition = found
 

@@ -26,6 +26,7 @@ class UrProgram:
     def __init__(self, facts: UrFacts, period_s: float, states: UrStates) -> None:
         """Connect; ControlRefused, with what to do."""
         self._facts, self._name, self._period_s, self._states = facts, facts.name, period_s, states
+        self._contradiction: str | None = None
         interface = load_library("rtde_control").RTDEControlInterface
         try:
             self.connection: Any = interface(facts.address, 1.0 / period_s, interface.FLAG_NO_WAIT)
@@ -44,12 +45,14 @@ class UrProgram:
         # Moments are then about the flange, whichever of both points a version means.
         control.setTcp([0.0] * 6)
         self.set_load(load)
-        if not self._states.await_that(self._is_where_the_model_says, SETTLE_S):
-            error_mm = 1e3 * self._states.flange_error_m
-            raise ControlRefused(
-                f"the flange of {self._name} is {error_mm:.0f} mm away from where its model says, by its own "
-                "kinematics: is it the arm that the scene says? (ur:flangeTolerance is what may remain)"
-            )
+        if not self._states.await_that(lambda: self._states.explain_flange() is None, SETTLE_S):
+            raise ControlRefused(self._states.explain_flange() or f"{self._name} moves")
+
+    def find_contradiction(self) -> str | None:
+        """Return how the arm has moved otherwise than its model, as of the last state; None if it has not so far."""
+        if self._contradiction is None and not self._states.is_like_the_model:
+            self._contradiction = self._states.explain_flange()
+        return self._contradiction
 
     def send(self, mode: LinkMode, values: list[float]) -> bool:
         """Send a command; tell whether it was taken. LinkLost if the connection has gone."""
@@ -106,6 +109,3 @@ class UrProgram:
         elif mode == "velocity":
             control.speedStop(brake)
         control.stopScript()
-
-    def _is_where_the_model_says(self) -> bool:
-        return self._states.flange_error_m <= self._facts.tolerance_m

@@ -25,6 +25,9 @@ VARIABLES = [
 WAIT_SHARE, LOOK_S, SLOW_LOOK_S = 0.6, 1e-4, 2e-3
 """After a share of a period it is looked whether a new state is there, each so many s; slowly where there is time."""
 
+REACH_M = 2.0
+"""No flange is farther from an axis of its arm."""
+
 
 class UrStates:
     """The connection that only reads."""
@@ -33,7 +36,8 @@ class UrStates:
         """Connect; BackendUnavailable, with what to do."""
         self._facts, self._name, self._period_s = facts, facts.name, period_s
         self._flange = FlangeModel(facts.model)
-        self._stamp, self._next_s = -1.0, 0.0
+        self._stamp = -1.0
+        self._next_s = self._away_m = self._turn = 0.0
         try:
             self.connection: Any = load_library("rtde_receive").RTDEReceiveInterface(
                 facts.address, 1.0 / period_s, VARIABLES
@@ -64,10 +68,25 @@ class UrStates:
         return float(np.linalg.norm(self.connection.getActualTCPForce()[:3]))
 
     @property
-    def flange_error_m(self) -> float:
-        """How far the controller's tool centre point is from the flange of the model, in m."""
-        told, q = self.connection.getActualTCPPose()[:3], self.connection.getActualQ()
-        return float(np.linalg.norm(np.array(told) - self._flange.at(np.array(q))))
+    def is_like_the_model(self) -> bool:
+        """Whether the flange was where the model says when it was read last; meaningful while it is the tool centre.
+
+        Posture and pose may be of two states, one after the other.
+        """
+        facts, turn = self._facts, float(np.abs(self.connection.getActualQd()).sum()) * self._period_s
+        return self._away_m <= facts.tolerance_m + REACH_M * turn and self._turn <= facts.tolerance_rad + turn
+
+    def explain_flange(self) -> str | None:
+        """Return how the controller's tool centre point differs from the flange of the model; None if it does not."""
+        self._flange.move(np.array(self.connection.getActualQ()))
+        self._compare_flange()
+        if self.is_like_the_model:
+            return None
+        away = f"{1e3 * self._away_m:.0f} mm and {np.degrees(self._turn):.0f} deg"
+        return (
+            f"the flange of {self._name} is {away} away from where its model says, by its own kinematics: is it the "
+            "arm that the scene says? (ur:flangeTolerance and ur:flangeAngleTolerance are what may remain)"
+        )
 
     def is_alive(self) -> bool:
         """Tell whether the controller still sends states."""
@@ -102,6 +121,7 @@ class UrStates:
         state.q[:], state.dq[:], state.target[:] = receive.getActualQ(), receive.getActualQd(), receive.getTargetQ()
         state.effort[:] = 0.0
         self.read_wrench(state.wrench)
+        self._compare_flange()
 
     def read_wrench(self, out: OutVector) -> None:
         """Write the present wrench (6,) on the flange, N and N m, along its axes."""
@@ -115,3 +135,6 @@ class UrStates:
             self._name, receive.getSafetyStatusBits(), receive.getRobotMode(), receive.getRuntimeState(),
             controls=controls,
         )  # fmt: skip
+
+    def _compare_flange(self) -> None:
+        self._away_m, self._turn = self._flange.find_error(self.connection.getActualTCPPose())

@@ -78,7 +78,6 @@ def main() -> None:
     parser.add_argument("--host", default="127.0.36.1")
     parser.add_argument("--local", action="store_true", help="not in remote control")
     parser.add_argument("--version", default="5.23.0.100")
-    parser.add_argument("--lengths", type=float, default=1.0, help="lengths of the links beside those of a UR5e")
     parser.add_argument("--unlock", type=float, default=5.0, help="s before a protective stop can be released")
     parser.add_argument("--library", help="the shipped library whose terms the scene uses")
     parser.add_argument("--patience", type=float, default=0.0, help="s for which a cycle waits for a command")
@@ -86,9 +85,7 @@ def main() -> None:
     parser.add_argument("--button", type=int, default=-1, help="the digital input that the buttons of the scene switch")
     words = parser.parse_args()
     version = tuple(map(int, words.version.split(".")))
-    settings = Settings(
-        version=version, lengths=words.lengths, unlock_s=words.unlock, remote=not words.local, button=words.button
-    )
+    settings = Settings(version=version, unlock_s=words.unlock, remote=not words.local, button=words.button)
     controller = Controller(Plant(load_scene(words.scene, read_vocabulary(words.library))), settings)
     if words.child:
         Thread(target=end_with_parent, daemon=True).start()

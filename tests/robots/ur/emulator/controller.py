@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from contextlib import suppress
 from dataclasses import dataclass, field
+from math import inf
 
 import numpy as np
 
@@ -19,6 +20,9 @@ from skillc_runtime.motion.pose import Array
 UNLOCK_S = 5.0
 """After this time a protective stop can be released (dashboard guide)."""
 
+START_S = 0.05
+"""How long it takes from the upload of a program to its first command; nobody has published that."""
+
 STOPPING = 20.0
 """rad/s^2: how a stop brakes each joint."""
 
@@ -29,11 +33,10 @@ class Refused(Exception):
 
 @dataclass
 class Settings:
-    """What differs between controllers: version, the sensor's offset (6,) at the flange, lengths beside a UR5e's."""
+    """What differs between controllers: version, and the sensor's offset (6,) at the flange."""
 
     version: tuple[int, int, int, int] = (5, 23, 0, 100)
     bias: tuple[float, ...] = (2.0, -1.5, 3.0, 0.1, -0.05, 0.08)
-    lengths: float = 1.0
     unlock_s: float = UNLOCK_S
     remote: bool = True
     model: str = "UR5"
@@ -68,6 +71,7 @@ class Controller:
         self.slider, self.payload, self.centre, self.tcp = 1.0, 0.0, np.zeros(3), np.zeros(6)
         self.zero, self.cycles, self.why, self.stopped_at = np.zeros(6), 0, "", -1e9
         self.loaded: list[str] = []
+        self._starting_at = inf
         self.wrench, self._heard = np.zeros(6), asyncio.Event()
 
     @property
@@ -79,6 +83,10 @@ class Controller:
         """Let a cycle pass: the program, the motion, and the safety system."""
         self._heard.clear()
         self.cycles += 1
+        if self.now >= self._starting_at:
+            self._starting_at = inf
+            self.program.start(self.loaded[-1])
+            self.runtime = Runtime.PLAYING
         if self.runtime == Runtime.PLAYING:
             self.program.cycle()
         self.motion.advance(self.plant, self.wrench, self.slider)
@@ -117,12 +125,13 @@ class Controller:
                 self.io.analog_outputs[which] = float(fields[f"standard_analog_output_{which}"])
 
     def load(self, text: str) -> None:
-        """Start a program; one that comes in local mode, or without power, is ignored."""
+        """Start a program, which ends the one that runs; one that comes in local mode, or without power, is ignored."""
         if not self.remote or self.robot_mode != RobotMode.RUNNING or self.safety_mode != SafetyMode.NORMAL:
             return
         self.loaded.append(text)
-        self.program.start(text)
-        self.runtime = Runtime.PLAYING
+        if self.runtime == Runtime.PLAYING:
+            self.stop_program()
+        self._starting_at = self.now + START_S
 
     def stop_program(self) -> None:
         """End the program; the arm comes to rest."""
@@ -171,12 +180,20 @@ class Controller:
     def power_off(self) -> None:
         """Switch the arm off."""
         self._demand_remote()
-        self.robot_mode, self.runtime = RobotMode.POWER_OFF, Runtime.STOPPED
+        self.lose(RobotMode.POWER_OFF)
+
+    def lose(self, mode: RobotMode) -> None:
+        """Lose power, or engage the brakes."""
+        self.robot_mode, self.runtime = mode, Runtime.STOPPED
         self._brake()
 
     def release_brakes(self) -> None:
         """Switch the arm on and release its brakes."""
         self.power_on()
+        self.become_ready()
+
+    def become_ready(self) -> None:
+        """Have power and no brakes, as after somebody has pressed the buttons at the panel."""
         self.robot_mode = RobotMode.RUNNING
 
     def restart_safety(self) -> None:
@@ -216,7 +233,7 @@ class Controller:
             "actual_digital_input_bits": self.io.inputs,
             "actual_digital_output_bits": self.io.outputs,
             **{f"standard_analog_input{i}": value for i, value in enumerate(self.io.analog_inputs)},
-            **{f"standard_analog_output{i}": value for i, value in enumerate(self.io.analog_outputs)},
+            **{f"standard_analog_output{i}": 10.0 * value for i, value in enumerate(self.io.analog_outputs)},
             "payload": self.payload,
             "payload_cog": self.centre.tolist(),
             "tcp_offset": self.tcp.tolist(),
@@ -224,7 +241,7 @@ class Controller:
 
     def flange(self) -> Array:
         """Return where the controller says that its flange is, (4, 4) in its base."""
-        return flange_pose(self.plant.q, self.settings.lengths)
+        return flange_pose(self.plant.q)
 
     def _brake(self) -> None:
         self.motion.job = Hold() if not self.motion.dq.any() else Stop(STOPPING)

@@ -12,16 +12,16 @@ ALPHA = (pi / 2, 0.0, 0.0, pi / 2, -pi / 2, 0.0)
 """Published by Universal Robots for the UR5e; a real arm has calibrated ones beside them."""
 
 
-def flange_pose(q: np.ndarray, scale: float = 1.0) -> np.ndarray:
-    """Return the flange (4, 4) in the controller's base for q (6,) in rad; `scale` is that of another arm's lengths."""
+def flange_pose(q: np.ndarray) -> np.ndarray:
+    """Return the flange (4, 4) in the controller's base for q (6,) in rad."""
     pose = np.eye(4)
     for angle, d, a, alpha in zip(q, D, A, ALPHA, strict=True):
         c, s, ca, sa = cos(angle), sin(angle), cos(alpha), sin(alpha)
         pose = pose @ np.array(
             [
-                [c, -s * ca, s * sa, scale * a * c],
-                [s, c * ca, -c * sa, scale * a * s],
-                [0.0, sa, ca, scale * d],
+                [c, -s * ca, s * sa, a * c],
+                [s, c * ca, -c * sa, a * s],
+                [0.0, sa, ca, d],
                 [0.0, 0.0, 0.0, 1.0],
             ]
         )

@@ -11,6 +11,7 @@ import numpy as np
 
 from robots.ur.emulator.controller import Controller
 from robots.ur.emulator.judgement import judge_rubbing
+from robots.ur.emulator.states import RobotMode
 
 PORT = 30999
 
@@ -35,6 +36,8 @@ class Panel:
     def _do(self, what: str, **words: Any) -> Any:
         controller, plant = self._controller, self._controller.plant
         asked: dict[str, Callable[[], Any]] = {
+            "wall": lambda: plant.put_wall(words["gap_m"]).tolist(),
+            "wall force": lambda: 0.0 if plant.wall is None else plant.wall.force_n,
             "judge": lambda: judge_rubbing(plant, words["command_n"]),
             "inspect": lambda: plant.camera().inspect(words["surface"]),
             "rubbed": lambda: plant.camera().rubbed_share(words["surface"], words["seconds"]),
@@ -43,12 +46,17 @@ class Panel:
             "protect": lambda: controller.protect("a person stands in the way"),
             "press": controller.emergency_stop,
             "release": controller.release_emergency_stop,
-            "power": controller.release_brakes,
+            "power": controller.become_ready,
+            "lose": lambda: controller.lose(RobotMode[words["mode"]]),
+            "program": lambda: controller.load("def polish():\nend"),
+            "stop": controller.stop_program,
+            "version": lambda: setattr(controller, "version_text", words["text"]),
             "remote": lambda: setattr(controller, "remote", words["on"]),
             "slider": lambda: setattr(controller, "slider", words["share"]),
             "input": lambda: setattr(controller.io, "inputs", words["bits"]),
             "analog": lambda: setattr(controller.io, "analog_inputs", words["values"]),
             "block": lambda: plant.put_between_fingers(words["thing"]),
+            "remove wall": plant.remove_wall,
             "push": lambda: plant.push_hand(plant.arm_iri, np.array(words["force_n"])),
             "tell": lambda: None,
         }

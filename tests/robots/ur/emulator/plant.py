@@ -5,6 +5,7 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
+from backends.backend import Wall
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.button import SimulatedButton
 from skillc_runtime.backends.simulation.names import part_name
@@ -41,6 +42,7 @@ class Plant(SimulatedCell):
         self.hand = next(iter(self._hands.values()), None)
         self._flange_site = self.model.site(part_name(self.scene.names[self.arm_iri], "flange")).id
         self._offered = ""
+        self.wall: Wall | None = None
         self.rubs: list[Array] = []
         self._torque: Array | None = None
         servos = self.body._motors
@@ -109,9 +111,23 @@ class Plant(SimulatedCell):
                 hand.lose()
         self._offered = thing
 
+    def put_wall(self, gap_m: float) -> Array:
+        """Put a soft wall before the tool, along its z, as conformance tests do; return the unit vector out of it."""
+        assert self.hand is not None
+        self.wall = Wall(self, self.body, part_name(self.hand._name, "palm"), gap_m)
+        return self.wall.normal
+
+    def remove_wall(self) -> None:
+        """Take it away."""
+        if self.wall is not None:
+            self.wall = None
+            self.push_hand(self.arm_iri, np.zeros(3))
+
     def pass_cycle(self) -> None:
         """Move everything for one cycle of the controller."""
         self.body.state()
+        if self.wall is not None:
+            self.wall.step(self.now)
         self._grip_what_is_touched()
         self._offer()
         self._move_devices(self.now)

@@ -27,7 +27,7 @@ class Program:
 
     def __init__(self, controller: Controller) -> None:
         self._controller = controller
-        self._busy, self._watchdog_hz, self._heard_at, self.name = False, 0.0, -1.0, ""
+        self._busy, self._watchdog_hz, self._heard_at, self._is_of_client = False, 0.0, -1.0, False
         self._at_once: dict[int, Callable[[], None]] = {
             FORCE_MODE: self._force_mode, SPEED_J: self._speed, SERVO_J: self._servo, DIRECT_TORQUE: self._torque,
             KICK: lambda: None, TELL_FLANGE: self._tell_flange,
@@ -41,12 +41,16 @@ class Program:
 
     def start(self, text: str) -> None:
         """Begin from the first line."""
-        self.name, self._busy, self._watchdog_hz = text.split("(")[0].removeprefix("def "), False, 0.0
+        self._is_of_client, self._busy, self._watchdog_hz = "rtde_cmd" in text, False, 0.0
+        if not self._is_of_client:
+            return
         self._controller.inputs["input_int_register_0"] = 0
         self._say(READY)
 
     def cycle(self) -> None:
-        """Obey the command register once."""
+        """Obey the command register once; the program of somebody else does not."""
+        if not self._is_of_client:
+            return
         controller, command = self._controller, int(self._controller.inputs.get("input_int_register_0", 0))
         heard = controller.heard_at.get("input_int_register_0", controller.now)
         if self._watchdog_hz > 0.0 and controller.now - heard > 1.0 / self._watchdog_hz:
