@@ -69,9 +69,13 @@ def facts_of(peer: Peer) -> list[Change]:
 
 def scene_of(peer: Peer, scene: Path, library: SkillLibrary, changes: Sequence[Change] = ()) -> WorldState:
     """Return a scene with the facts of a peer."""
-    state = load_scene(scene, library.vocabulary)
+    return with_peer(peer, load_scene(scene, library.vocabulary).with_changes(changes))
+
+
+def with_peer(peer: Peer, state: WorldState) -> WorldState:
+    """Return a state of the world with the facts of a peer."""
     wired = [SetProperty(BUTTON, UR + "digitalInput", BUTTON_INPUT)] if BUTTON in state.individuals else []
-    return state.with_changes([*facts_of(peer), *wired, *changes])
+    return state.with_changes([*facts_of(peer), *wired])
 
 
 @contextmanager

@@ -11,6 +11,7 @@ from pathlib import Path
 from threading import Thread
 from time import monotonic
 
+from robots.truth import serve_truth
 from robots.ur.emulator.controller import Controller, Settings
 from robots.ur.emulator.grippers import RobotiqPort, WsgPort
 from robots.ur.emulator.panel import Panel
@@ -80,6 +81,7 @@ def main() -> None:
     parser.add_argument("--version", default="5.23.0.100")
     parser.add_argument("--unlock", type=float, default=5.0, help="s before a protective stop can be released")
     parser.add_argument("--library", help="the shipped library whose terms the scene uses")
+    parser.add_argument("--truth", type=Path, help="a socket, at which it is told what is true behind the controller")
     parser.add_argument("--patience", type=float, default=0.0, help="s for which a cycle waits for a command")
     parser.add_argument("--child", action="store_true", help="end when standard input ends")
     parser.add_argument("--button", type=int, default=-1, help="the digital input that the buttons of the scene switch")
@@ -87,6 +89,8 @@ def main() -> None:
     version = tuple(map(int, words.version.split(".")))
     settings = Settings(version=version, unlock_s=words.unlock, remote=not words.local, button=words.button)
     controller = Controller(Plant(load_scene(words.scene, read_vocabulary(words.library))), settings)
+    if words.truth is not None:
+        serve_truth(words.truth, controller.plant.capabilities.truth, lambda: controller.plant.now)
     if words.child:
         Thread(target=end_with_parent, daemon=True).start()
     gc.collect()

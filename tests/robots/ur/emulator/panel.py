@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from robots.ur.emulator.controller import Controller
-from robots.ur.emulator.judgement import judge_rubbing
 from robots.ur.emulator.states import RobotMode
 
 PORT = 30999
@@ -38,7 +37,6 @@ class Panel:
         asked: dict[str, Callable[[], Any]] = {
             "wall": lambda: plant.put_wall(words["gap_m"]).tolist(),
             "wall force": lambda: 0.0 if plant.wall is None else plant.wall.force_n,
-            "judge": lambda: judge_rubbing(plant, words["command_n"]),
             "inspect": lambda: plant.camera().inspect(words["surface"]),
             "rubbed": lambda: plant.camera().rubbed_share(words["surface"], words["seconds"]),
         }

@@ -18,9 +18,6 @@ STEP_S = 0.002
 """The cycle of an e-Series controller, and of the physics behind it."""
 
 
-TOUCHES_N = 0.5
-"""With this normal force a tool rubs a surface."""
-
 HANDLE_M = 0.03
 """The way in m from the middle of a tool's block to its handle, which fingers grasp."""
 
@@ -43,7 +40,6 @@ class Plant(SimulatedCell):
         self._flange_site = self.model.site(part_name(self.scene.names[self.arm_iri], "flange")).id
         self._offered = ""
         self.wall: Wall | None = None
-        self.rubs: list[Array] = []
         self._torque: Array | None = None
         servos = self.body._motors
         self._gains = servos.gains
@@ -138,13 +134,6 @@ class Plant(SimulatedCell):
             self._goals[:] = self.q + lead * self.dq
             self._extra[:] = self.body._bias + self.body._carrying + self._torque
         super()._move(now)
-
-    def _observe(self, now: float) -> None:
-        super()._observe(now)
-        for observer in self._observers.values():
-            for surface, force in observer._pressing:
-                if (pressed := abs(float(surface.normal @ force))) > TOUCHES_N:
-                    self.rubs.append(np.array([now, pressed, *observer._truth[1:]]))
 
     def _offer(self) -> None:
         """Keep what a person holds where the fingers close, upright along them, until they have it."""
