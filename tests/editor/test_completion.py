@@ -30,7 +30,7 @@ EXACT = [
     (
         "impl slowly",
         "    refine arm: |",
-        "CompliantArm Iiwa14 PositionControlledArm TorqueControlledArm VelocityControlledArm Ur5e Panda",
+        "CompliantArm Iiwa14 PositionControlledArm TorqueControlledArm VelocityControlledArm Ur5e Panda Fr3",
     ),
     ("impl slowly", "    refine push: |", "Force"),
     ("impl slowly", "    refine |", "arm: at: panel: push:"),
