@@ -37,7 +37,7 @@ from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCel
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable, StopPersists
 from skillc_runtime.devices.gripper import CLOSED_FURTHER_M
-from skillc_runtime.motion.numerics.compiled import compile_imported
+from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.model import WorldModel
@@ -215,11 +215,8 @@ class Toy:
 
     def open(self, state: WorldState | None = None, patience: Patience = PATIENCE) -> DeviceCell:
         """Open its cell with a state of the world; by default with that of its scene."""
-        compile_imported()
         world = self.world() if state is None else WorldModel(state)
-        cell = open_cell(world, self.describe, self._make_devices, patience)
-        cell._heartbeats._timeout = patience.tree_s
-        return cell
+        return open_cell(world, self.describe, self._make_devices, patience)
 
     def world(self) -> WorldModel:
         moved = [AddRelation(LAB + "Heron-1", AT, LAB + "Store")] if self.scene == "ur5e_whiteboard" else []
@@ -294,7 +291,7 @@ class ToyButton:
         return bool(self._toy.ask("switched", self._individual))
 
 
-class ToyCamera:
+class ToyCamera(Camera):
     """The camera of a toy robot."""
 
     def __init__(self, toy: Toy) -> None:

@@ -4,9 +4,16 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from skillc_runtime.world.state.facts import Evidence
+
 
 class Camera(Protocol):
     """A camera that inspects surfaces."""
+
+    @property
+    def evidence(self) -> Evidence:
+        """How what it returns is known: sensed, or idealised by a camera that sees no picture."""
+        return "sensed"
 
     def inspect(self, surface: str) -> float:
         """Return the share of a surface, by IRI, that is clean; KeyError if there is no such surface."""

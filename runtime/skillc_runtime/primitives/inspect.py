@@ -11,7 +11,7 @@ from skillc_runtime.world.state.terms import CLEAN_THRESHOLD, COVERAGE, IS_CLEAN
 class Inspect(Primitive):
     """Measures the share of a surface that is wiped; it is clean if that reaches the surface's threshold.
 
-    That is idealised: the camera reads the map of the simulator, with errors that are drawn, and sees no picture.
+    The camera says how that is known: one of a simulation idealises it.
     """
 
     moves = NOTHING
@@ -28,12 +28,13 @@ class Inspect(Primitive):
 
     def tick(self) -> Status:
         """Measure, write coverage and cleanness, and return SUCCESS."""
-        seen, threshold = self.cell.camera().inspect(self._surface), self._threshold()
+        camera, threshold = self.cell.camera(), self._threshold()
+        seen = camera.inspect(self._surface)
         clean = isinstance(threshold, float) and seen >= threshold
         self.cell.world.commit(
             [SetProperty(self._surface, COVERAGE, seen), SetProperty(self._surface, IS_CLEAN, clean)],
             "Inspect",
-            "idealised",
+            camera.evidence,
         )
         return Status.SUCCESS
 

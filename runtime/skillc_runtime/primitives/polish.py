@@ -12,7 +12,7 @@ from skillc_runtime.world.state.terms import IS_POLISHED, POLISH_THRESHOLD, POLI
 class InspectPolish(Primitive):
     """Measures the share of a surface that was rubbed long enough; it is polished if that reaches its threshold.
 
-    That is idealised: the camera reads the map of the simulator, with errors that are drawn, and sees no picture.
+    The camera says how that is known: one of a simulation idealises it.
     """
 
     moves = NOTHING
@@ -31,7 +31,8 @@ class InspectPolish(Primitive):
 
     def tick(self) -> Status:
         """Measure, write the results, and return SUCCESS."""
-        seen = self.cell.camera().rubbed_share(self._surface, self._time)
+        camera = self.cell.camera()
+        seen = camera.rubbed_share(self._surface, self._time)
         polished = SetProperty(self._surface, IS_POLISHED, seen >= self._threshold)
-        self.cell.world.commit([SetProperty(self._surface, POLISHED_SHARE, seen), polished], "Inspect", "idealised")
+        self.cell.world.commit([SetProperty(self._surface, POLISHED_SHARE, seen), polished], "Inspect", camera.evidence)
         return Status.SUCCESS

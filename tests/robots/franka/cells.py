@@ -20,6 +20,7 @@ from skillc_runtime.backends.franka.cell import make_devices
 from skillc_runtime.backends.franka.facts import describe
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
 from skillc_runtime.recording.events import Listener
@@ -51,7 +52,7 @@ def own_scene(library_name: str, task_name: str, address: str, folder: Path) -> 
     return WorldModel(load_scene(folder / "cell.ttl", library(library_name).vocabulary))
 
 
-class PeersCamera:
+class PeersCamera(Camera):
     """A camera that sees what the peer's things have wiped."""
 
     def __init__(self, peer: Peer) -> None:
@@ -90,7 +91,6 @@ def real_cell(world: WorldModel, peer: Peer | None = None) -> Iterator[DeviceCel
         return replace(own, inspection=PeersCamera(peer), buttons=buttons)
 
     cell = open_cell(world, describe, devices, PATIENCE)
-    cell._heartbeats._timeout = PATIENCE.tree_s
     try:
         yield cell
     finally:

@@ -16,7 +16,7 @@ from simulation.cells import LAB, vocabulary
 from skillc_runtime.backends.control_process.handshake import Patience
 from skillc_runtime.backends.control_process.opening import open_cell
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
-from skillc_runtime.backends.ros2.cell import describe, import_primitives, make_devices
+from skillc_runtime.backends.ros2.cell import describe, make_devices
 from skillc_runtime.backends.ros2.session import Session
 from skillc_runtime.devices.backend import BackendBroken, StopPersists
 from skillc_runtime.motion.path import path_through
@@ -35,7 +35,6 @@ LIMITS = MotionLimits(speed=0.15, acceleration=0.4)
 
 @contextmanager
 def opened(scene: Path = SCENE) -> Iterator[DeviceCell]:
-    import_primitives()
     world = WorldModel(load_scene(scene, vocabulary()))
     state = world.snapshot()
     cell = open_cell(world, describe, lambda spec, arms: make_devices(state, spec, arms), PATIENT)

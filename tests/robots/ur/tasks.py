@@ -19,7 +19,6 @@ from skillc_runtime.backends.ur.cell import open_arms
 from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
-from skillc_runtime.motion.numerics.compiled import compile_imported
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import Change, SetProperty
@@ -81,7 +80,6 @@ def with_peer(peer: Peer, state: WorldState) -> WorldState:
 @contextmanager
 def opened(peer: Peer, state: WorldState, patience: Patience = PATIENCE) -> Iterator[DeviceCell]:
     """Open the cell of a state of the world."""
-    compile_imported()
     cell = open_arms(WorldModel(state), patience, PeerCamera(peer))
     cell._heartbeats._timeout = patience.tree_s
     try:

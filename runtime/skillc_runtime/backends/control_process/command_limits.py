@@ -13,15 +13,6 @@ from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array
 
-SOFT_START_S = 0.5
-"""Time after taking control in which the limits of speed and torque grow from a tenth to all of them."""
-
-FARTHEST_RAD = 0.05
-"""A limited command may be this far from what a law wants, in rad or in m; then the arm is stopped."""
-
-SPEED_MARGIN = 1.1
-"""An arm that moves faster than this share of the limit of a joint's speed is stopped."""
-
 FASTEST_SHARE, BRAKING = 0.99, 0.6
 """Shares of the limits of speed, and of acceleration and jerk when they brake, that are used."""
 
@@ -40,11 +31,28 @@ class RateLimits:
     torque_rate: Array
 
 
+@dataclass(frozen=True, slots=True)
+class Margins:
+    """How far commands and measurements may be from limits.
+
+    soft_start_s: time after taking control in which the limits of speed and torque grow from a tenth to all of them.
+    lead: a limited command may be this far from what a law wants, in rad or in m; then the arm is stopped. overspeed:
+    an arm is stopped that moves faster than this share of the limit of a joint's speed.
+    """
+
+    soft_start_s: float = 0.5
+    lead: float = 0.05
+    overspeed: float = 1.1
+
+
+USUAL_MARGINS = Margins()
+
+
 class CommandLimits:
     """Limits the commands of one arm, one after another, a period in s apart."""
 
-    def __init__(self, limits: ArmLimits, rates: RateLimits, period_s: float) -> None:
-        self._limits, self._period, self._since = limits, period_s, 0.0
+    def __init__(self, limits: ArmLimits, rates: RateLimits, period_s: float, margins: Margins = USUAL_MARGINS) -> None:
+        self._limits, self._margins, self._period, self._since = limits, margins, period_s, 0.0
         still = np.zeros_like(limits.velocity)
         most = (limits.acceleration, rates.jerk, limits.effort, rates.torque_rate)
         finite = (np.minimum(each, UNLIMITED) for each in most)
@@ -63,7 +71,7 @@ class CommandLimits:
     def check_measured(self, q: Array, dq: Array) -> str | None:
         """Return which joint is beyond its range or its speed, (nv,) in rad and rad/s; None if none is."""
         limits = self._limits
-        fast = np.abs(dq) - SPEED_MARGIN * limits.velocity
+        fast = np.abs(dq) - self._margins.overspeed * limits.velocity
         if fast.max() > 0.0:
             joint = int(fast.argmax())
             return f"joint {joint + 1} moves with {abs(dq[joint]):.2f} rad/s, beyond its {limits.velocity[joint]:.2f}"
@@ -79,12 +87,12 @@ class CommandLimits:
         ControlError if it is far beyond limits; the values are then those of the best command within them.
         """
         self._since += self._period
-        share = min(1.0, 0.1 + self._since / SOFT_START_S)
+        share = min(1.0, 0.1 + self._since / self._margins.soft_start_s)
         if mode == "torque":
             limit_torques(self.rows, values, bias, share, self._period)
             return
         far = limit_motion(self.rows, values, mode == "velocity", share, self._period)
-        if far > FARTHEST_RAD:
+        if far > self._margins.lead:
             raise ControlError(f"what is commanded is {far:.2f} rad or m ahead of what the limits of the joints allow")
 
 

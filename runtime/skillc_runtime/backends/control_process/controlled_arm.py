@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import replace
-from math import inf
 
 import numpy as np
 
-from skillc_runtime.backends.control_process.command_limits import CommandLimits, RateLimits
+from skillc_runtime.backends.control_process.command_limits import CommandLimits
 from skillc_runtime.backends.control_process.command_slot import NOTHING
+from skillc_runtime.backends.control_process.facts import read_margins, read_rate_limits
 from skillc_runtime.backends.control_process.link import (
     CommandView,
     ControlRefused,
@@ -45,7 +45,7 @@ class ControlledArm:
         self.mode = self.arm.interface
         self.link_mode: LinkMode = "tool" if self.arm.has_own_law else self.mode
         self._carries_weight = abilities.carries_weight
-        self._limits = CommandLimits(self.arm.limits, read_rate_limits(facts), period_s)
+        self._limits = CommandLimits(self.arm.limits, read_rate_limits(facts), period_s, read_margins(facts))
         self._out = make_command(facts.home.size)
         self.driver = CompliantArmDriver(self._setup)
         self.stop: DeviceStop | None = None
@@ -125,11 +125,3 @@ class ControlledArm:
     def _report_driver(self) -> None:
         if self.stop is None and (reason := self.driver.broken or self.driver.violation) is not None:
             self.report(DeviceStop("protective-stop", reason))
-
-
-def read_rate_limits(facts: ArmSpec) -> RateLimits:
-    """Return how fast commands of an arm may change, by its sheet; as fast as they like where it states nothing."""
-    sheet, joints = facts.sheet, facts.home.size
-    jerk = sheet.limits("jointJerks", joints) if sheet.has("jointJerks") else np.full(joints, inf)
-    rate = sheet.number("torqueRate") if sheet.has("torqueRate") else inf
-    return RateLimits(jerk, np.full(joints, rate))

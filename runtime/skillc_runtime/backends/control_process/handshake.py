@@ -12,15 +12,18 @@ from skillc_runtime.devices.arm import ArmLimits, Mode
 
 @dataclass(frozen=True, slots=True)
 class Patience:
-    """After which time in s each side stops the arm.
+    """After which time in s each side stops the arm, or waits no longer for it.
 
     tree_s: the process of the tree is silent. process_s: the control process is silent, longer than its device may be.
-    gap_s: the loop has not run, although its device was not waited for.
+    gap_s: the loop has not run, although its device was not waited for. settle_s: an arm whose control is to be taken
+    still moves. brake_s: a stopped arm still moves; its own controller brakes what the law makes shake.
     """
 
     tree_s: float = HEARTBEAT_TIMEOUT_S
     process_s: float = 0.2
     gap_s: float = 0.1
+    settle_s: float = 1.0
+    brake_s: float = 1.0
 
 
 USUAL_PATIENCE = Patience()

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from time import monotonic, sleep
 from typing import Any
 
+import numpy as np
+
 from skillc_runtime.backends.control_process.call_desk import CallDesk
 from skillc_runtime.backends.control_process.calls import CALLS_A_CYCLE_SHARE, Answer, Call, Mailbox
 from skillc_runtime.backends.control_process.controlled_arm import ControlledArm
@@ -22,15 +24,13 @@ from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
 from skillc_runtime.backends.control_process.pacing import CycleClock
 from skillc_runtime.backends.control_process.publisher import Publisher
 from skillc_runtime.backends.control_process.snapshot import Phase
+from skillc_runtime.control.measured import STILL_RAD_S
 from skillc_runtime.devices.arm import ArmLoad
 from skillc_runtime.devices.backend import BackendUnavailable, DeviceStop, StopPersists
 from skillc_runtime.motion.arrays import OutVector
 
 BRAKING_S = 2.0
 """At the end an arm is controlled until it is at rest, or for this time."""
-
-REST_S = 1.0
-"""A stopped arm that has moved for longer is given back: its own controller brakes what the law makes shake."""
 
 LOST_S = 0.005
 """How often a loop without a device looks for calls, in s."""
@@ -111,7 +111,7 @@ class ControlLoop:
         link.write(self._arm.step(measured, self._clock.now_s))
         if self._arm.stop is None or self._arm.driver.measured.still:
             self._rested = self._seen
-        elif self._seen > self._rested + REST_S:
+        elif self._seen > self._rested + self._patience.brake_s:
             self._let_go(self._arm.stop)
 
     def _let_go(self, stop: DeviceStop) -> None:
@@ -210,8 +210,7 @@ class ControlLoop:
             raise
 
     def _begin_control(self) -> None:
-        self._link.read(self._measured)
-        self._look_at_condition()
+        self._await_rest()
         condition = self._link.condition
         if condition.kind not in ("ready", "in-control"):
             raise ControlRefused(condition.sentence)
@@ -219,6 +218,15 @@ class ControlLoop:
         self._link.set_load(self._arm.arm.hand, self._arm.arm.held)
         self._link.take_control(self._arm.link_mode)
         self._condition, self._phase = self._link.condition, "in-control"
+
+    def _await_rest(self) -> None:
+        """Read the device until the arm stands still, or has not come to rest in time."""
+        until = monotonic() + self._patience.settle_s
+        while True:
+            self._link.read(self._measured)
+            self._look_at_condition()
+            if np.abs(self._measured.dq).max() < STILL_RAD_S or monotonic() > until:
+                break
 
     def _give_back(self) -> None:
         if self._phase == "in-control":

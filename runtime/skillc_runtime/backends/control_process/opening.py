@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import replace
+from importlib import import_module
+from pkgutil import iter_modules
 from time import monotonic
 from typing import TypeAlias
 
+from skillc_runtime import primitives
+from skillc_runtime.backends.control_process.facts import read_patience
 from skillc_runtime.backends.control_process.feed import FedArm, Feed
 from skillc_runtime.backends.control_process.ghost import Ghost
-from skillc_runtime.backends.control_process.handshake import USUAL_PATIENCE, ControlTask, Patience
+from skillc_runtime.backends.control_process.handshake import ControlTask, Patience
 from skillc_runtime.backends.control_process.host import ControlProcess
 from skillc_runtime.backends.control_process.link import ControlRefused, LinkDescription
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
@@ -35,23 +39,24 @@ def open_cell(
     world: WorldModel,
     describe: DescribeLink,
     make_devices: MakeDevices = lambda _scene, _arms: CellDevices(),
-    patience: Patience = USUAL_PATIENCE,
+    patience: Patience | None = None,
 ) -> DeviceCell:
     """Return the cell of a world model, its arms under control and at rest.
 
-    An arm that gives no control is reported as a stop of the cell. BackendUnavailable if a device does not answer,
+    An arm that gives no control is reported as a stop of the cell. `patience` defaults to the facts of each arm.
+    BackendUnavailable if a device does not answer,
     SheetError or FrameError if facts are missing or contradict each other or the device.
     """
     scene = read_scene_spec(world.snapshot())
     if not scene.arms:
         raise BackendUnavailable("the scene has no arm")
-    things = find_things(scene)
-    compile_imported()  # Else a tick would, in which the arms are under control.
+    things, patiences = find_things(scene), {each.individual: patience or read_patience(each) for each in scene.arms}
+    load_all()
     with ExitStack() as opened:
         arms: dict[str, RemoteArmDriver] = {}
         bases: dict[str, MobileBase] = {}
         for facts in scene.arms:
-            process = ControlProcess(ControlTask(facts, scene.names, describe(facts), patience))
+            process = ControlProcess(ControlTask(facts, scene.names, describe(facts), patiences[facts.individual]))
             opened.callback(process.close)
             arms[facts.individual] = RemoteArmDriver(facts, process, _find_base(scene, facts, bases), things)
         others = make_devices(scene, arms)
@@ -60,9 +65,17 @@ def open_cell(
         for arm in arms.values():
             with suppress(ControlRefused):
                 arm.take_control()
-        cell = _make_cell(world, scene, arms, others)
+        tree_timeout_s = min(each.tree_s for each in patiences.values())
+        cell = _make_cell(world, scene, arms, replace(others, tree_timeout_s=tree_timeout_s))
         opened.pop_all()
     return cell
+
+
+def load_all() -> None:
+    """Import what skills call, and compile it: a tree that does so in its ticks is silent for too long."""
+    for module in iter_modules(primitives.__path__, f"{primitives.__name__}."):
+        import_module(module.name)
+    compile_imported()
 
 
 def _make_cell(

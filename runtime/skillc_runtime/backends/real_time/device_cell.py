@@ -8,7 +8,7 @@ from threading import Event, Thread
 from time import monotonic
 
 from skillc_runtime.backends.real_time.locked import CellLock, locked
-from skillc_runtime.control.watchdog import HeartbeatWatchdog
+from skillc_runtime.control.watchdog import HEARTBEAT_TIMEOUT_S, HeartbeatWatchdog
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.backend import Backend, BackendBroken, DeviceStop, StopPersists
 from skillc_runtime.devices.base import MobileBase
@@ -40,6 +40,7 @@ DRIVER_PARTS = ("measured", "motion", "compliance")
 class CellDevices:
     """The devices of a cell, by IRI; each is called by one thread at a time.
 
+    `tree_timeout_s` is how long a run may send no heartbeat before all devices are stopped.
     `live` is what is recorded of them in each period, by whoever calls its listeners; None for nothing.
     `drawing` is how their model looks; None without one. `find_fault` returns why a device cannot go on, for example
     because it does not answer, or a stop that it has reported; None while all can. `recover` acknowledges that; it
@@ -60,6 +61,7 @@ class CellDevices:
     recover: Callable[[], None] = lambda: None
     passed: Callable[[], None] = lambda: None
     close: Callable[[], None] = lambda: None
+    tree_timeout_s: float = HEARTBEAT_TIMEOUT_S
 
 
 class DeviceCell(Backend, Cell):
@@ -89,7 +91,7 @@ class DeviceCell(Backend, Cell):
         self._broken: str | None = None
         self._fault: DeviceStop | None = None
         self._is_told = True
-        self._heartbeats = HeartbeatWatchdog()
+        self._heartbeats = HeartbeatWatchdog(devices.tree_timeout_s)
         self._watchdog: Watchdog = locked(self._heartbeats, self._turn)
         self._thread = Thread(target=self._watch, name="watch devices", daemon=True)
         self._thread.start()

@@ -5,12 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import ExitStack
 from functools import partial
-from importlib import import_module
-from pkgutil import iter_modules
 
 import mujoco
 
-from skillc_runtime import primitives
 from skillc_runtime.backends.control_process.opening import open_cell
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.real_time.device_cell import CellDevices
@@ -37,15 +34,8 @@ def make_backend(world: WorldModel, start: BackendStart) -> Backend:
 
     SheetError or FrameError if facts are missing, BackendUnavailable with what is missing on the graph of ROS 2.
     """
-    import_primitives()
     state = world.snapshot()
     return open_cell(world, describe, lambda scene, arms: make_devices(state, scene, arms))
-
-
-def import_primitives() -> None:
-    """Import what skills call: a tree that does it in its ticks, and compiles it, is silent for too long."""
-    for module in iter_modules(primitives.__path__, f"{primitives.__name__}."):
-        import_module(module.name)
 
 
 def describe(facts: ArmSpec) -> Ros2Description:

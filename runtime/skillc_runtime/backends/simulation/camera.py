@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillc_runtime.devices.rng import rng_for
+from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.world.state.data_sheet import DataSheet, number_of, sheet_of
+from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.terms import INSPECTION_CAMERA, INSPECTION_SHEET, SKILLC
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -35,12 +37,17 @@ EXACT_INSPECTION = InspectionSpec()
 """A camera without errors."""
 
 
-class SimulatedCamera:
-    """Implements `Camera` with the true coverage of each surface by IRI, which the cell updates."""
+class SimulatedCamera(Camera):
+    """Knows the true coverage of each surface by IRI, which the cell updates."""
 
     def __init__(self, coverage: Mapping[str, CoverageMap], spec: InspectionSpec, seed: int) -> None:
         self._coverage, self._spec = coverage, spec
         self._rng = rng_for(spec.individual, seed)
+
+    @property
+    def evidence(self) -> Evidence:
+        """Idealised: it reads the map of the simulator, with errors that are drawn."""
+        return "idealised"
 
     def inspect(self, surface: str) -> float:
         """Return the share of the surface that is seen to be wiped; KeyError if there is no such surface."""
