@@ -9,8 +9,8 @@ from time import monotonic
 import numpy as np
 
 from skillc_runtime.backends.control_process.host import ControlProcess
-from skillc_runtime.backends.control_process.memory_plan import FIRST, LATE, LOST, STAMP, TIME
-from skillc_runtime.devices.live import NO_BODIES, LiveArm, LiveBodies, LiveSignals
+from skillc_runtime.backends.control_process.memory_plan import TIME
+from skillc_runtime.devices.live import NO_BODIES, LiveArm, LiveBodies, LiveSignals, ReadBytes
 from skillc_runtime.motion.pose import Array, Pose
 
 AWAY_PERIODS = 10
@@ -80,16 +80,20 @@ class Feed:
         return max(float(self._rows[self._leading][TIME]), self._time) - self._began
 
     def _describe(self, individual: str, arm: FedArm) -> LiveArm:
-        row, joints = self._rows[individual], arm.process.joints
+        row, spans = self._rows[individual], arm.process.row.spans
+
+        def read(first: str, last: str = "") -> ReadBytes:
+            return row[spans[first].start : spans[last or first].stop].tobytes
+
         return LiveArm(
             individual=individual,
-            joints=joints,
-            measured=row[FIRST : FIRST + 2 * joints].tobytes,
-            wrench=row[-30:-24].tobytes if arm.feels_force else None,
-            reference=row[-24:].tobytes,
+            joints=arm.process.joints,
+            measured=read("q", "dq"),
+            wrench=read("wrench") if arm.feels_force else None,
+            reference=read("reference"),
             base=arm.base,
-            stamp=row[STAMP : STAMP + 1].tobytes,
-            velocity=row[-36:-33].tobytes,
-            force=row[-33:-30].tobytes,
-            timing=row[LOST : LATE + 1].tobytes,
+            stamp=read("stamp_s"),
+            velocity=read("velocity"),
+            force=read("force"),
+            timing=read("lost", "late_s"),
         )

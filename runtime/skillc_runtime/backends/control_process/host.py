@@ -18,7 +18,7 @@ from skillc_runtime.backends.control_process.handshake import Connected, Control
 from skillc_runtime.backends.control_process.link import CALL_S
 from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
 from skillc_runtime.backends.control_process.shared_memory import SharedRecord, SharedRing, make_memory, map_memory
-from skillc_runtime.backends.control_process.snapshot import Snapshot
+from skillc_runtime.backends.control_process.snapshot import FieldLayout, Snapshot
 from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable
 from skillc_runtime.platforms.processes import INHERITS_SOCKETS
 
@@ -54,7 +54,7 @@ class ControlProcess:
             self.process = _start(theirs.fileno(), file)
         memory = map_memory(file)
         self._beat, self._record = plan.beat(memory), SharedRecord(plan.record(memory))
-        self.ring = SharedRing(plan.ring(memory), plan.row_width)
+        self.ring = SharedRing(plan.ring(memory), plan.row.size)
         self._channel = Channel(ours)
         self._broken: str | None = None
         self._closing = Event()
@@ -63,6 +63,11 @@ class ControlProcess:
         self._thread.start()
         self.connected = self._introduce(task)
         self._patience_s = max(task.patience.process_s, self.connected.abilities.silence_s + BEAT_S)
+
+    @property
+    def row(self) -> FieldLayout:
+        """The layout of the rows of the ring."""
+        return self._plan.row
 
     @property
     def joints(self) -> int:

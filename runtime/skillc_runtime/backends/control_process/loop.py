@@ -179,11 +179,8 @@ class ControlLoop:
             return Answer(call.number, error=error)
 
     def _call_device(self, call: Call) -> Any:
-        match call.name, call.arguments:
-            case "explain", ():
-                return self._arm.stop
-            case "end", ():
-                return self.end()
+        if call.name == "explain":
+            return self._arm.stop
         slow: dict[str, Callable[..., None]] = {
             "take_control": self._take_control,
             "give_back": self._give_back,

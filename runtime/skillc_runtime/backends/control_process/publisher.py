@@ -6,7 +6,7 @@ import numpy as np
 
 from skillc_runtime.backends.control_process.controlled_arm import ControlledArm
 from skillc_runtime.backends.control_process.link import StateView
-from skillc_runtime.backends.control_process.memory_plan import FIRST, LATE, LOST, STAMP, TIME, MemoryPlan
+from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
 from skillc_runtime.backends.control_process.pacing import CycleClock
 from skillc_runtime.backends.control_process.shared_memory import SharedRecord, SharedRing
 from skillc_runtime.backends.control_process.snapshot import PHASES, Phase
@@ -24,10 +24,10 @@ class Publisher:
     ) -> None:
         self._arm, self._measured, self._clock = arm, measured, clock
         self._record = SharedRecord(plan.record(memory))
-        self._ring = SharedRing(plan.ring(memory), plan.row_width)
-        self._values, self._row = np.zeros(plan.layout.size), np.full(plan.row_width, np.nan)
+        self._ring = SharedRing(plan.ring(memory), plan.row.size)
+        self._values, self._row = np.zeros(plan.layout.size), np.full(plan.row.size, np.nan)
         self._at = {name: self._values[span] for name, span in plan.layout.spans.items()}
-        self._joints = plan.layout.joints
+        self._in_row = {name: self._row[span] for name, span in plan.row.spans.items()}
         self._slow_due = 0.0
 
     def publish(self, phase: Phase, seen_s: float) -> None:
@@ -74,10 +74,10 @@ class Publisher:
         at["push"][0], at["pressed_s"][0] = number, np.nan if pressed_s is None else pressed_s
 
     def _write_row(self, seen_s: float) -> None:
-        row, joints, at = self._row, self._joints, self._at
-        row[TIME], row[STAMP], row[LOST], row[LATE] = seen_s, at["stamp_s"][0], self._clock.lost, self._clock.late_s
-        row[FIRST : FIRST + joints], row[FIRST + joints : FIRST + 2 * joints] = at["q"], at["dq"]
-        row[-36:-33], row[-33:-30] = self._arm.arm.live_velocity, self._arm.driver.compliance.live_force
-        row[-30:-24] = at["wrench"]
-        row[-24:] = np.frombuffer(self._arm.driver.motion.copy_tool_reference())
-        self._ring.write(row)
+        row, at, arm = self._in_row, self._at, self._arm
+        row["time_s"][0], row["stamp_s"][0] = seen_s, at["stamp_s"][0]
+        row["lost"][0], row["late_s"][0] = self._clock.lost, self._clock.late_s
+        row["q"][:], row["dq"][:], row["wrench"][:] = at["q"], at["dq"], at["wrench"]
+        row["velocity"][:], row["force"][:] = arm.arm.live_velocity, arm.driver.compliance.live_force
+        row["reference"][:] = np.frombuffer(arm.driver.motion.copy_tool_reference())
+        self._ring.write(self._row)

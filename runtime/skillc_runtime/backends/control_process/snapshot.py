@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final, Literal, TypeAlias
 
@@ -34,27 +34,26 @@ the last push, 0 for none. Others: as in `ArmState`, `MotionInterface`, `Complia
 """
 
 
-def _sizes(joints: int) -> Iterator[int]:
-    for size in FIELDS.values():
-        number, unit = size.rstrip("n"), size.count("n")
-        yield int(number or 1) * joints**unit
+class FieldLayout:
+    """Where fields are in an array for an arm with so many joints; sizes are those of `FIELDS`."""
 
-
-class SnapshotLayout:
-    """Where the fields of a snapshot of an arm with so many joints are."""
-
-    def __init__(self, joints: int) -> None:
-        sizes = list(_sizes(joints))
+    def __init__(self, fields: Mapping[str, str], joints: int) -> None:
+        sizes = [_count(size, joints) for size in fields.values()]
         ends = np.cumsum(sizes).tolist()
         self.joints, self.size = joints, int(ends[-1])
-        self.spans = {name: slice(end - size, end) for name, size, end in zip(FIELDS, sizes, ends, strict=True)}
+        self.spans = {name: slice(end - size, end) for name, size, end in zip(fields, sizes, ends, strict=True)}
+
+
+def _count(size: str, joints: int) -> int:
+    """Return the number that a size such as "6n" stands for."""
+    return int(size.rstrip("n") or 1) * joints ** size.count("n")
 
 
 @dataclass(frozen=True, slots=True)
 class Snapshot:
     """A copy of what a control process has published."""
 
-    layout: SnapshotLayout
+    layout: FieldLayout
     values: Array
 
     def field(self, name: str) -> Array:

@@ -1,4 +1,4 @@
-"""The link to an arm that stays at home, for measurements of the loop: the process of the arm imports it."""
+"""The link to an arm that stays at home, with no robot behind it: for what concerns the processes alone."""
 
 from __future__ import annotations
 
