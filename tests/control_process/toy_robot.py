@@ -182,7 +182,7 @@ class Panel:
     def delay(self, cycles: int) -> None:
         self._robot.delay = cycles
 
-    def flip_speeds(self, on: bool) -> None:
+    def flip_speeds(self, on: int) -> None:
         self._robot.flip = -1.0 if on else 1.0
 
     def report(self) -> dict[str, Any]:
