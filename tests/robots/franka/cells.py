@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from time import monotonic, sleep
 
 from robots.franka.running import Peer
+from robots.franka.things import SWITCHES_M
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
@@ -20,6 +22,7 @@ from skillc_runtime.backends.franka.cell import make_devices
 from skillc_runtime.backends.franka.facts import describe
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.devices.backend import StopPersists
 from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
@@ -28,7 +31,10 @@ from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 
 LAB = "http://example.org/lab#"
-SWITCHES_M = 0.003
+ARM = LAB + "Arm-1"
+LOOKED_S = 0.2
+"""A cell has looked at its devices after this time."""
+
 PATIENCE = Patience(tree_s=3.0, process_s=3.0, gap_s=3.0)
 """Machines that run tests are busy with others."""
 
@@ -41,14 +47,19 @@ def library(name: str) -> SkillLibrary:
     return outcome.value
 
 
-def own_scene(library_name: str, task_name: str, address: str, folder: Path) -> WorldModel:
-    """Return the world of a shipped task of the Panda, whose arm is a Franka Research 3 at an address."""
+def write_scene(library_name: str, task_name: str, file: Path, facts: str = "") -> None:
+    """Write the scene of a shipped task of the Panda, its arm being a Franka Research 3, with facts of it."""
     task = library(library_name).tasks[task_name]
     assert task.scene is not None
     shipped = SHIPPED / library_name / task.scene
     text = (shipped if shipped.exists() else catalogue.scene_path(task.scene)).read_text("utf-8")
-    text = text.replace("skillc:Panda ;", f'skillc:Fr3 ; skiros:DriverAddress "{address}" ;')
-    (folder / "cell.ttl").write_text(text.replace("skillc:panda-sheet", "skillc:fr3-sheet"), "utf-8")
+    text = text.replace("skillc:Panda ;", f"skillc:Fr3 ; {facts}")
+    file.write_text(text.replace("skillc:panda-sheet", "skillc:fr3-sheet"), "utf-8")
+
+
+def own_scene(library_name: str, task_name: str, address: str, folder: Path) -> WorldModel:
+    """Return the world of a shipped task of the Panda, whose arm is a Franka Research 3 at an address."""
+    write_scene(library_name, task_name, folder / "cell.ttl", f'skiros:DriverAddress "{address}" ;')
     return WorldModel(load_scene(folder / "cell.ttl", library(library_name).vocabulary))
 
 
@@ -107,3 +118,25 @@ def carry_out(
     prepared = prepare_task(Assignment(task_name, cell.world.snapshot(), AchieveGoal(goal)), compiled)
     assert isinstance(prepared, PreparedTask), prepared
     return execute_task(prepared, compiled, cell, listeners)
+
+
+def begin_to_move(cell: DeviceCell) -> None:
+    """Begin a slow motion of all joints."""
+    q = cell.arm(ARM).measured.q
+    cell.arm(ARM).motion.move_joints(q + (0.3 if q[0] < 0.15 else -0.3), 0.1)
+    cell.advance(0.5)
+
+
+def is_cleared(cell: DeviceCell) -> bool:
+    """Acknowledge a stop, such as that of an arm that still moved when it was taken; tell whether none is left."""
+    with suppress(StopPersists):
+        cell.stops.clear()
+    return cell.stops.report is None
+
+
+def wait(until: Callable[[], bool], longest_s: float = 20.0) -> None:
+    """Wait for what must happen."""
+    ends = monotonic() + longest_s
+    while not until():
+        assert monotonic() < ends, "it has not happened"
+        sleep(0.02)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from robots.franka.cells import LAB, own_scene, real_cell
+from robots.franka.cells import ARM, own_scene, real_cell
 
 
 def main(address: str, folder: str) -> None:
     with real_cell(own_scene("sorting", "sort_parts", address, Path(folder))) as cell:
-        arm = cell.arm(LAB + "Arm-1")
+        arm = cell.arm(ARM)
         here, way = arm.measured.q.copy(), 0.4
         while True:
             arm.motion.move_joints(here + way, 0.2)

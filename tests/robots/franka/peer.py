@@ -1,16 +1,16 @@
 """Runs franky-sim, a simulated robot that speaks the Franka Control Interface, with things around it.
 
-    python -m robots.franka.peer ADDRESS FRICTION [SCENE]
+    python -m robots.franka.peer ADDRESS FRICTION [SCENE [HEIGHT TRUTH]]
 
 FRICTION is the share of its friction in the joints that is left while torques are commanded: a real robot closes a
 loop around the torque behind each gear, so that little of the gear's friction is felt; the simulated one applies what
 is commanded before the gear. Its own position controller would not be stable with less friction.
-SCENE is a MuJoCo model whose bodies and geoms are added. "ready" is printed when the robot answers. Lines on standard
+SCENE is a MuJoCo model whose bodies and geoms are added. What is true of them is told at the socket TRUTH, in a world
+in which the robot's base is HEIGHT m above 0. "ready" is printed when the robot answers. Lines on standard
 input are answered with one line of JSON: `pose BODY` (position in m), `force GEOM` (N that press on it), `travel JOINT`
 (m), `carry KG` (from now on, so much more in the hand, which nobody knows of), `wall GAP` (puts one GAP m before the
 tool, and returns its normal), `wall-force` (in N), `no-wall`, `wipe GEOM BODY` (from now on, a body wipes the top of a
-box), `wiped` (the share of the top that was), `save FILE` (writes the samples, one a step: time s, N on the box, tilt
-of the body in rad).
+box), `wiped` (the share of the top that was).
 """
 
 from __future__ import annotations
@@ -29,7 +29,9 @@ from franky_sim.franka_robot_server import ControlMode
 from franky_sim.mujoco_simulator import MujocoSimulator
 
 from robots.franka.priority import run_promptly
+from robots.franka.truth import PeersTruth
 from robots.franka.wall import Wall
+from robots.truth import serve_truth
 
 KP, KV = (4500.0, 4500.0, 3500.0, 3500.0, 2000.0, 2000.0, 500.0), (450.0, 450.0, 350.0, 350.0, 200.0, 200.0, 50.0)
 """Gains of its own position controller: with those for the last joint that are usual there, it never comes to rest."""
@@ -42,7 +44,7 @@ EVERY = 10
 
 
 class Wiping:
-    """Which share of the top of a box a body has wiped, and how."""
+    """Which share of the top of a box a body has wiped."""
 
     def __init__(self, model: Any, geom: str, body: str) -> None:
         box = model.geom(geom)
@@ -50,14 +52,13 @@ class Wiping:
         counts = np.round(2 * box.size[:2] / CELL_M).astype(int)
         grid = np.stack(np.meshgrid(*((np.arange(n) + 0.5) * CELL_M - n * CELL_M / 2 for n in counts)), axis=-1)
         self._cells = box.pos[:2] + grid.reshape(-1, 2)
-        self._wiped = np.zeros(len(self._cells), dtype=bool)
-        self.samples: list[tuple[float, float, float]] = []
+        self._wiped, self._steps = np.zeros(len(self._cells), dtype=bool), 0
 
     def see(self, data: Any, force: float) -> None:
         """Note a step with a force in N on the box."""
-        axes = data.xmat[self._body].reshape(3, 3)
-        self.samples.append((data.time, force, float(np.arccos(np.clip(axes[2, 2], -1.0, 1.0)))))
-        if force > LEAST_N and len(self.samples) % EVERY == 0:
+        self._steps += 1
+        if force > LEAST_N and self._steps % EVERY == 0:
+            axes = data.xmat[self._body].reshape(3, 3)
             there = (self._cells - data.xpos[self._body][:2]) @ axes[:2, :2]
             self._wiped |= (np.abs(there) <= FACE_M).all(axis=1)
 
@@ -72,6 +73,7 @@ class Observer:
     def __init__(self, simulator: MujocoSimulator) -> None:
         self._simulator, self._turn = simulator, threading.Lock()
         self._wiping: Wiping | None = None
+        self.truth: PeersTruth | None = None
         self._wall: Wall | None = None
         simulator.register_pre_step_callback(self._before_step)
         simulator.register_post_step_callback(self._after_step)
@@ -83,7 +85,7 @@ class Observer:
                 case "pose":
                     return list(data.body(*names).xpos)
                 case "force":
-                    return self._force(model.geom(*names).id)
+                    return self.force_on(model.geom(*names).id)
                 case "travel":
                     return float(data.joint(*names).qpos[0])
                 case "carry":
@@ -102,9 +104,6 @@ class Observer:
                 case "wiped":
                     assert self._wiping is not None
                     return self._wiping.share
-                case "save":
-                    assert self._wiping is not None
-                    np.save(names[0], np.array(self._wiping.samples))
             return None
 
     def _before_step(self, _: MujocoSimulator) -> None:
@@ -114,10 +113,13 @@ class Observer:
 
     def _after_step(self, _: MujocoSimulator) -> None:
         if self._wiping is not None:
-            self._wiping.see(self._simulator.data, self._force(self._wiping.geom))
+            self._wiping.see(self._simulator.data, self.force_on(self._wiping.geom))
+        if self.truth is not None:
+            self.truth.see()
         self._turn.release()
 
-    def _force(self, geom: int) -> float:
+    def force_on(self, geom: int) -> float:
+        """Return the sum of the normal forces in N on a geom."""
         model, data = self._simulator.model, self._simulator.data
         found, total = np.zeros(6), 0.0
         for index in np.flatnonzero((data.contact.geom == geom).any(axis=1)):
@@ -138,7 +140,9 @@ def ease_joints(simulator: MujocoSimulator, share: float) -> None:
     simulator.register_pre_step_callback(set_friction)
 
 
-def main(address: str, friction: str, scene: str | None = None) -> None:
+def main(
+    address: str, friction: str, scene: str | None = None, height: str | None = None, truth: str | None = None
+) -> None:
     run_promptly()
     with MujocoSimulator() as simulator:
         simulator.add_robot(kp=KP, kv=KV)
@@ -149,6 +153,10 @@ def main(address: str, friction: str, scene: str | None = None) -> None:
         with SimulationServer(simulator, hostname_candidates=[address]) as server:
             ease_joints(simulator, float(friction))
             server.run_async()
+            if height is not None and truth is not None:
+                model, data = simulator.model, simulator.data
+                observer.truth = PeersTruth(model, data, observer.force_on, float(height))
+                serve_truth(Path(truth), observer.truth, lambda: float(data.time))
             print("ready", flush=True)
             for line in sys.stdin:
                 print(json.dumps(observer.answer(*line.split())), flush=True)

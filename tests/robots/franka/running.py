@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
+from threading import Lock
 from typing import Any
 
 TESTS = Path(__file__).parents[2]
@@ -34,14 +35,15 @@ class Peer:
     """A process that answers lines."""
 
     def __init__(self, module: str, address: str, *arguments: str) -> None:
-        self.address = address
+        self.address, self._turn = address, Lock()
         self.process = run_module(module, address, *arguments)
         assert self._read() == "ready"
 
     def ask(self, line: str) -> Any:
         """Return the answer to a line."""
-        self.tell(line)
-        return json.loads(self._read())
+        with self._turn:
+            self.tell(line)
+            return json.loads(self._read())
 
     def tell(self, line: str) -> None:
         """Send a line that has no answer."""
@@ -62,9 +64,9 @@ class Peer:
 
 
 @contextmanager
-def robot(scene: Path | None = None, friction: float = 0.1) -> Iterator[Peer]:
-    """Run a simulated robot, with the things of a MuJoCo model around it, and a share of its friction."""
-    peer = Peer("peer", own_address(), str(friction), *([] if scene is None else [str(scene)]))
+def robot(*scene: object, friction: float = 0.1) -> Iterator[Peer]:
+    """Run a simulated robot with a share of its friction; `scene`: as for the program, if there is something around."""
+    peer = Peer("peer", own_address(), str(friction), *map(str, scene))
     try:
         yield peer
     finally:

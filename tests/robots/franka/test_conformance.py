@@ -12,7 +12,7 @@ import pytest
 from backends.backend import MakeBackend
 from backends.remote import CONFORMANCE, RemoteBackend
 from backends.test_conformance import *  # noqa: F403
-from robots.franka.cells import LAB, own_scene
+from robots.franka.cells import ARM, own_scene
 from robots.franka.running import Peer, proxy
 from skillc_runtime.backends.control_process.opening import open_cell
 from skillc_runtime.backends.franka.facts import describe
@@ -50,5 +50,5 @@ def make(simulated: Peer, tmp_path_factory: pytest.TempPathFactory) -> Iterator[
     folder: Path = tmp_path_factory.mktemp("cell")
     with proxy(simulated) as between:
         cell = open_cell(own_scene("sorting", "sort_parts", between.address, folder), describe, patience=CONFORMANCE)
-        yield partial(RemoteBackend, cell, LAB + "Arm-1", PeersSurroundings(simulated, between))
+        yield partial(RemoteBackend, cell, ARM, PeersSurroundings(simulated, between))
         cell.close()

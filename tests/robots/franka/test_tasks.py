@@ -1,0 +1,115 @@
+"""How cells of a robot that others simulate begin and end, and tasks of the Panda in them."""
+
+from __future__ import annotations
+
+import os
+import signal
+from pathlib import Path
+from threading import Thread
+from time import monotonic, sleep
+
+import numpy as np
+import pytest
+
+from robots.franka.cells import LOOKED_S, begin_to_move, carry_out, is_cleared, own_scene, real_cell, wait
+from robots.franka.running import Peer, proxy, robot, run_module
+from skillc_ontology import catalogue
+from skillc_runtime.backends.control_process.link import make_state
+from skillc_runtime.backends.franka.link import FrankaDescription
+from skillc_runtime.devices.backend import StopPersists
+
+pytestmark = [pytest.mark.robot, pytest.mark.slow]
+
+HERE = Path(__file__).parent
+
+
+def test_an_arm_that_is_not_ready_when_its_cell_is_opened_is_reported_and_one_that_dies_with_its_name(
+    tmp_path: Path,
+) -> None:
+    with robot() as simulated, proxy(simulated) as between:
+        between.tell("mode 3")
+        between.tell("swap 1 3")
+        with real_cell(own_scene("sorting", "sort_parts", between.address, tmp_path)) as cell:
+            wait(lambda: cell.stops.report is not None)
+            assert cell.stops.report is not None
+            assert "the robot is guided by hand" in cell.stops.report.reason
+            between.tell("release")
+            sleep(LOOKED_S)
+            with pytest.raises(StopPersists, match=r"is not as the facts say: .* that of another one"):
+                cell.stops.clear()
+            assert between.ask("report")["commands"] == 0
+            between.tell("swap 0 0")
+            sleep(LOOKED_S)
+            cell.stops.clear()
+            begin_to_move(cell)
+            os.kill(simulated.process.pid, signal.SIGKILL)
+            wait(lambda: cell.stops.report is not None)
+            assert between.address in cell.stops.report.reason
+            assert between.ask("report")["violations"] == []
+            with pytest.raises(StopPersists, match=r"cannot be used"):
+                cell.stops.clear()
+
+
+def test_an_arm_whose_program_is_killed_in_mid_motion_comes_to_rest_and_is_given_back(tmp_path: Path) -> None:
+    with robot() as simulated, proxy(simulated) as before:
+        kill_in_motion(before, tmp_path)
+        link = FrankaDescription(before.address, catalogue.model_path("robots/fr3.xml")).make_link()
+        link.connect()
+        assert link.condition.kind == "ready"
+        state = make_state(7)
+        link.read(state)
+        assert np.abs(state.dq).max() < 0.02
+        link.close()
+        assert before.ask("report")["violations"] == []
+
+
+def kill_in_motion(before: Peer, folder: Path) -> None:
+    """Kill a program that moves the arm, and wait until nobody commands it any more."""
+    program = run_module("mover", before.address, str(folder))
+    assert program.stdout is not None
+    assert program.stdout.readline() == "moving\n"
+    sleep(0.5)
+    program.kill()
+    program.communicate()
+    ends, last = monotonic() + 20.0, -1
+    while (commands := before.ask("report")["commands"]) != last:
+        assert monotonic() < ends, "the robot is still commanded"
+        last = commands
+        sleep(0.3)
+
+
+def test_a_button_is_pressed_within_limits(tmp_path: Path) -> None:
+    with robot(HERE / "button.xml") as simulated, proxy(simulated) as between:
+        world = own_scene("contact", "press_button_panda", between.address, tmp_path)
+        with real_cell(world, simulated) as cell:
+            done = carry_out("contact", "press_button_panda", cell)
+        assert done.status == "succeeded", done.failure
+        assert between.ask("report")["violations"] == []
+
+
+@pytest.mark.long
+def test_a_reflex_in_mid_wipe_ends_the_task_at_rest_and_once_it_is_acknowledged_the_desk_is_finished(
+    tmp_path: Path,
+) -> None:
+    from robots.franka.body import BODY, open_task
+
+    with open_task(BODY.task("wipe", tmp_path), tmp_path) as (cell, simulated, between):
+
+        def bump() -> None:
+            wait(lambda: float(simulated.ask("wiped")) > 0.3, 150.0)
+            between.tell("reflex cartesian_reflex")
+
+        person = Thread(target=bump, daemon=True)
+        person.start()
+        stopped = carry_out("wiping", "clean_desk", cell)
+        person.join()
+        assert stopped.status == "failed"
+        assert "the force on the tool was above what counts as a collision" in str(stopped.failure)
+        assert cell.stops.report is not None
+        assert cell.stops.report.kind == "protective-stop"
+        assert cell.is_at_rest()
+        wait(lambda: is_cleared(cell))
+        done = carry_out("wiping", "clean_desk", cell)
+        assert done.status == "succeeded", done.failure
+        assert simulated.ask("wiped") > 0.99
+        assert between.ask("report")["violations"] == []
