@@ -34,7 +34,7 @@ SECTIONS = {
     "Projects": ("new", "add", "tasks", "lock"),
     "Skills": ("check", "fmt", "explain", "graph", "doc", "compile", "shapes"),
     "Tasks": ("plan", "run", "why", "diff", "replay", "report", "trials", "demo"),
-    "Scenes": ("world", "scene"),
+    "Scenes": ("world", "scene", "connect"),
     "Servers": (
         "studio",
         "serve",

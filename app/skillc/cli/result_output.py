@@ -44,7 +44,9 @@ def format_ending(result: TaskResult, page: TerminalPage) -> str:
 
 def _list_ending(result: TaskResult, page: TerminalPage, verbose: bool) -> Iterator[str]:
     words = format_status(result.status, result.verified, result.false_claims)
-    yield f"{page.paint(result.task, 'strong')}  {page.paint(words, END_STYLES.get(words, 'warning'))}"
+    style = "warning" if result.dry else END_STYLES.get(words, "warning")
+    shown = f"dry: nothing was sent; simulated: {words}" if result.dry else words
+    yield f"{page.paint(result.task, 'strong')}  {page.paint(shown, style)}"
     for claim in result.false_claims:
         yield from page.wrap(format_false_claim(claim), "bad", hanging="  ")
     for fact in unverified_facts(result.facts):

@@ -39,7 +39,8 @@ def check_operable(options: RunOptions) -> None:
 def run_with_progress(loaded: LoadedTask, options: RunOptions, quiet: bool) -> RunResult:
     """Run a task and show its progress on stderr, unless `quiet`."""
     pace = Pace(parse_pace(options.spec.pace))
-    with RunProgress(loaded.assignment.name, quiet, pace) as progress:
+    name = loaded.assignment.name
+    with RunProgress(f"{name} (dry)" if options.spec.dry else name, quiet, pace) as progress:
         return run_task(loaded, options, progress, Terminal())
 
 

@@ -34,18 +34,20 @@ def require_backend(name: object) -> BackendName:
     raise RequestError(f"the backend is a name such as {DEFAULT_BACKEND!r}, not {name!r}")
 
 
-def make_backend(name: BackendName, world: WorldModel, seed: int, saved: bytes | None = None) -> Backend:
+def make_backend(
+    name: BackendName, world: WorldModel, seed: int, saved: bytes | None = None, observed: bool = False
+) -> Backend:
     """Return a cell of a back end; where it is simulated, reality differs from the facts as `seed` determines.
 
-    All is as in the cell that was `saved`, if there was one. RequestError if the back end is not installed,
-    ServiceError if it cannot be used; SheetError or FrameError if facts are missing or contradict the models,
-    CheckpointError if what was saved cannot be read.
+    All is as in the cell that was `saved`, if there was one. Devices that are only `observed` are not taken under
+    control. RequestError if the back end is not installed, ServiceError if it cannot be used; SheetError or FrameError
+    if facts are missing or contradict the models, CheckpointError if what was saved cannot be read.
     """
     from skillc_runtime.devices.backend import BackendStart, BackendUnavailable
 
     make = _load(_find_entry(name))
     try:
-        return make(world, BackendStart(seed, saved))
+        return make(world, BackendStart(seed, saved, observed))
     except BackendUnavailable as error:
         raise ServiceError(f"the backend {name} cannot be used: {error}") from error
 

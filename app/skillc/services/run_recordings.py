@@ -114,6 +114,8 @@ def find_obstacle(backend: Backend) -> str:
     """Return why a run in a new cell cannot be repeated from its recording; empty if it can."""
     if backend.capabilities.lock_step is None:
         return "its cell has a time of its own"
+    if backend.capabilities.commands is not None:
+        return "it was a dry run, which began where devices were measured"
     return ""
 
 

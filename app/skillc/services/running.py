@@ -10,9 +10,10 @@ from pathlib import Path
 from time import perf_counter
 
 from skillc.errors import RequestError, ServiceError
-from skillc.services.backends import check_pace, make_backend
+from skillc.services.backends import DEFAULT_BACKEND, check_pace, make_backend
 from skillc.services.breakpoints import make_gate
 from skillc.services.cell_checks.starting import find_start_problem
+from skillc.services.dry_runs import DryRefused, make_dry_cell, with_own_world, write_commands
 from skillc.services.operating import RunMonitor, operate
 from skillc.services.planning import with_minimal_makespan
 from skillc.services.recorded_run import RecordingOptions, recorded_run
@@ -99,6 +100,8 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
     spec = options.spec
     if spec.minimise == "makespan":
         task = with_minimal_makespan(task)
+    if spec.dry:
+        task = with_own_world(task)
     gate = make_gate(spec, task.library)
     end = partial(end_unstarted, task, spec)
     problem = find_start_problem(task, reporter)
@@ -107,16 +110,25 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
     with _start_planning(task, task.assignment, FailedSteps(task.library), options) as planning:
         try:
             monitor.say("planning, and building the cell")
-            cell = make_backend(spec.backend, task.world, spec.seed, options.saved)
+            cell = _make_cell(task, options)
             filmed = spec.film and options.out is not None
             film = begin_film(cell, spec.looks, spec.gif, reporter) if filmed else None
         except (SheetError, FrameError, StoreError) as error:
             return end("refused", _find_refusal(planning, error), reporter)
+        except DryRefused as error:
+            return end("refused", str(error), reporter)
         except KeyboardInterrupt as interrupt:
             return end("stopped", str(interrupt) or "interrupted", reporter)
         with closing(cell):
             check_pace(cell, monitor.pace.factor)
             return _Run(task, options, cell, make_samples(cell, film), gate, monitor, reporter).carry_out(planning)
+
+
+def _make_cell(task: LoadedTask, options: RunOptions) -> Backend:
+    spec = options.spec
+    if spec.dry:
+        return make_dry_cell(spec, task.world)
+    return make_backend(spec.backend, task.world, spec.seed, options.saved)
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +163,8 @@ class _Run:
             execution = describe_execution(run, cell, perf_counter() - began)
             if options.out is not None:
                 self.monitor.say("writing the report")
+                if (record := cell.capabilities.commands) is not None:
+                    write_commands(record, options.out)
             return report_run(execution, builder, task.library, self.samples, options.out, self.reporter)
 
     def _recorded(self, run_id: str) -> AbstractContextManager[tuple[Recorder, ...]]:
@@ -181,7 +195,8 @@ class _Run:
 
     @property
     def _origin(self) -> CellOrigin:
-        return CellOrigin(self.task.scene, self.options.spec.seed, self.options.spec.backend)
+        spec = self.options.spec
+        return CellOrigin(self.task.scene, spec.seed, DEFAULT_BACKEND if spec.dry else spec.backend)
 
 
 def _start_planning(

@@ -30,6 +30,8 @@ class WorkKeywords(TypedDict, total=False):
     """The seed of what differs from the world model."""
     backend: str
     """Simulate with physics, or with ideal motion and contact: faster, but contact is not verified then."""
+    dry: bool
+    """Move nothing: look where the devices are, begin there in simulation, and record what would be sent."""
     out: AnyPath | None
     """Write report.html, result.json, events.jsonl, figures, the film and stills to this folder."""
     signals: Literal["csv", "parquet"] | None

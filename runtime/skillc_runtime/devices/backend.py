@@ -126,11 +126,13 @@ class Backend(Protocol):
 class BackendStart:
     """How a cell begins: the seed by which a simulation differs from the facts, and what was saved, None for nothing.
 
-    Only what its `checkpoints` have saved is given to a back end.
+    Only what its `checkpoints` have saved is given to a back end. A cell that is only `observed` takes nothing under
+    control, sends nothing by which anything moves, and offers none of its devices, but their `observer`.
     """
 
     seed: int = 0
     saved: bytes | None = None
+    observed: bool = False
 
 
 class MakeBackend(Protocol):

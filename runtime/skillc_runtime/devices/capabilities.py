@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.checkpoints import Checkpoints
+    from skillc_runtime.devices.command_record import CommandRecord
     from skillc_runtime.devices.disturbances import Disturber
     from skillc_runtime.devices.drawing import Drawing
     from skillc_runtime.devices.ground_truth import GroundTruth
     from skillc_runtime.devices.live import LiveSignals
+    from skillc_runtime.devices.observed import CellObserver
 
 
 class Judge(Protocol):
@@ -46,7 +48,8 @@ class BackendCapabilities:
     lock_step: time stands still between calls, so that a run can be repeated. judge: claims are judged, and what
     falls is waited for. truth: for reports and trials. drawing: for films and displays. disturber: things happen to
     the cell that no skill does. checkpoints: the cell can be built again as it was. live: signals in each control
-    period.
+    period. observer: looks at real devices, beside what the scene says. commands: nothing
+    is sent to devices, but what would be is kept.
     """
 
     lock_step: LockStep | None = None
@@ -56,6 +59,8 @@ class BackendCapabilities:
     disturber: Disturber | None = None
     checkpoints: Checkpoints | None = None
     live: LiveSignals | None = None
+    observer: CellObserver | None = None
+    commands: CommandRecord | None = None
 
 
 NO_CAPABILITIES = BackendCapabilities()

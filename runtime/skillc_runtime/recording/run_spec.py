@@ -109,6 +109,13 @@ class RunSpec(RunRequest, frozen=True, kw_only=True):
             EXECUTION,
         ),
     ] = "mujoco"
+    dry: Annotated[
+        bool,
+        documented(
+            "Move nothing: look where the devices are, begin there in simulation, and record what would be sent.",
+            EXECUTION,
+        ),
+    ] = False
     pace: Annotated[
         float | str,
         documented(

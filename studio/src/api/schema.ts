@@ -446,6 +446,16 @@ export interface components {
              */
             breakpoints?: string[];
             /**
+             * @description Pause before each step, with the arms held, until somebody lets the task go on.
+             * @default false
+             */
+            confirm_steps?: boolean;
+            /**
+             * @description Move arms and bases with this share of their speeds, such as `10 %` or 0.1; forces stay as they are.
+             * @default 1
+             */
+            speed?: number;
+            /**
              * @description Of those that wait for planners or devices, the higher comes first; nothing that runs gives way.
              * @default 0
              */
@@ -1252,6 +1262,16 @@ export interface components {
              */
             breakpoints?: string[];
             /**
+             * @description Pause before each step, with the arms held, until somebody lets the task go on.
+             * @default false
+             */
+            confirm_steps?: boolean;
+            /**
+             * @description Move arms and bases with this share of their speeds, such as `10 %` or 0.1; forces stay as they are.
+             * @default 1
+             */
+            speed?: number;
+            /**
              * @description Of those that wait for planners or devices, the higher comes first; nothing that runs gives way.
              * @default 0
              */
@@ -1287,6 +1307,11 @@ export interface components {
              * @default mujoco
              */
             backend?: string;
+            /**
+             * @description Move nothing: look where the devices are, begin there in simulation, and record what would be sent.
+             * @default false
+             */
+            dry?: boolean;
             /**
              * @description Let simulated time pass as fast as it computes, or at most N times as fast as real time.
              * @default fast
@@ -2525,7 +2550,8 @@ export interface components {
          *         `wipings` has one entry for each time a surface was wiped, `wiping` is the first of them; `placements` has one for
          *         each thing that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand
          *         or base. What only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its
-         *         clock.
+         *         clock. Arms and bases had the share `speed` of their speeds. After a `dry` run `commands` are what would
+         *         have been sent, and nothing was: all else in it is simulated, and nothing `verified`.
          */
         TaskResult: {
             task: string;
@@ -2558,6 +2584,12 @@ export interface components {
             wall_time_s?: number;
             /** @default 0 */
             real_time_factor?: number;
+            /** @default 1 */
+            speed?: number;
+            /** @default false */
+            dry?: boolean;
+            /** @default [] */
+            commands?: components["schemas"]["CommandsResult"][];
             /** @default 0 */
             seed?: number;
             /** @default  */
@@ -2634,6 +2666,21 @@ export interface components {
             implementation: string;
             /** @default [] */
             rejected?: components["schemas"]["Rejection"][];
+        };
+        /**
+         * CommandsResult
+         * @description What an arm would have been sent in a dry run: `count` commands, of which the limits have altered some.
+         *
+         *         `greatest_share` is that of a joint's limit of torque, or of speed, which `joint` was commanded.
+         */
+        CommandsResult: {
+            arm: string;
+            /** @enum {unknown} */
+            kind: "position" | "torque" | "velocity";
+            count: number;
+            altered: number;
+            joint: string;
+            greatest_share: number;
         };
         /**
          * WipingResult

@@ -31,7 +31,9 @@ OFFERED: Final[Mapping[Part, frozenset[str]]] = MappingProxyType(
                 "start_push", "end_push", "push_force", "pause", "withdraw", "resume",
             }
         ),
-        "device": frozenset({"explain", "recover", "give_back", "take_control", "set_load", "tare"}),
+        "device": frozenset(
+            {"explain", "condition", "recover", "give_back", "take_control", "set_load", "tare", "end"}
+        ),
     }
 )  # fmt: skip
 """The names of the calls; all else is refused."""

@@ -179,8 +179,13 @@ class ControlLoop:
             return Answer(call.number, error=error)
 
     def _call_device(self, call: Call) -> Any:
-        if call.name == "explain":
-            return self._arm.stop
+        match call.name, call.arguments:
+            case "explain", ():
+                return self._arm.stop
+            case "condition", ():
+                return self._link.condition
+            case "end", ():
+                return self.end()
         slow: dict[str, Callable[..., None]] = {
             "take_control": self._take_control,
             "give_back": self._give_back,

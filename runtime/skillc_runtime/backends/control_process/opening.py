@@ -17,6 +17,7 @@ from skillc_runtime.backends.control_process.ghost import Ghost
 from skillc_runtime.backends.control_process.handshake import ControlTask, Patience
 from skillc_runtime.backends.control_process.host import ControlProcess
 from skillc_runtime.backends.control_process.link import ControlRefused, LinkDescription
+from skillc_runtime.backends.control_process.observing import DeviceObserver
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.control_process.things import find_things
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
@@ -40,9 +41,11 @@ def open_cell(
     describe: DescribeLink,
     make_devices: MakeDevices = lambda _scene, _arms: CellDevices(),
     patience: Patience | None = None,
+    observed: bool = False,
 ) -> DeviceCell:
     """Return the cell of a world model, its arms under control and at rest.
 
+    One that is only `observed` takes no control, offers none of its devices, and changes nothing in the world model.
     An arm that gives no control is reported as a stop of the cell. `patience` defaults to the facts of each arm.
     BackendUnavailable if a device does not answer,
     SheetError or FrameError if facts are missing or contradict each other or the device.
@@ -62,6 +65,10 @@ def open_cell(
         others = make_devices(scene, arms)
         opened.callback(others.close)
         bases.update(others.bases)
+        if observed:
+            cell = _make_observed(world, scene, arms, others)
+            opened.pop_all()
+            return cell
         for arm in arms.values():
             with suppress(ControlRefused):
                 arm.take_control()
@@ -76,6 +83,16 @@ def load_all() -> None:
     for module in iter_modules(primitives.__path__, f"{primitives.__name__}."):
         import_module(module.name)
     compile_imported()
+
+
+def _make_observed(
+    world: WorldModel, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver], others: CellDevices
+) -> DeviceCell:
+    """Return a cell without devices, so that nothing can be told to move, nor to stop, that can be looked at."""
+    together = _Together(tuple(arms.values()), others, None)
+    ghost = Ghost(scene, {each: _joints_of(arm) for each, arm in arms.items()}, others.grippers, others.bases)
+    observer = DeviceObserver(scene, arms, others)
+    return DeviceCell(world, CellDevices(drawing=ghost, observer=observer, close=together.close))
 
 
 def _make_cell(
@@ -95,6 +112,7 @@ def _make_cell(
             arms=arms,
             live=feed.live,
             drawing=ghost,
+            observer=DeviceObserver(scene, arms, others),
             find_fault=together.find_fault,
             recover=together.recover,
             passed=together.passed,
@@ -108,7 +126,7 @@ def _make_cell(
 class _Together:
     """The arms of a cell and its other devices, as a cell watches and ends them."""
 
-    def __init__(self, arms: Sequence[RemoteArmDriver], others: CellDevices, feed: Feed) -> None:
+    def __init__(self, arms: Sequence[RemoteArmDriver], others: CellDevices, feed: Feed | None) -> None:
         self._arms, self._others, self._feed = arms, others, feed
 
     def find_fault(self) -> DeviceStop | str | None:
@@ -126,7 +144,8 @@ class _Together:
 
     def passed(self) -> None:
         """Hand over what was recorded."""
-        self._feed.hand_over()
+        if self._feed is not None:
+            self._feed.hand_over()
         self._others.passed()
 
     def close(self) -> None:

@@ -40,7 +40,11 @@ class FingerDevice(Protocol):
         ...
 
     def connect(self) -> None:
-        """Connect and make it ready to move; BackendUnavailable, with what to do."""
+        """Connect, so that its state can be read; nothing moves. BackendUnavailable, with what to do."""
+        ...
+
+    def activate(self) -> None:
+        """Make it ready to move, for which its fingers may move; BackendUnavailable, with what to do."""
         ...
 
     def read(self) -> FingerState:
@@ -76,8 +80,15 @@ Hold = Callable[[str, Pose, float], None]
 class Fingers(Gripper):
     """One gripper; `hold` and `let_go` tell the arm that carries it what it holds."""
 
-    def __init__(self, device: FingerDevice, facts: FingerFacts, hold: Hold, let_go: Callable[[], None]) -> None:
-        """Connect; BackendUnavailable, with what to do."""
+    def __init__(
+        self,
+        device: FingerDevice,
+        facts: FingerFacts,
+        hold: Hold,
+        let_go: Callable[[], None],
+        observed: bool = False,
+    ) -> None:
+        """Connect, and make it ready to move unless it is only `observed`; BackendUnavailable, with what to do."""
         self._device, self._facts, self._hold, self._let_go = device, facts, hold, let_go
         self._lock, self._wake, self._closing = Lock(), Event(), Event()
         self._order: Callable[[], None] | None = None
@@ -86,10 +97,15 @@ class Fingers(Gripper):
         self._held: tuple[str, float] | None = None
         device.connect()
         try:
+            if not observed:
+                device.activate()
             self._state = device.read()
         except FingersLost as lost:
             device.close()
             raise BackendUnavailable(str(lost)) from lost
+        except BackendUnavailable:
+            device.close()
+            raise
         self._thread = Thread(target=self._run, name=f"gripper {device.name}", daemon=True)
         self._thread.start()
 
@@ -172,6 +188,7 @@ class Fingers(Gripper):
         if self._fault is not None:
             self._device.close()
             self._device.connect()
+            self._device.activate()
             with self._lock:
                 self._order, self._is_new, self._fault = None, False, None
 

@@ -18,16 +18,23 @@ WSG: Final = "wsg-text"
 
 
 def open_gripper(
-    state: WorldState, gripper: GripperSpec, arm_address: str, hold: Hold, let_go: Callable[[], None]
+    state: WorldState,
+    gripper: GripperSpec,
+    arm_address: str,
+    hold: Hold,
+    let_go: Callable[[], None],
+    observed: bool = False,
 ) -> Fingers:
-    """Return a gripper that is connected; one behind its arm's controller needs no address of its own.
+    """Return a gripper that is connected, and ready to move unless it is only `observed`.
+
+    One behind its arm's controller needs no address of its own.
 
     SheetError if its sheet names no protocol that is known; BackendUnavailable if it does not answer.
     """
     facts = FingerFacts(
         gripper.max_opening_m, gripper.max_force_n, gripper.opening_bias_m + 3 * gripper.opening_noise_m
     )
-    return Fingers(_device(state, gripper, arm_address, facts), facts, hold, let_go)
+    return Fingers(_device(state, gripper, arm_address, facts), facts, hold, let_go, observed)
 
 
 def _device(state: WorldState, gripper: GripperSpec, arm_address: str, facts: FingerFacts) -> FingerDevice:

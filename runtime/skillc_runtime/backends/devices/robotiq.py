@@ -38,8 +38,11 @@ class RobotiqFingers(FingerDevice):
         return self._name
 
     def connect(self) -> None:
-        """Connect, and activate the gripper unless it is active; then its fingers open and close once."""
+        """Connect."""
         self._line.open("is the URCap of the gripper installed, and is the address that of the arm's controller?")
+
+    def activate(self) -> None:
+        """Activate the gripper unless it is active; then its fingers open and close once."""
         try:
             if self._get("STA") != ACTIVE:
                 self._set(ACT=0)

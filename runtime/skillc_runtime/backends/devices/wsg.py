@@ -35,9 +35,12 @@ class WsgFingers(FingerDevice):
         return self._name
 
     def connect(self) -> None:
-        """Connect, and acknowledge a fast stop."""
+        """Connect."""
         self._line.open("is the text based interface enabled in its web page, and is the address right?")
         self._order = ""
+
+    def activate(self) -> None:
+        """Acknowledge a fast stop, if there was one."""
         try:
             self._send("FSACK()")
             self._receive("ACK FSACK", "FIN FSACK")

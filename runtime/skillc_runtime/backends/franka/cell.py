@@ -21,7 +21,7 @@ def make_backend(world: WorldModel, start: BackendStart) -> Backend:
     SheetError or FrameError if facts are missing, BackendUnavailable if a robot or pylibfranka is.
     """
     load_library()
-    return open_cell(world, describe, make_devices)
+    return open_cell(world, describe, make_devices, observed=start.observed)
 
 
 def make_devices(scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:

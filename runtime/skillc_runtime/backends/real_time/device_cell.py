@@ -21,6 +21,7 @@ from skillc_runtime.devices.device_stopper import DeviceStopper, StoppableArm
 from skillc_runtime.devices.drawing import Drawing
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.live import LiveSignals
+from skillc_runtime.devices.observed import CellObserver
 from skillc_runtime.devices.sensors import Button, Camera, IoPoint
 from skillc_runtime.world.state.model import WorldModel
 
@@ -42,10 +43,10 @@ class CellDevices:
 
     `tree_timeout_s` is how long a run may send no heartbeat before all devices are stopped.
     `live` is what is recorded of them in each period, by whoever calls its listeners; None for nothing.
-    `drawing` is how their model looks; None without one. `find_fault` returns why a device cannot go on, for example
-    because it does not answer, or a stop that it has reported; None while all can. `recover` acknowledges that; it
-    raises StopPersists if somebody has to do more. `passed` is called whenever time has passed, in the thread of
-    `advance`. `close` gives the devices back.
+    `drawing` is how their model looks, `observer` looks at them beside the scene; None without one. `find_fault`
+    returns why a device cannot go on, for example because it does not answer, or a stop that it has reported; None
+    while all can. `recover` acknowledges that; it raises StopPersists if somebody has to do more. `passed` is called
+    whenever time has passed, in the thread of `advance`. `close` gives the devices back.
     """
 
     arms: Mapping[str, StoppableArm] = field(default_factory=dict)
@@ -57,6 +58,7 @@ class CellDevices:
     inspection: Camera | None = None
     live: LiveSignals | None = None
     drawing: Drawing | None = None
+    observer: CellObserver | None = None
     find_fault: Callable[[], str | DeviceStop | None] = lambda: None
     recover: Callable[[], None] = lambda: None
     passed: Callable[[], None] = lambda: None
@@ -82,7 +84,7 @@ class DeviceCell(Backend, Cell):
         self._cameras = DeviceMap("camera", devices.cameras, names)
         self._buttons = DeviceMap("button", devices.buttons, names)
         self._io_points = DeviceMap("I/O point", devices.io_points, names)
-        self._capabilities = BackendCapabilities(live=devices.live, drawing=devices.drawing)
+        self._capabilities = BackendCapabilities(live=devices.live, drawing=devices.drawing, observer=devices.observer)
         self._stopper = DeviceStopper(devices.arms, devices.grippers, devices.bases, names)
         self._states = DeviceStates(world, devices.arms)
         self._states.begin()

@@ -10,6 +10,12 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from skillc_runtime.backends.control_process.joint_doubts import (
+    find_beyond,
+    find_confusion,
+    find_opposite_speeds,
+    find_opposite_weights,
+)
 from skillc_runtime.backends.ros2.cell import describe, joints_of
 from skillc_runtime.backends.ros2.commands import make_joint_commands
 from skillc_runtime.backends.ros2.facts import ArmInterface, read_base, read_gripper
@@ -25,10 +31,6 @@ LOOK_S, FIND_S = 2.0, 4.0
 """How long messages are counted, after the first one was waited for so long at most, in s."""
 RATE_SHARE = 0.2
 """By which share the rate of states may differ from that of the facts."""
-MOVES_RAD, MOVES_RAD_S = 0.01, 0.02
-"""What counts as a motion: a joint has moved so far, with this speed at least."""
-WEIGHS_N_M, WEIGHS_SHARE = 4.0, 0.5
-"""A joint that carries so much by the model, and measures this share of it the other way, is opposite to the model."""
 
 
 class Listened:
@@ -90,8 +92,7 @@ def _check_arm(arm: ArmSpec, facts: ArmInterface, session: Session) -> Iterator[
     if forces and not forces.times:
         yield describe_topic(session.node, forces.subscription.topic, forces.subscription.kind, offered=True)
     if rows and not order.missing:
-        yield from _check_motion(facts.joints, np.array(rows))
-        yield from _check_posture(arm, facts, rows[-1])
+        yield from _check_posture(arm, facts, np.array(rows))
     yield from _check_commands(facts, str(arm.model), session)
     services = facts.services
     yield from _check_services((services.recover, services.tare), session)
@@ -117,35 +118,21 @@ def _check_states(facts: ArmInterface, states: Listened, order: JointOrder, sess
         yield f"{facts.states} has {rate:.0f} messages a second; the facts say {facts.rate_hz:.0f} (ros2:updateRate)"
 
 
-def _check_motion(joints: tuple[str, ...], rows: Array) -> Iterator[str]:
-    """Yield the joints whose speeds have the other sign than the change of their positions, in what was seen."""
-    moved, speeds = rows[-1, 0] - rows[0, 0], np.nanmean(np.nan_to_num(rows[:, 1]), axis=0)
-    for name, way, speed in zip(joints, moved, speeds, strict=True):
-        if abs(way) > MOVES_RAD and abs(speed) > MOVES_RAD_S and way * speed < 0:
-            yield f"{name} moves by {way:+.2f} rad while it reports a speed of {speed:+.2f} rad/s"
-
-
-def _check_posture(arm: ArmSpec, facts: ArmInterface, last: Array) -> Iterator[str]:
-    """Yield joints outside their ranges, and those that carry weight in the other direction than the model says."""
+def _check_posture(arm: ArmSpec, facts: ArmInterface, rows: Array) -> Iterator[str]:
+    """Yield what joints tell of their units, order and signs; rows (n, 3, nv): positions, speeds, torques."""
     model: Any = mujoco.MjModel.from_xml_path(str(Path(arm.model)))
     data = mujoco.MjData(model)
-    q, _, effort = last
-    for name, value, (low, high) in zip(facts.joints, q, model.jnt_range, strict=True):
-        if not low - 0.01 <= value <= high + 0.01:
-            yield (
-                f"{name} is at {value:.2f}, and the model reaches from {low:.2f} to {high:.2f} rad: is it in degrees, "
-                "or are joints exchanged?"
-            )
-            return
-    data.qpos[: q.size] = q
-    mujoco.mj_forward(model, data)
-    weight = data.qfrc_bias[: q.size]
-    for name, carries, measured in zip(facts.joints, weight, effort, strict=True):
-        if facts.mode == "torque" and abs(carries) > WEIGHS_N_M and measured * carries < -WEIGHS_SHARE * carries**2:
-            yield (
-                f"{name} measures {measured:+.1f} N m, and carries {carries:+.1f} N m by the model: it turns opposite "
-                "to the model"
-            )
+    q, _, effort = rows[-1]
+    yield from find_opposite_speeds(facts.joints, rows[:, 0], rows[:, 1])
+    if (beyond := find_beyond(facts.joints, q, model.jnt_range)) is not None:
+        yield beyond
+        return
+    if (confusion := find_confusion(facts.joints, q, arm.home)) is not None:
+        yield confusion
+    if facts.mode == "torque":
+        data.qpos[: q.size] = q
+        mujoco.mj_forward(model, data)
+        yield from find_opposite_weights(facts.joints, data.qfrc_bias[: q.size], effort)
 
 
 def _check_commands(facts: ArmInterface, model: str, session: Session) -> Iterator[str]:

@@ -31,6 +31,12 @@ def draw_start(arm: ArmSpec, seed: int) -> tuple[float, ...]:
     return tuple(next(free, 0.0 * arm.home).tolist())
 
 
+def find_overlap(arm: ArmSpec, q: Array) -> str | None:
+    """Return what an arm overlaps with in the scene at joints q (nv,) in rad; None for nothing."""
+    found = _contacts(arm).deepest_overlap(q)
+    return None if found is None else f"{found.one} in {found.other}"
+
+
 def _draws(arm: ArmSpec, seed: int) -> Iterator[Array]:
     rng = rng_for(arm.individual, seed)
     for _ in range(MAX_DRAWS):

@@ -27,23 +27,33 @@ from skillc_runtime.world.state.world_state import WorldState
 
 def make_backend(world: WorldModel, start: BackendStart) -> DeviceCell:
     """Return a cell of arms of Universal Robots; it is `MakeBackend`."""
-    return open_arms(world)
+    return open_arms(world, observed=start.observed)
 
 
-def open_arms(world: WorldModel, patience: Patience = USUAL_PATIENCE, inspection: Camera | None = None) -> DeviceCell:
-    """Return the cell of a world model; `inspection` is the camera that inspects surfaces, where there is one."""
+def open_arms(
+    world: WorldModel,
+    patience: Patience = USUAL_PATIENCE,
+    inspection: Camera | None = None,
+    observed: bool = False,
+) -> DeviceCell:
+    """Return the cell of a world model; `inspection` is the camera that inspects surfaces, where there is one.
+
+    With `observed` nothing is taken under control, and no gripper is activated.
+    """
     state = world.snapshot()
 
     def describe(facts: ArmSpec) -> UrDescription:
         return UrDescription(read_facts(state, facts.individual, facts.sheet, facts.modes))
 
     def make_devices(scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
-        return replace(_open_devices(state, scene, arms), inspection=inspection)
+        return replace(_open_devices(state, scene, arms, observed), inspection=inspection)
 
-    return open_cell(world, describe, make_devices, patience)
+    return open_cell(world, describe, make_devices, patience, observed)
 
 
-def _open_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
+def _open_devices(
+    state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver], observed: bool
+) -> CellDevices:
     """Connect to grippers, and to the inputs and outputs of the controller where something is wired to them."""
     with ExitStack() as opened:
         grippers: dict[str, Fingers] = {}
@@ -51,7 +61,8 @@ def _open_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, Remote
             if facts.gripper is None:
                 continue
             arm, address = arms[facts.individual], read_address(state, facts.individual)
-            fingers = open_gripper(state, facts.gripper, address, arm.hold, partial(arm.set_load, None))
+            let_go = partial(arm.set_load, None)
+            fingers = open_gripper(state, facts.gripper, address, arm.hold, let_go, observed)
             opened.callback(fingers.close)
             grippers[facts.gripper.individual] = fingers
         wires = read_wires(state)

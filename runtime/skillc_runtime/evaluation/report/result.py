@@ -112,6 +112,20 @@ class TouchResult(msgspec.Struct, frozen=True, kw_only=True):
         return f"{self.part} touched {self.other}{force} at {self.start_s:.1f} s"
 
 
+class CommandsResult(msgspec.Struct, frozen=True, kw_only=True):
+    """What an arm would have been sent in a dry run: `count` commands, of which the limits have altered some.
+
+    `greatest_share` is that of a joint's limit of torque, or of speed, which `joint` was commanded.
+    """
+
+    arm: str
+    kind: Literal["torque", "position", "velocity"]
+    count: int
+    altered: int
+    joint: str
+    greatest_share: float
+
+
 class FailedCall(msgspec.Struct, frozen=True, kw_only=True):
     """A call that failed, with its implementation, and its source line."""
 
@@ -132,7 +146,8 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     `wipings` has one entry for each time a surface was wiped, `wiping` is the first of them; `placements` has one for
     each thing that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand
     or base. What only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its
-    clock. Arms and bases had the share `speed` of their speeds.
+    clock. Arms and bases had the share `speed` of their speeds. After a `dry` run `commands` are what would
+    have been sent, and nothing was: all else in it is simulated, and nothing `verified`.
     """
 
     task: str
@@ -152,6 +167,8 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     wall_time_s: float = 0.0
     real_time_factor: float = 0.0
     speed: float = 1.0
+    dry: bool = False
+    commands: tuple[CommandsResult, ...] = ()
     seed: int = 0
     variation: str = ""
     simulated: bool = True

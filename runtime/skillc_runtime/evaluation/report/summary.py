@@ -9,9 +9,17 @@ from typing import Any, Literal, cast
 from msgspec import structs
 
 from skillc_runtime.devices.backend import Backend
+from skillc_runtime.devices.command_record import ArmCommands
 from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets
 from skillc_runtime.evaluation.report.placements import measure_placements
-from skillc_runtime.evaluation.report.result import ChoiceResult, FailedCall, StepResult, TaskResult, TouchResult
+from skillc_runtime.evaluation.report.result import (
+    ChoiceResult,
+    CommandsResult,
+    FailedCall,
+    StepResult,
+    TaskResult,
+    TouchResult,
+)
 from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
 from skillc_runtime.evaluation.report.work_result import WorkResult
 from skillc_runtime.execution.execute import Execution
@@ -36,6 +44,7 @@ def summarise_start(task: str, backend: Backend, speed: float = 1.0) -> TaskResu
         variation="" if truth is None else truth.variation,
         simulated=truth is not None,
         speed=speed,
+        dry=backend.capabilities.commands is not None,
     )
 
 
@@ -68,6 +77,9 @@ def summarise_run(
         failure=describe_failure(execution.failure) if execution.failure else None,
         cause=execution.failure,
     )
+    if (record := backend.capabilities.commands) is not None:
+        sent = tuple(_summarise_commands(each) for each in record.commands() if each.times_s.size)
+        result = structs.replace(result, verified=None, commands=sent)
     result = _add_times(result, backend.clock.now - began_s, execution.wall_time_s)
     return _add_history(result, history) if execution.attempts else result
 
@@ -87,6 +99,18 @@ def summarise_recording(start: TaskResult, history: RunHistory, wall_time_s: flo
         cause=history.failure,
     )
     return _add_history(_add_times(result, history.last, wall_time_s), history)
+
+
+def _summarise_commands(sent: ArmCommands) -> CommandsResult:
+    joint = int(sent.shares.argmax())
+    return CommandsResult(
+        arm=sent.arm,
+        kind=sent.mode,
+        count=int(sent.times_s.size),
+        altered=sent.altered,
+        joint=sent.joints[joint],
+        greatest_share=float(sent.shares[joint]),
+    )
 
 
 def _add_times(result: TaskResult, took_s: float, wall_time_s: float) -> TaskResult:

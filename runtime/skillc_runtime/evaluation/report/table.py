@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 from skillc_runtime.evaluation.metrics.coverage_text import format_coverage
-from skillc_runtime.evaluation.report.result import ChoiceResult, PlacementResult, StepResult, TaskResult, WipingResult
+from skillc_runtime.evaluation.report.result import (
+    ChoiceResult,
+    CommandsResult,
+    PlacementResult,
+    StepResult,
+    TaskResult,
+    WipingResult,
+)
 from skillc_runtime.evaluation.report.work_rows import list_work_rows, shorten_rows
 from skillc_runtime.recording.failure_text import list_details
 from skillc_runtime.recording.known_facts import format_evidence
@@ -51,8 +58,16 @@ def list_table_rows(result: TaskResult) -> list[tuple[str, str]]:
         *(row for wiping in result.wipings for row in _wiping_rows(wiping, len(result.wipings) > 1)),
         *list_work_rows(result.works),
         *shorten_rows([(str(each.thing), format_placement(each)) for each in result.placements]),
+        *(("would be sent", _describe_commands(each)) for each in result.commands),
         *_time_rows(result),
     ]
+
+
+def _describe_commands(sent: CommandsResult) -> str:
+    of = "torque" if sent.kind == "torque" else "speed"
+    altered = f", {sent.altered} of them altered by the limits" if sent.altered else ""
+    greatest = f"{sent.joint} reaches {100 * sent.greatest_share:.0f} % of its {of}"
+    return f"{sent.arm}: {sent.count} commands of {sent.kind}{altered}; {greatest}"
 
 
 def _reality_rows(result: TaskResult) -> list[tuple[str, str]]:

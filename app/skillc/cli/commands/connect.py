@@ -1,0 +1,113 @@
+"""Look at the devices of a scene, without moving them.
+
+Shows the condition of each arm, and what is measured beside what the scene says.
+
+Exit code 1 if a device is not ready or contradicts the scene, with --once and --json; 0 after Ctrl-C.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from skillc.cli.command import Command
+from skillc.cli.completions import complete_scene
+from skillc.cli.console import find_display_obstacle, page_of, print_json, print_lines, print_remark
+from skillc.cli.options import BACKEND, PATH, json_option
+
+if TYPE_CHECKING:
+    from skillc_runtime.devices.observed import CellObserver, ObservedCell
+
+LOOK_S = 0.2
+"""How often the devices are looked at, in s."""
+SETTLE_S = 0.5
+"""How long the devices are looked at before something is said once, in s: what moves is seen then."""
+EXAMPLES = """
+skillc connect cell.ttl --backend ur
+skillc connect cell.ttl --backend ros2 --once
+skillc connect cell.ttl --backend franka --json
+"""
+
+
+@click.command(cls=Command, examples=EXAMPLES)
+@click.argument("scene", type=PATH, shell_complete=complete_scene)
+@click.option("--backend", type=BACKEND, required=True, help="The back end of the devices, such as `ur`.")
+@click.option("--once", is_flag=True, help="Look once, print what is there, and end.")
+@json_option
+def command(scene: Path, backend: str, once: bool, as_json: bool) -> int:
+    """Connect to the devices of SCENE and show what they tell, until Ctrl-C. Nothing is moved or taken under control.
+
+    On a terminal the display is kept up to date; elsewhere it is printed again when a condition or a remark changes.
+    """
+    from skillc.cli.console import Terminal
+    from skillc.services.connecting import connected_scene
+    from skillc.services.library_files import find_scene
+
+    with connected_scene(find_scene(scene), backend, Terminal()) as observer:
+        if not once and not as_json:
+            _watch(observer)
+            return 0
+        seen = _settle(observer)
+    if as_json:
+        print_json({"cell": seen, "problems": seen.problems})
+    else:
+        _print(seen)
+    return 1 if seen.problems else 0
+
+
+def _settle(observer: CellObserver) -> ObservedCell:
+    until = time.monotonic() + SETTLE_S
+    seen = observer.observe()
+    while time.monotonic() < until:
+        time.sleep(LOOK_S / 2)
+        seen = observer.observe()
+    return seen
+
+
+def _watch(observer: CellObserver) -> None:
+    try:
+        if find_display_obstacle() is None and sys.stdout.isatty():
+            _show(observer)
+        else:
+            _print_changes(observer)
+    except KeyboardInterrupt:
+        print_remark("nothing was moved")
+
+
+def _show(observer: CellObserver) -> None:
+    """Show what the devices tell, in place."""
+    from rich.live import Live
+    from rich.text import Text
+
+    from skillc.cli.connect_output import format_cell
+    from skillc.cli.console import rich_console
+
+    page, console = page_of(sys.stderr), rich_console(sys.stderr)
+    with Live(console=console, auto_refresh=False, transient=False) as live:
+        while True:
+            lines = format_cell(observer.observe(), page)
+            live.update(Text.from_ansi("\n".join([*lines, "", "Ctrl-C ends; nothing is moved"])), refresh=True)
+            time.sleep(LOOK_S)
+
+
+def _print_changes(observer: CellObserver) -> None:
+    """Print what the devices tell, again whenever a condition or a remark is another one."""
+    said: tuple[list[str], int] | None = None
+    while True:
+        seen = observer.observe()
+        if (says := ([each.condition for each in seen.arms], len(seen.problems))) != said:
+            said = says
+            _print(seen)
+        time.sleep(LOOK_S)
+
+
+def _print(seen: ObservedCell) -> None:
+    from skillc.cli.connect_output import format_cell
+
+    print_lines([*format_cell(seen, page_of(sys.stdout)), ""])
+    sys.stdout.flush()
+    print_remark("the devices are ready and as the scene says" if not seen.problems else "no task can begin as it is")

@@ -1,0 +1,60 @@
+"""Dry runs: devices are looked at, and what they would be sent in a task is computed, in simulation, and kept."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import replace
+from pathlib import Path
+
+from skillc.errors import ServiceError
+from skillc.services.connecting import connected_devices
+from skillc.services.task_loading import LoadedTask
+from skillc_runtime.backends.control_process.dry_cell import DryCell
+from skillc_runtime.devices.backend import Backend
+from skillc_runtime.devices.command_record import UNITS, CommandRecord
+from skillc_runtime.recording.run_spec import RunSpec
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.model import WorldModel
+
+COMMANDS = "commands.csv"
+"""The file with what would be sent, in the folder of a run."""
+
+
+class DryRefused(Exception):
+    """A dry run cannot begin where the devices are; the message says why."""
+
+
+def with_own_world(task: LoadedTask) -> LoadedTask:
+    """Return a task in a copy of its world: what a simulation does is no fact."""
+    return replace(task, world=WorldModel(task.world.snapshot()))
+
+
+def make_dry_cell(spec: RunSpec, world: WorldModel) -> Backend:
+    """Look where the devices of a back end are, and return a simulation that begins there.
+
+    DryRefused if a device is not ready, or contradicts the scene; RequestError and ServiceError as of
+    `connected_devices`.
+    """
+    with connected_devices(world.snapshot(), spec.backend) as observer:
+        seen = observer.observe()
+    if seen.problems:
+        raise DryRefused("; ".join(seen.problems))
+    try:
+        return DryCell(world, spec.seed, seen)
+    except SheetError as error:
+        raise DryRefused(str(error)) from error
+
+
+def write_commands(record: CommandRecord, folder: Path) -> None:
+    """Write what would be sent, one row a cycle and arm; ServiceError if the folder cannot be written to."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with (folder / COMMANDS).open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file)
+            for sent in record.commands():
+                writer.writerow(("arm", "kind", "unit", "time_s", *sent.joints))
+                for time_s, values in zip(sent.times_s, sent.values, strict=True):
+                    row = (sent.arm, sent.mode, UNITS[sent.mode], f"{time_s:.4f}", *(f"{each:.6f}" for each in values))
+                    writer.writerow(row)
+    except OSError as error:
+        raise ServiceError(f"{folder / COMMANDS} cannot be written: {error.strerror}") from error

@@ -1,0 +1,80 @@
+"""The cell of a dry run: a simulation that begins where the devices were measured, and keeps what would be sent."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from skillc_runtime.backends.control_process.dry_arm import CommandKeeper, DryArm
+from skillc_runtime.backends.control_process.fingers import find_fingers
+from skillc_runtime.backends.mujoco.arm import SimulatedArm
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
+from skillc_runtime.backends.simulation.start_postures import find_overlap
+from skillc_runtime.devices.command_record import ArmCommands
+from skillc_runtime.devices.observed import ObservedArm, ObservedCell
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.model import WorldModel
+
+STEP_S = 0.001
+
+
+class DryCell(SimulatedCell):
+    """A simulated cell whose arms have the rates of their devices; implements `CommandRecord`."""
+
+    def __init__(self, world: WorldModel, seed: int, seen: ObservedCell) -> None:
+        """Begin where the devices were seen.
+
+        SheetError or FrameError if facts are missing, or if an arm that stands there touches something by the scene.
+        """
+        self._seen = {each.arm: each for each in seen.arms}
+        self._openings = {each.gripper: each.opening_m for each in seen.grippers}
+        period_s = min(each.period_s for each in seen.arms)
+        self._kept: dict[str, DryArm] = {}
+        super().__init__(world, seed, STEP_S, max(1, round(period_s / STEP_S)))
+        self.capabilities = replace(self.capabilities, checkpoints=None, commands=self)
+
+    def commands(self) -> tuple[ArmCommands, ...]:
+        """Return the commands of all arms."""
+        return tuple(arm.keeper.collect(arm, name) for name, arm in sorted(self._kept.items()))
+
+    def _start(self, arm: ArmSpec) -> Array:
+        seen = self._seen[self.scene.names[arm.individual]]
+        q = np.array([each.measured_rad for each in seen.joints])
+        if (overlap := find_overlap(arm, q)) is not None:
+            raise SheetError(
+                f"{seen.arm} is measured where the scene has something else, with {overlap}: correct the scene, or "
+                "move the arm"
+            )
+        return q
+
+    def _make_arms(self) -> tuple[dict[str, SimulatedArm], dict[str, SimulatedGripper]]:
+        names, things = self.scene.names, self.scene.graspable
+        arms: dict[str, SimulatedArm] = {}
+        hands: dict[str, SimulatedGripper] = {}
+        for facts in self.scene.arms:
+            arms[facts.individual] = arm = self._make_arm(facts, self._seen[names[facts.individual]])
+            if (gripper := facts.gripper) is not None:
+                hand = SimulatedGripper(gripper, names, things, arm, self.model, self.data, self.variation.seed)
+                hands[facts.individual] = hand
+                self._place_fingers(names[gripper.individual], hand)
+        return arms, hands
+
+    def _make_arm(self, facts: ArmSpec, seen: ObservedArm) -> DryArm:
+        names, steps = self.scene.names, self._steps_per_command
+        name, palm = names[facts.individual], None if facts.gripper is None else names[facts.gripper.individual]
+        arm = DryArm(facts, name, palm, self.model, self.data, self._start(facts), self.variation.seed, steps)
+        arm.keeper = CommandKeeper(facts, tuple(each.joint for each in seen.joints), self.period_s)
+        self._kept[name] = arm
+        return arm
+
+    def _place_fingers(self, name: str, hand: SimulatedGripper) -> None:
+        """Let a gripper be as open as it was seen."""
+        if name in self._openings:
+            opening = min(max(self._openings[name], 0.0), hand.max_opening_m)
+            fingers, shares = find_fingers(self.model, name)
+            self.data.qpos[fingers] = opening / shares.sum()
+            hand.move(opening, hand.max_force_n)
