@@ -47,7 +47,8 @@ def run(task: str | None = None, **settings: Unpack[RunKeywords]) -> Run:
     `Wipe(surface: lab:Table-1)`. With `out` it is recorded in that folder, with a report, figures and, unless `film`
     is false, a film; `signals` adds the signals of its devices as `csv` or `parquet`, `gif` a film that repeats, with
     the `looks` of devices. `backend` is the name of one that is installed: `mujoco`, `kinematic`, which is faster,
-    without physics, or that of a package. `seed` determines how a simulation differs from the world model. The task
+    without physics, or that of a package; with `dry` its devices are looked at, and the task is simulated from there.
+    Arms and bases have the share `speed`, above 0 to 1, of their speeds. `seed` determines how a simulation differs from the world model. The task
     fails when it takes longer than `deadline_s` s of the cell's time, a primitive or a wait when it takes longer than
     `step_deadline_s` s. Plans are reused unless `plan_cache` is false.
 
@@ -62,7 +63,7 @@ def start(task: str | None = None, **settings: Unpack[StartKeywords]) -> Operati
 
     The parameters are those of `run`. `pace` is `fast`, `real`, or a factor of real time. With `step` it
     pauses before the first call of a skill, and this returns then; it also pauses before each SKILL or FILE:LINE of
-    `breakpoints`.
+    `breakpoints`, and with `confirm_steps` before each step.
 
     DiagnosticsError if the library, the scene, the goal or the call has errors, RequestError if what is named does not
     exist, SkillcError if the folder cannot be written to.

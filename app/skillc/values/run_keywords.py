@@ -21,7 +21,7 @@ class WorkKeywords(TypedDict, total=False):
     """Let a primitive or a wait fail if it has not ended after these seconds of the cell's time, without those that
     it was paused."""
     speed: float
-    """Move arms and bases with this share of their speeds, such as `10 %` or 0.1; forces stay as they are."""
+    """Move arms and bases with this share of their speeds, above 0 to 1; forces stay as they are."""
     minimise: Literal["makespan", "work"]
     """Minimise the total duration of all steps, or the time until the last one ends."""
     plan_cache: bool
@@ -106,7 +106,7 @@ class SubmitKeywords(TypedDict, total=False):
     """Let a primitive or a wait fail if it has not ended after these seconds of the cell's time, without those that
     it was paused."""
     speed: float
-    """Move arms and bases with this share of their speeds, such as `10 %` or 0.1; forces stay as they are."""
+    """Move arms and bases with this share of their speeds, above 0 to 1; forces stay as they are."""
     priority: int
     """Of those that wait for planners or devices, the higher comes first; nothing that runs gives way."""
 

@@ -71,7 +71,7 @@ class RunRequest(TaskRequest, frozen=True, kw_only=True):
     speed: Annotated[
         Annotated[float, msgspec.Meta(gt=0.0, le=1.0)],
         documented(
-            "Move arms and bases with this share of their speeds, such as `10 %` or 0.1; forces stay as they are.",
+            "Move arms and bases with this share of their speeds, above 0 to 1; forces stay as they are.",
             EXECUTION,
             metavar="SHARE",
         ),

@@ -41,7 +41,7 @@ export const RUN_FORM: readonly RunField[] = [
   {
     "name": "speed",
     "kind": "number",
-    "text": "Move arms and bases with this share of their speeds, such as `10 %` or 0.1; forces stay as they are."
+    "text": "Move arms and bases with this share of their speeds, above 0 to 1; forces stay as they are."
   },
   {
     "name": "priority",

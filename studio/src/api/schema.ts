@@ -451,7 +451,7 @@ export interface components {
              */
             confirm_steps?: boolean;
             /**
-             * @description Move arms and bases with this share of their speeds, such as `10 %` or 0.1; forces stay as they are.
+             * @description Move arms and bases with this share of their speeds, above 0 to 1; forces stay as they are.
              * @default 1
              */
             speed?: number;
@@ -1267,7 +1267,7 @@ export interface components {
              */
             confirm_steps?: boolean;
             /**
-             * @description Move arms and bases with this share of their speeds, such as `10 %` or 0.1; forces stay as they are.
+             * @description Move arms and bases with this share of their speeds, above 0 to 1; forces stay as they are.
              * @default 1
              */
             speed?: number;

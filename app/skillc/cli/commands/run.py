@@ -25,6 +25,7 @@ skillc run clean_table --out out
 skillc run contact:press_button --seed 3 --pace real
 skillc run --scene cell.ttl --goal "lab:Bin-A contain lab:Part-1"
 skillc run clean_table --breakpoints Wipe
+skillc run clean_table --speed 10% --confirm-steps
 """
 
 
