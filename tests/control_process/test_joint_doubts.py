@@ -41,7 +41,7 @@ def test_degrees_are_beyond_the_range() -> None:
 
 
 def test_speeds_and_weights_with_another_sign_are_named() -> None:
-    q, dq = np.linspace(HOME, HOME + [0.1, 0.0, 0.1], 5), np.tile([0.1, 0.0, -0.1], (5, 1))
+    q, dq = np.linspace(HOME, HOME + np.array([0.1, 0.0, 0.1]), 5), np.tile([0.1, 0.0, -0.1], (5, 1))
     assert list(find_opposite_speeds(NAMES, q, dq)) == ["J3 moves by +0.10 rad while it reports a speed of -0.10 rad/s"]
     weights = list(find_opposite_weights(NAMES, np.array([1.0, 20.0, 8.0]), np.array([-1.0, 19.0, -7.0])))
     assert len(weights) == 1 and weights[0].startswith("J3 measures -7.0 N m, and carries +8.0 N m by the model")

@@ -48,9 +48,9 @@ def run(task: str | None = None, **settings: Unpack[RunKeywords]) -> Run:
     is false, a film; `signals` adds the signals of its devices as `csv` or `parquet`, `gif` a film that repeats, with
     the `looks` of devices. `backend` is the name of one that is installed: `mujoco`, `kinematic`, which is faster,
     without physics, or that of a package; with `dry` its devices are looked at, and the task is simulated from there.
-    Arms and bases have the share `speed`, above 0 to 1, of their speeds. `seed` determines how a simulation differs from the world model. The task
-    fails when it takes longer than `deadline_s` s of the cell's time, a primitive or a wait when it takes longer than
-    `step_deadline_s` s. Plans are reused unless `plan_cache` is false.
+    Arms and bases have the share `speed`, above 0 to 1, of their speeds. `seed` determines how a simulation differs
+    from the world model. The task fails when it takes longer than `deadline_s` s of the cell's time, a primitive or a
+    wait when it takes longer than `step_deadline_s` s. Plans are reused unless `plan_cache` is false.
 
     An interrupt from the keyboard stops the task safely, and is raised again. Errors as of `start`.
     """
