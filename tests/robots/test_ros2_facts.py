@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
 from robots.ros2.test_link import MODEL_JOINTS, SCENE
 from simulation.cells import LAB, vocabulary
-from skillc_runtime.backends.ros2.facts import read_arm, read_base, read_gripper
+from skillc_runtime.backends.ros2.facts import read_arm, read_base, read_camera, read_gripper
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.world_state import WorldState
@@ -48,12 +49,33 @@ def test_names_without_a_slash_are_below_the_namespace(tmp_path: Path) -> None:
 
 
 def test_a_law_on_the_robots_side_has_topics_for_its_targets(tmp_path: Path) -> None:
-    more = """lab:Arm-1 skiros:CartesianGoalAction "goal" ; skiros:CartesianStiffnessTopic "k" ;
+    more = """lab:Arm-1 ros2:targetPoseTopic "goal" ; skiros:CartesianStiffnessTopic "k" ;
         skiros:LinkedToFrameId "arm_base" ; skiros:MoveItTCPLink "gripper_tcp" ; ros2:complianceFrame "flange" ."""
     tool = read_arm(state(more, tmp_path), ARM, MODEL_JOINTS, "position", on_robot=True).tool
     assert tool is not None
     assert (tool.pose, tool.stiffness, tool.wrench, tool.frame) == ("/goal", "/k", "", "arm_base")
-    assert (tool.of_flange, tool.along_flange) == (False, True)
+    assert (tool.of_flange, tool.along_flange, tool.flange) == (False, True, "tool0")
+
+
+def test_commands_of_actions_go_to_those_of_ros2_control(tmp_path: Path) -> None:
+    more = """lab:Arm-1 skiros:JointConfigurationController "scaled" ;
+        ros2:commandType "control_msgs/action/FollowJointTrajectory" .
+        lab:Hand-1 ros2:commandType "control_msgs/action/GripperCommand" ."""
+    here = state(more, tmp_path)
+    assert read_arm(here, ARM, MODEL_JOINTS, "position").command == "/scaled/follow_joint_trajectory"
+    hand = read_gripper(here, HAND, ("left_finger", "right_finger"))
+    assert (hand.command, hand.opening(0.02), hand.position(0.04)) == ("/gripper_controller/gripper_cmd", 0.04, 0.02)
+
+
+def test_a_camera_has_frames_and_images_and_none_without_facts(tmp_path: Path) -> None:
+    camera = """lab:Camera-1 a skillc:Camera ; skillc:hasSheet skillc:depth-camera-sheet ; skillc:on lab:Cell"""
+    assert read_camera(state(camera + " .", tmp_path), LAB + "Camera-1") is None
+    more = """ ; skiros:LinkedToFrameId "optical" ; ros2:depthTopic "left/depth/image_raw" .
+        lab:Pedestal skiros:LinkedToFrameId "foot" ."""
+    found = read_camera(state(camera + more, tmp_path), LAB + "Camera-1")
+    assert found is not None
+    assert (found.frame, found.frames[LAB + "Pedestal"]) == ("optical", "foot")
+    assert (found.image, found.info) == ("", "/left/depth/camera_info")
 
 
 @pytest.mark.parametrize(
@@ -65,6 +87,12 @@ def test_a_law_on_the_robots_side_has_topics_for_its_targets(tmp_path: Path) -> 
         ('ros2:commandType "trajectory_msgs/msg/JointTrajectory"', "velocity", False, "its controller gives velocity"),
         ('ros2:stateReliability "good"', "position", False, "it is 'reliable' or 'best-effort'"),
         ("ros2:updateRate 100.0", "torque", False, "state with ros2:carriesWeight whether"),
+        (
+            'skiros:CartesianGoalAction "go"',
+            "position",
+            True,
+            "go (skiros:CartesianGoalAction) moves the tool by itself",
+        ),
         ("ros2:updateRate 100.0", "position", True, "state the topic of its target poses as ros2:targetPoseTopic"),
     ],
 )
@@ -72,7 +100,7 @@ def test_facts_that_contradict_are_refused(more: str, mode: str, on_robot: bool,
     text = SCENE.read_text("utf-8").replace("ros2:updateRate 125.0 ;", "")
     path = tmp_path / "cell.ttl"
     path.write_text(f"{text}\nlab:Arm-1 {more} .\n", "utf-8")
-    with pytest.raises(SheetError, match=words.replace("(", r"\(")):
+    with pytest.raises(SheetError, match=re.escape(words)):
         read_arm(load_scene(path, vocabulary()), ARM, MODEL_JOINTS, mode, on_robot)  # type: ignore[arg-type]
 
 

@@ -17,8 +17,10 @@ class Options:
 
     rate_hz: how often states are published and commands taken. control: the controllers that are active. loss: the
     share of messages that get lost, in each direction; jitter_s: the greatest delay of those that do not. reverse:
-    joint states are in reverse order. degrees: they are in degrees, as no driver should publish them. exact: there are
-    no differences from the facts of the scene; otherwise `seed` draws them. seconds: after which the process ends.
+    joint states are in reverse order. described: the robot publishes its URDF. shuffled: its controller of positions
+    tells its joints, and takes them in reverse order. degrees: states are in degrees, as no driver should publish them.
+    exact: there are no differences from the facts of the scene; otherwise `seed` draws them. seconds: after which the
+    process ends.
     """
 
     scene: str
@@ -27,6 +29,8 @@ class Options:
     control: Literal["position", "velocity", "effort", "trajectory", "cartesian", "none"] = "position"
     namespace: str = ""
     joint_names: dict[str, str] = field(default_factory=dict)
+    described: bool = False
+    shuffled: bool = False
     loss: float = 0.0
     jitter_s: float = 0.0
     reverse: bool = False

@@ -12,6 +12,7 @@ from std_msgs.msg import Float64MultiArray
 from trajectory_msgs.msg import JointTrajectory
 
 from robots.ros2.cartesian import CartesianImpedance
+from robots.ros2.describing import describe
 from skillc_runtime.devices.arm import Command, JointPosition, JointVelocity, Torque
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 
@@ -52,6 +53,10 @@ class Arm:
         }
         if control in topics:
             peer.subscribe(*topics[control])
+        if peer.options.described:
+            peer.describe(describe(model, prefix, peer.options.joint_names))
+        if peer.options.shuffled:
+            peer.add_controller("forward_position_controller", self.names[::-1], "position")
         if self._law is not None:
             peer.subscribe("cartesian_controller/joint_trajectory", JointTrajectory, self._take_posture)
             peer.subscribe("cartesian_controller/reference_pose", PoseStamped, self._take_pose)
@@ -97,7 +102,7 @@ class Arm:
         self._peer.send(self._wrench, message)
 
     def _take(self, message: Float64MultiArray) -> None:
-        values = np.array(message.data)
+        values = np.array(message.data)[:: -1 if self._peer.options.shuffled else 1]
         self._check(values)
         self._last = values
 

@@ -22,7 +22,7 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Bool, Float64
+from std_msgs.msg import Bool, Float64, String
 from std_srvs.srv import Trigger
 
 from robots.ros2.channel import Channel, Options, Report
@@ -63,6 +63,7 @@ class Peer:
         self._context = Context()
         rclpy.init(context=self._context)
         self._node = Node("robot", namespace=options.namespace or None, context=self._context, enable_rosout=False)
+        self._latched = QoSProfile(depth=1, durability=rclpy.qos.DurabilityPolicy.TRANSIENT_LOCAL)
         self._subscriptions: list[tuple[Any, Any, Callable[[Any], None]]] = []
         self._executor = rclpy.executors.SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
@@ -82,8 +83,7 @@ class Peer:
         self.hands = {each: Hand(each, self) for each in hands}
         self.bases = [Base(each.individual, self) for each in self.cell.scene.bases]
         self._states = self.publisher("joint_states", JointState)
-        latched = QoSProfile(depth=1, durability=rclpy.qos.DurabilityPolicy.TRANSIENT_LOCAL)
-        self._running = self._node.create_publisher(Bool, "robot_program_running", latched)
+        self._running = self._node.create_publisher(Bool, "robot_program_running", self._latched)
         self._running.publish(Bool(data=True))
         self.serve("stop_program", lambda: self._run_program(False))
         self.serve("resend_program", lambda: self._run_program(True))
@@ -113,6 +113,18 @@ class Peer:
             return response
 
         self._node.create_service(Trigger, name, answer)
+
+    def describe(self, urdf: str) -> None:
+        """Publish the URDF of the robot."""
+        self._description = self._node.create_publisher(String, "robot_description", self._latched)
+        self._description.publish(String(data=urdf))
+
+    def add_controller(self, name: str, joints: list[str], interface: str) -> None:
+        """Let a node of a name tell its parameters, as a controller of ros2_control does."""
+        node = Node(name, namespace=self.options.namespace or None, context=self._context, enable_rosout=False)
+        node.declare_parameter("joints", joints)
+        node.declare_parameter("interface_name", interface)
+        self._executor.add_node(node)
 
     def send(self, publisher: Any, message: Any) -> None:
         """Publish a message through the channel."""

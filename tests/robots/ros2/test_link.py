@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from time import monotonic
+from time import monotonic, sleep
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from robots.ros2.running import Robot, robot
 from simulation.cells import vocabulary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.control_process.link import KINDS, ControlRefused, LinkLost, make_command, make_state
+from skillc_runtime.backends.ros2.controller import ask_controller
 from skillc_runtime.backends.ros2.facts import ArmInterface, read_arm
 from skillc_runtime.backends.ros2.link import Ros2Description, Ros2Link
 from skillc_runtime.backends.ros2.session import Session, find_message
@@ -29,6 +30,8 @@ pytestmark = pytest.mark.slow
 SCENE = Path(__file__).with_name("cell.ttl")
 MODEL_JOINTS = ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")
 IN_ROS = {name: f"{name}_joint" for name in MODEL_JOINTS}
+TELLING = {"described": True, "shuffled": True}
+"""The robot publishes its URDF, and its controller tells its joints, in another order than the model's."""
 HOME = [0.0, -1.9, 2.2, -1.87, -1.5708, 0.0]
 
 
@@ -50,7 +53,9 @@ def link_of(interface: ArmInterface) -> Iterator[Ros2Link]:
 @pytest.fixture(scope="module")
 def there(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Robot]:
     """Return a robot whose driver takes positions, and publishes its joints in another order than the model's."""
-    with robot(SCENE, tmp_path_factory.mktemp("robot"), rate_hz=125, reverse=True, joint_names=IN_ROS) as found:
+    with robot(
+        SCENE, tmp_path_factory.mktemp("robot"), rate_hz=125, reverse=True, joint_names=IN_ROS, **TELLING
+    ) as found:
         yield found
 
 
@@ -92,7 +97,7 @@ def test_a_silent_robot_is_lost_by_the_name_of_its_topic_and_found_again(there: 
     with link_of(facts()) as link:
         there.pause()
         try:
-            with pytest.raises(LinkLost, match=r"/joint_states has been silent for \d\.\d\d s"):
+            with pytest.raises(LinkLost, match=r"/(joint_states|\w+/wrench) has been silent for \d\.\d\d s"):
                 wait_until(link, lambda: False)
         finally:
             there.go_on()
@@ -108,6 +113,35 @@ def test_joints_of_other_names_are_listed_with_those_that_are_there(there: Robot
         link_of(wrong),
     ):
         pass
+
+
+def test_joints_that_are_exchanged_in_the_facts_are_found_before_anything_moves(there: Robot) -> None:
+    pan, lift, *others = facts().joints
+    wrong = facts(joints=(lift, pan, *others))
+    with pytest.raises(BackendUnavailable, match=r"by /robot_description, .* turns about another axis"), link_of(wrong):
+        pass
+
+
+def test_a_controller_of_other_joints_or_of_other_commands_is_named(there: Robot) -> None:
+    session = Session("asks")
+    try:
+        wait_until_true(lambda: bool(ask_controller(session, facts().command).joints))
+        controller = ask_controller(session, facts().command)
+    finally:
+        session.close()
+    assert controller.joints == facts().joints[::-1]
+    assert controller.find_problem(facts().joints, "position") is None
+    assert "takes position commands; the law of the arm gives velocity" in str(
+        controller.find_problem(facts().joints, "velocity")
+    )
+    assert "those of the facts are a, b (ros2:jointNames)" in str(controller.find_problem(("a", "b"), "position"))
+
+
+def wait_until_true(holds: Callable[[], bool], seconds: float = 10.0) -> None:
+    end = monotonic() + seconds
+    while not holds():
+        assert monotonic() < end
+        sleep(0.05)
 
 
 def test_a_topic_that_nobody_publishes_or_that_has_another_type_is_named(there: Robot) -> None:

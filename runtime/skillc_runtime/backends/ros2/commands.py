@@ -1,21 +1,32 @@
-"""Publishes the commands of one arm: joint values, trajectories of one point, or targets of a Cartesian controller."""
+"""Sends the commands of one arm's joints: arrays, or trajectories of one point each by a topic or an action."""
 
 from __future__ import annotations
 
+from math import inf
+from time import monotonic
 from typing import Protocol, TypeAlias
 
 import numpy as np
 
 from skillc_runtime.backends.control_process.link import CommandKind, CommandView, Condition
-from skillc_runtime.backends.ros2.facts import ARRAY, TRAJECTORY, ArmInterface
+from skillc_runtime.backends.ros2.actions import Action
+from skillc_runtime.backends.ros2.controller import ask_controller
+from skillc_runtime.backends.ros2.facts import ARRAY, FOLLOW, TRAJECTORY, ArmInterface
 from skillc_runtime.backends.ros2.flange import FlangeTurn
 from skillc_runtime.backends.ros2.session import Session, describe_topic, find_message, name_nodes
 from skillc_runtime.motion.arrays import OutVector
 from skillc_runtime.motion.pose import Array
 
+SLOWEST_S = 0.2
+"""The longest time that a goal of an action may take to be reached."""
+
 
 class Commands(Protocol):
     """What an arm is commanded through."""
+
+    def fit(self) -> str | None:
+        """Ask the controller what it takes; return why these commands are not for it, or None."""
+        ...
 
     def begin(self, q: Array) -> None:
         """Prepare for commands, with the joints at q (nv,) in rad."""
@@ -59,27 +70,39 @@ class Target:
 
 
 class ArrayCommands:
-    """Commands as an array of joint values, in the order of the model; implements `Commands` for joints."""
+    """Commands as an array of joint values; implements `Commands` for joints.
+
+    They are in the order of the model, unless the controller tells that it has another one.
+    """
 
     def __init__(self, facts: ArmInterface, session: Session, turn: FlangeTurn) -> None:
         self._target = Target(session, facts.command, ARRAY, facts.quality.reliable_commands)
-        self._mode, self._carries, self.turn_to_flange = facts.mode, facts.carries_weight, turn
+        self._facts, self._session, self.turn_to_flange = facts, session, turn
+        self._places = list(range(len(facts.joints)))
         message = self._target.message
         message.data = np.zeros(len(facts.joints)).tolist()
         self._values = np.frombuffer(message.data)
+
+    def fit(self) -> str | None:
+        """Ask the controller what it takes, and take over its order; return why it is not the right one, or None."""
+        facts, controller = self._facts, ask_controller(self._session, self._facts.command)
+        if (problem := controller.find_problem(facts.joints, facts.mode)) is not None:
+            return problem
+        self._places = controller.places(facts.joints)
+        return None
 
     def begin(self, q: Array) -> None:
         """Do nothing: controllers hold the arm where they were activated."""
 
     def send(self, kind: CommandKind, command: CommandView) -> str | None:
         """Publish the values of a command."""
-        self._values[:] = command.values
+        self._values[self._places] = command.values
         self._target.publisher.publish(self._target.message)
         return None
 
     def rest(self, q: Array) -> None:
         """Publish the speed 0, or the torque 0 where the driver carries the arm; a position is kept anyway."""
-        if self._mode == "velocity" or (self._mode == "torque" and self._carries):
+        if self._facts.mode == "velocity" or (self._facts.mode == "torque" and self._facts.carries_weight):
             self._values[:] = 0.0
             self._target.publisher.publish(self._target.message)
 
@@ -93,13 +116,18 @@ class TrajectoryCommands:
 
     def __init__(self, facts: ArmInterface, session: Session, turn: FlangeTurn) -> None:
         self._target = Target(session, facts.command, TRAJECTORY, facts.quality.reliable_commands)
-        self.turn_to_flange = turn
+        self._facts, self._session, self.turn_to_flange = facts, session, turn
         message, point = self._target.message, find_message("trajectory_msgs/msg/JointTrajectoryPoint")()
         message.joint_names = list(facts.joints)
         point.positions = np.zeros(len(facts.joints)).tolist()
         point.time_from_start.nanosec = int(1e9 / facts.rate_hz)
         message.points = [point]
         self._values = np.frombuffer(point.positions)
+
+    def fit(self) -> str | None:
+        """Ask the controller what it takes; return why it is not the right one, or None: messages name the joints."""
+        controller = ask_controller(self._session, self._facts.command)
+        return controller.find_problem(self._facts.joints, self._facts.mode)
 
     def begin(self, q: Array) -> None:
         """Do nothing: the controller holds the arm."""
@@ -118,11 +146,57 @@ class TrajectoryCommands:
         return self._target.find_obstacle()
 
 
-JointCommands: TypeAlias = ArrayCommands | TrajectoryCommands
+class ActionCommands:
+    """Commands as goals of one point each, as fast as the server accepts them; implements `Commands` for joints."""
+
+    def __init__(self, facts: ArmInterface, session: Session, turn: FlangeTurn) -> None:
+        self._action, self._facts, self.turn_to_flange = Action(session, facts.command, FOLLOW), facts, turn
+        self._session = session
+        self._goal, point = self._action.made_of.Goal(), find_message("trajectory_msgs/msg/JointTrajectoryPoint")()
+        self._goal.trajectory.joint_names = list(facts.joints)
+        self._goal.trajectory.points = [point]
+        self._sent_s = -inf
+
+    def fit(self) -> str | None:
+        """Ask the controller what it takes; return why it is not the right one, or None: goals name the joints."""
+        controller = ask_controller(self._session, self._facts.command)
+        return controller.find_problem(self._facts.joints, self._facts.mode)
+
+    def begin(self, q: Array) -> None:
+        """Do nothing: the controller holds the arm."""
+
+    def send(self, kind: CommandKind, command: CommandView) -> str | None:
+        """Send the positions, to be reached by when the next goal will come; return why the last one has failed."""
+        action = self._action
+        action.look()
+        if action.refused or action.aborted is not None:
+            why = getattr(action.aborted, "error_string", "")
+            return f"{action.name} has {'refused' if action.refused else 'given up'} a goal{why and ': '}{why}"
+        if action.is_free:
+            now, period_s = monotonic(), 1.0 / self._facts.rate_hz
+            point = self._goal.trajectory.points[0]
+            point.positions = command.values.tolist()
+            point.time_from_start.nanosec = int(1e9 * min(max(now - self._sent_s, period_s), SLOWEST_S))
+            action.send(self._goal)
+            self._sent_s = now
+        return None
+
+    def rest(self, q: Array) -> None:
+        """Give the last goal up: the controller stops the arm."""
+        self._action.cancel()
+
+    def find_obstacle(self) -> Condition | None:
+        """Return why goals would have no effect, or contend with those of others."""
+        return self._action.find_obstacle()
+
+
+JointCommands: TypeAlias = ArrayCommands | TrajectoryCommands | ActionCommands
 
 
 def make_joint_commands(facts: ArmInterface, session: Session, turn: FlangeTurn) -> JointCommands:
     """Return what the joints of an arm are commanded through."""
     if facts.command_type == TRAJECTORY:
         return TrajectoryCommands(facts, session, turn)
+    if facts.command_type == FOLLOW:
+        return ActionCommands(facts, session, turn)
     return ArrayCommands(facts, session, turn)

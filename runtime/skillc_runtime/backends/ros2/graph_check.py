@@ -16,13 +16,13 @@ from skillc_runtime.backends.control_process.joint_doubts import (
     find_opposite_speeds,
     find_opposite_weights,
 )
-from skillc_runtime.backends.ros2.cell import describe, joints_of
-from skillc_runtime.backends.ros2.commands import make_joint_commands
+from skillc_runtime.backends.ros2.cell import describe
+from skillc_runtime.backends.ros2.description import Description
+from skillc_runtime.backends.ros2.devices import joints_of
 from skillc_runtime.backends.ros2.facts import ArmInterface, read_base, read_gripper
-from skillc_runtime.backends.ros2.flange import FlangeTurn
 from skillc_runtime.backends.ros2.joint_states import JointOrder
 from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
-from skillc_runtime.backends.ros2.tool_commands import ToolCommands
+from skillc_runtime.backends.ros2.tool_commands import make_commands
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.world_state import WorldState
@@ -79,7 +79,7 @@ def _check_arm(arm: ArmSpec, facts: ArmInterface, session: Session) -> Iterator[
     forces = wrench and Listened(
         session.subscribe(wrench.topic, "geometry_msgs/msg/WrenchStamped", facts.quality.reliable_states)
     )
-    rows: list[Array] = []
+    description, rows = Description(session, facts), list[Array]()
     until = monotonic() + FIND_S
     while monotonic() < until:
         session.wait(0.05)
@@ -93,6 +93,8 @@ def _check_arm(arm: ArmSpec, facts: ArmInterface, session: Session) -> Iterator[
         yield describe_topic(session.node, forces.subscription.topic, forces.subscription.kind, offered=True)
     if rows and not order.missing:
         yield from _check_posture(arm, facts, np.array(rows))
+        if (difference := description.find_difference(str(arm.model), order.positions)) is not None:
+            yield difference
     yield from _check_commands(facts, str(arm.model), session)
     services = facts.services
     yield from _check_services((services.recover, services.tare), session)
@@ -136,16 +138,13 @@ def _check_posture(arm: ArmSpec, facts: ArmInterface, rows: Array) -> Iterator[s
 
 
 def _check_commands(facts: ArmInterface, model: str, session: Session) -> Iterator[str]:
-    turn = FlangeTurn(model)
-    joints = make_joint_commands(facts, session, turn) if facts.command else None
-    commands = joints if facts.tool is None else ToolCommands(facts, facts.tool, joints, turn, session)
-    if commands is None:
-        return
+    commands = make_commands(facts, model, session)
     until = monotonic() + LOOK_S
     while (problem := commands.find_obstacle()) is not None and monotonic() < until:
         session.wait(0.05)
-    if problem is not None:
-        yield problem.sentence
+    found = commands.fit() if problem is None else problem.sentence
+    if found is not None:
+        yield found
 
 
 def _check_topics(kinds: tuple[tuple[str, str, bool], ...], session: Session) -> Iterator[str]:

@@ -1,18 +1,17 @@
-"""A gripper that ROS 2 drives: by the position of its first joint, or by services that open and close it."""
+"""A gripper that ROS 2 drives: what its fingers do is told by the position of its first joint."""
 
 from __future__ import annotations
 
-from threading import Thread
 from time import monotonic
 from typing import Any
 
 import numpy as np
 
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
-from skillc_runtime.backends.ros2.facts import ARRAY, GripperInterface
+from skillc_runtime.backends.ros2.facts import GripperInterface
+from skillc_runtime.backends.ros2.finger_commands import make_finger_commands
 from skillc_runtime.backends.ros2.joint_states import JointOrder
 from skillc_runtime.backends.ros2.receiver import Receiver
-from skillc_runtime.backends.ros2.session import Session
 from skillc_runtime.backends.simulation.finger_sensor import NOISE_DEVIATIONS
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec
 from skillc_runtime.devices.gripper import CLOSED_FURTHER_M, Gripper
@@ -23,7 +22,8 @@ STILL_M, STILL_S = 0.0005, 0.25
 BEGIN_S, REPEAT_S = 0.5, 0.05
 """How long fingers may take to begin to move, and how often their command is repeated until then, in s."""
 NEAR_M = 0.002
-SERVICE_S = 5.0
+MISFIT_M = 0.02
+"""How far beyond their ends fingers may seem to be, by play and calibration."""
 
 
 class Ros2Gripper(Gripper):
@@ -37,14 +37,9 @@ class Ros2Gripper(Gripper):
         self._order = JointOrder(interface.joints[:1])
         quality = interface.quality
         self.feed = receiver.feed(interface.states, "sensor_msgs/msg/JointState", quality.reliable_states, self._take)
-        self._publishers = {
-            topic: receiver.session.publish(topic, ARRAY, quality.reliable_commands)
-            for topic in (interface.command, interface.effort)
-            if topic
-        }
+        self._commands = make_finger_commands(interface, receiver.session)
         self._opening_m = self._goal_m = self._rested_at_m = facts.first_opening_m
         self._moved_s = self._commanded_s = self._sent_s = -np.inf
-        self._force_n = facts.max_force_n
         self._is_idle = True
         self._thing: str | None = None
         self._held_at_m = 0.0
@@ -93,27 +88,20 @@ class Ros2Gripper(Gripper):
 
     @property
     def fault(self) -> str | None:
-        """Why a service that moves it has not succeeded; None if it has."""
+        """Why it has not done what it was told, or is not the gripper of its facts; None if it has, and is."""
         return self._fault
 
     def move(self, opening_m: float, force_n: float) -> None:
         """Move the fingers to an opening in m with at most a force in N; returns at once."""
-        self._goal_m = min(max(opening_m, 0.0), self._facts.max_opening_m)
+        now_m, widest_m = self.opening_m, self._facts.max_opening_m
+        self._goal_m = self._commands.aim(min(max(opening_m, 0.0), widest_m), now_m, widest_m)
         self._is_idle, self._commanded_s = False, monotonic()
-        facts = self._interface
-        if facts.open_service:
-            opens = self._goal_m > self.opening_m
-            Thread(target=self._call, args=(facts.open_service if opens else facts.close_service,), daemon=True).start()
-            self._goal_m = self._facts.max_opening_m if opens else 0.0
-            return
-        self._force_n = min(force_n, self._facts.max_force_n)
-        self._send()
+        self._commands.send(self._goal_m, min(force_n, self._facts.max_force_n))
 
     def stop(self) -> None:
         """Stop the fingers at their present opening; those that services move go on."""
-        if not self._interface.open_service:
-            self._goal_m = self.opening_m
-            self._send()
+        self._goal_m = self.opening_m
+        self._commands.stop(self._goal_m)
         self._is_idle = True
 
     def attach(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
@@ -130,32 +118,23 @@ class Ros2Gripper(Gripper):
             self._arm.set_load(None)
 
     def _take(self, message: Any) -> None:
+        self._fault = self._commands.look() or self._find_misfit()
         if not self._order.read(message) or self._order.missing:
             return
-        facts = self._interface
-        self._opening_m = facts.at_zero_m + facts.per_unit * float(self._order.positions[0])
+        self._opening_m = self._interface.opening(float(self._order.positions[0]))
+        now = monotonic()
         if abs(self._opening_m - self._rested_at_m) > STILL_M:
-            self._rested_at_m, self._moved_s = self._opening_m, monotonic()
-        elif not self._is_idle and self._moved_s < self._commanded_s and monotonic() > self._sent_s + REPEAT_S:
-            self._send()
+            self._rested_at_m, self._moved_s = self._opening_m, now
+        elif not self._is_idle and self._moved_s < self._commanded_s and now > self._sent_s + REPEAT_S:
+            self._sent_s = now
+            self._commands.repeat()
 
-    def _send(self) -> None:
-        """Publish force and opening; nothing for a gripper with services."""
-        facts, self._sent_s = self._interface, monotonic()
-        if facts.effort:
-            self._publish(facts.effort, self._force_n)
-        if facts.command:
-            self._publish(facts.command, (self._goal_m - facts.at_zero_m) / facts.per_unit)
-
-    def _publish(self, topic: str, value: float) -> None:
-        publisher = self._publishers[topic]
-        count = 1 if topic == self._interface.effort else len(self._interface.joints)
-        publisher.publish(publisher.msg_type(data=[value] * count))
-
-    def _call(self, service: str) -> None:
-        """Call a service with a node of its own: it may take its time."""
-        session = Session(f"skillc_{self._interface.name.rpartition(':')[2].replace('-', '_')}")
-        try:
-            self._fault = session.call(service, SERVICE_S)
-        finally:
-            session.close()
+    def _find_misfit(self) -> str | None:
+        """Return that the fingers are where those of the model cannot be."""
+        widest_m = self._facts.max_opening_m
+        if -MISFIT_M < self._opening_m < widest_m + MISFIT_M:
+            return None
+        return (
+            f"{self._interface.name} is {self._opening_m:.3f} m open by its facts, and opens to {widest_m:.3f} m at "
+            "most: correct ros2:openingPerUnit and ros2:openingAtZero"
+        )

@@ -20,12 +20,11 @@ from skillc_runtime.backends.control_process.link import (
     StateView,
     WrenchKind,
 )
-from skillc_runtime.backends.ros2.commands import Commands, make_joint_commands
+from skillc_runtime.backends.ros2.description import Description
 from skillc_runtime.backends.ros2.facts import ArmInterface
-from skillc_runtime.backends.ros2.flange import FlangeTurn
 from skillc_runtime.backends.ros2.joint_states import JointOrder
 from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
-from skillc_runtime.backends.ros2.tool_commands import ToolCommands
+from skillc_runtime.backends.ros2.tool_commands import make_commands
 from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
 
 LOOK_S = 0.1
@@ -108,6 +107,9 @@ class Ros2Link:
             self._open()
         self._order, self._force_seen, self._state_seen = JointOrder(self._facts.joints), -np.inf, -np.inf
         self._await_states(self._open_session(), patience_s)
+        difference = self._description.find_difference(self._model, self._order.positions)
+        if difference is not None:
+            raise BackendUnavailable(f"{self._facts.name} is not the arm of its facts: {difference}")
 
     def read(self, state: StateView) -> None:
         """Wait for the next message with joint states, at most a little longer than their period; LinkLost."""
@@ -140,6 +142,8 @@ class Ros2Link:
             raise ControlRefused(f"{self._facts.name} takes {self._mode} commands by its facts, not {mode} commands")
         if not self._open_session().await_all(self._is_free, FIND_S):
             raise ControlRefused(self._condition.sentence)
+        if (problem := self._commands.fit()) is not None:
+            raise ControlRefused(problem)
         self._commands.begin(self._order.positions)
         self._has_control, self._condition = True, IN_CONTROL
 
@@ -186,15 +190,8 @@ class Ros2Link:
         self._running: Subscription | None = None
         if facts.services.running:
             self._running = session.subscribe(facts.services.running, "std_msgs/msg/Bool", True, latched=True)
-        self._commands = self._make_commands(session)
-
-    def _make_commands(self, session: Session) -> Commands:
-        facts, turn = self._facts, FlangeTurn(self._model)
-        joints = make_joint_commands(facts, session, turn) if facts.command else None
-        if facts.tool is not None:
-            return ToolCommands(facts, facts.tool, joints, turn, session)
-        assert joints is not None, "an arm without a Cartesian controller has a topic for its joints"
-        return joints
+        self._description = Description(session, facts)
+        self._commands = make_commands(facts, self._model, session)
 
     def _open_session(self) -> Session:
         if self._session is None:

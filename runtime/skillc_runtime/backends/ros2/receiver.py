@@ -38,9 +38,16 @@ class Receiver:
         self._closing = Event()
         self._thread = Thread(target=self._run, name=name, daemon=True)
 
-    def feed(self, topic: str, kind: str, reliable: bool, take: Callable[[Any], None]) -> Feed:
+    @property
+    def is_needed(self) -> bool:
+        """Whether a device takes messages."""
+        return bool(self._feeds)
+
+    def feed(
+        self, topic: str, kind: str, reliable: bool, take: Callable[[Any], None], *, latched: bool = False
+    ) -> Feed:
         """Let a device take the messages of a topic; before `begin`."""
-        found = Feed(self.session.subscribe(topic, kind, reliable), take)
+        found = Feed(self.session.subscribe(topic, kind, reliable, latched), take)
         self._feeds.append(found)
         return found
 

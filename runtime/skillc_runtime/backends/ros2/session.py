@@ -20,8 +20,12 @@ DISCOVERY_S, DEPTH = 0.05, 10
 UNKNOWN = {"_NODE_NAME_UNKNOWN_": "another node"}
 
 
+class NoAnswer(Exception):
+    """A service has not answered; the message says which, and why."""
+
+
 class Session:
-    """One node, with its own context; closed, it can be opened again by a new session."""
+    """One node, with its own context."""
 
     def __init__(self, name: str) -> None:
         """Open a node; BackendUnavailable if there is no ROS 2.
@@ -37,13 +41,15 @@ class Session:
             from rclpy.signals import SignalHandlerOptions
         except ImportError as error:
             raise BackendUnavailable(f"{WITHOUT} ({error})") from error
-        self._context = Context()
-        rclpy.init(context=self._context, signal_handler_options=SignalHandlerOptions.NO)
+        self.context = Context()
+        rclpy.init(context=self.context, signal_handler_options=SignalHandlerOptions.NO)
         self.node: Any = Node(
-            name, context=self._context, enable_rosout=False, start_parameter_services=False, use_global_arguments=False
+            name, context=self.context, enable_rosout=False, start_parameter_services=False, use_global_arguments=False
         )
         self._make_wait_set = rclpy_implementation.WaitSet
         self._subscriptions: list[Subscription] = []
+        self.closing: list[Callable[[], None]] = []
+        """What is destroyed before the node, which does not know it."""
         self._wait_set: Any = None
 
     def subscribe(self, topic: str, kind: str, reliable: bool, latched: bool = False) -> Subscription:
@@ -60,7 +66,7 @@ class Session:
     def wait(self, seconds: float) -> None:
         """Wait until one of the subscriptions has a message, or so long."""
         if self._wait_set is None:
-            self._wait_set = self._make_wait_set(len(self._subscriptions), 0, 0, 0, 0, 0, self._context.handle)
+            self._wait_set = self._make_wait_set(len(self._subscriptions), 0, 0, 0, 0, 0, self.context.handle)
         wait_set = self._wait_set
         wait_set.clear_entities()
         for each in self._subscriptions:
@@ -69,15 +75,23 @@ class Session:
 
     def call(self, service: str, seconds: float) -> str | None:
         """Call a service of std_srvs/srv/Trigger; return why it has not succeeded, or None."""
+        try:
+            answer = self.ask(service, "std_srvs/srv/Trigger", seconds)
+        except NoAnswer as error:
+            return str(error)
+        return None if answer.success else (answer.message or f"the service {service} has refused")
+
+    def ask(self, service: str, kind: str, seconds: float, **request: Any) -> Any:
+        """Return what a service of a kind answers to a request; NoAnswer."""
         from rclpy.executors import SingleThreadedExecutor
 
-        client = self.node.create_client(find_message("std_srvs/srv/Trigger"), service)
+        client = self.node.create_client(find_message(kind), service)
         try:
             end = monotonic() + seconds
             if not client.wait_for_service(seconds):
-                return f"nobody offers the service {service}"
-            future = client.call_async(client.srv_type.Request())
-            executor = SingleThreadedExecutor(context=self._context)
+                raise NoAnswer(f"nobody offers the service {service}")
+            future = client.call_async(client.srv_type.Request(**request))
+            executor = SingleThreadedExecutor(context=self.context)
             try:
                 executor.add_node(self.node)
                 executor.spin_until_future_complete(future, max(end - monotonic(), 0.01))
@@ -85,9 +99,8 @@ class Session:
                 executor.remove_node(self.node)
                 executor.shutdown(0.0)
             if not future.done():
-                return f"the service {service} has not answered within {seconds:g} s"
-            answer = future.result()
-            return None if answer.success else (answer.message or f"the service {service} has refused")
+                raise NoAnswer(f"the service {service} has not answered within {seconds:g} s")
+            return future.result()
         finally:
             self.node.destroy_client(client)
 
@@ -102,9 +115,11 @@ class Session:
 
     def close(self) -> None:
         """Destroy the node; idempotent."""
-        if self._context.ok():
+        if self.context.ok():
+            for destroy in self.closing:
+                destroy()
             self.node.destroy_node()
-            self._context.try_shutdown()
+            self.context.try_shutdown()
 
 
 class Subscription:

@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 
 from skillc_runtime.backends.control_process.link import CommandKind, CommandView, Condition
-from skillc_runtime.backends.ros2.commands import JointCommands, Target
+from skillc_runtime.backends.ros2.commands import JointCommands, Target, make_joint_commands
 from skillc_runtime.backends.ros2.facts import ArmInterface, ToolTopics
 from skillc_runtime.backends.ros2.flange import FlangeTurn
 from skillc_runtime.backends.ros2.session import Session
+from skillc_runtime.backends.ros2.stiffness_parameters import StiffnessParameters
 from skillc_runtime.motion.arrays import OutVector
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
 
@@ -33,12 +34,21 @@ class ToolCommands:
         reliable = facts.quality.reliable_commands
         self._tool, self._joints, self.turn_to_flange = tool, joints, turn
         self._pose = Target(session, tool.pose, POSE, reliable)
-        self._stiffness = Target(session, tool.stiffness, WRENCH, reliable) if tool.stiffness else None
+        self._stiffness: Target | StiffnessParameters | None = None
+        if tool.stiffness_node:
+            self._stiffness = StiffnessParameters(session, tool.stiffness_node)
+        elif tool.stiffness:
+            self._stiffness = Target(session, tool.stiffness, WRENCH, reliable)
         self._wrench = Target(session, tool.wrench, WRENCH, reliable) if tool.wrench else None
-        for target in (self._pose, self._stiffness, self._wrench):
-            if target is not None:
-                target.message.header.frame_id = tool.frame
+        self._pose.message.header.frame_id = tool.frame
+        for target in (self._stiffness, self._wrench):
+            if isinstance(target, Target):
+                target.message.header.frame_id = tool.flange if tool.along_flange else tool.frame
         self._on_flange: Pose | None = None
+
+    def fit(self) -> str | None:
+        """Ask the controller of the joints, if there is one; return why it is not the right one, or None."""
+        return None if self._joints is None else self._joints.fit()
 
     def begin(self, q: Array) -> None:
         """Push with nothing, and hold the flange where it is, with the joints at q (nv,) in rad."""
@@ -63,10 +73,15 @@ class ToolCommands:
         if self._tool.of_flange:
             lever = self._message_axes(flange).T @ (tool.position - flange.position)
             moment = moment + np.cross(lever, force)
-        self._send_six(self._stiffness, np.concatenate([np.diag(each) for each in stiffness]))
+        diagonals = np.concatenate([np.diag(each) for each in stiffness])
+        if isinstance(self._stiffness, StiffnessParameters):
+            self._stiffness.send(diagonals)
+        else:
+            self._send_six(self._stiffness, diagonals)
         self._send_six(self._wrench, np.concatenate([force, moment]))
         if any(np.abs(each - np.diag(np.diag(each))).max() > OBLIQUE * each.max() for each in stiffness):
-            return f"{self._tool.stiffness} takes a stiffness along the axes of {self._tool.frame}, not across them"
+            axes_of = self._tool.flange if self._tool.along_flange else self._tool.frame
+            return f"{self._tool.pose} takes a stiffness along the axes of {axes_of}, not across them"
         return None
 
     def rest(self, q: Array) -> None:
@@ -103,3 +118,13 @@ class ToolCommands:
         part: Any = target.message.wrench
         part.force.x, part.force.y, part.force.z, part.torque.x, part.torque.y, part.torque.z = six.tolist()
         target.publisher.publish(target.message)
+
+
+def make_commands(facts: ArmInterface, model: str, session: Session) -> ToolCommands | JointCommands:
+    """Return what an arm is commanded through; `model` is the file of its model."""
+    turn = FlangeTurn(model)
+    joints = make_joint_commands(facts, session, turn) if facts.command else None
+    if facts.tool is not None:
+        return ToolCommands(facts, facts.tool, joints, turn, session)
+    assert joints is not None, "an arm without a Cartesian controller has a topic for its joints"
+    return joints

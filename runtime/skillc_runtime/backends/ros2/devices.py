@@ -1,0 +1,123 @@
+"""The devices of a cell besides its arms: made from the facts, waited for, and watched."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import ExitStack
+
+import mujoco
+
+from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.real_time.device_cell import CellDevices
+from skillc_runtime.backends.ros2.base import Ros2Base
+from skillc_runtime.backends.ros2.button import Ros2Button
+from skillc_runtime.backends.ros2.camera import Ros2Camera
+from skillc_runtime.backends.ros2.device_facts import DeviceFacts, Timing
+from skillc_runtime.backends.ros2.facts import read_base, read_camera, read_gripper, read_inspected
+from skillc_runtime.backends.ros2.gripper import Ros2Gripper
+from skillc_runtime.backends.ros2.inspection import Ros2Inspection
+from skillc_runtime.backends.ros2.receiver import Feed, Receiver
+from skillc_runtime.backends.ros2.transforms import Transforms
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.world.state.data_sheet import number_of, sheet_of
+from skillc_runtime.world.state.terms import ARRIVAL_TOLERANCE
+from skillc_runtime.world.state.world_state import WorldState
+
+ARRIVAL_TOLERANCE_M = 0.05
+
+
+def make_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
+    """Return all devices but the arms; BackendUnavailable if one of them does not answer."""
+    with ExitStack() as opened:
+        receiver = Receiver("skillc_devices")
+        opened.callback(receiver.close)
+        devices = _Devices(state, scene, arms, receiver)
+        if not receiver.is_needed:
+            return CellDevices()
+        devices.begin()
+        opened.pop_all()
+    return CellDevices(
+        grippers=devices.grippers,
+        bases=devices.bases,
+        cameras=devices.cameras,
+        buttons=devices.buttons,
+        inspection=devices.inspection,
+        find_fault=devices.find_fault,
+        close=receiver.close,
+    )
+
+
+class _Devices:
+    """Those of one cell, with what each of them has to publish."""
+
+    def __init__(
+        self, state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver], receiver: Receiver
+    ) -> None:
+        self._state, self._receiver = state, receiver
+        self._watched: list[tuple[Feed, Timing, str]] = []
+        """Topics that may never be silent."""
+        self._told_once: list[tuple[Feed, Timing, str]] = []
+        """Topics that only tell changes."""
+        self.grippers = self._make_grippers(scene, arms)
+        self.bases = self._make_bases(scene)
+        self.cameras = self._make_cameras(scene)
+        self.buttons = self._make_buttons(scene)
+        inspected = read_inspected(state)
+        self.inspection = Ros2Inspection(inspected, receiver) if inspected else None
+
+    def begin(self) -> None:
+        """Wait for the first message of each topic; BackendUnavailable."""
+        self._receiver.begin()
+        for feed, timing, who in (*self._watched, *self._told_once):
+            self._receiver.await_first(feed, timing, who)
+
+    def find_fault(self) -> str | None:
+        """Return why a device cannot go on; None if all can."""
+        silences = (feed.find_silence(timing) for feed, timing, _ in self._watched)
+        found = (*(hand.fault for hand in self.grippers.values()), *silences)
+        return next((why for why in found if why is not None), None)
+
+    def _make_grippers(self, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> dict[str, Ros2Gripper]:
+        found: dict[str, Ros2Gripper] = {}
+        for arm in scene.arms:
+            if (hand := arm.gripper) is not None:
+                facts = read_gripper(self._state, hand.individual, joints_of(str(hand.model)))
+                found[hand.individual] = made = Ros2Gripper(hand, facts, arms[arm.individual], self._receiver)
+                self._watched.append((made.feed, facts.timing, facts.name))
+        return found
+
+    def _make_bases(self, scene: SceneSpec) -> dict[str, Ros2Base]:
+        found: dict[str, Ros2Base] = {}
+        for each in scene.bases:
+            facts, sheet = read_base(self._state, each.individual), sheet_of(self._state, each.individual).individual
+            near_m = number_of(self._state, sheet, ARRIVAL_TOLERANCE, ARRIVAL_TOLERANCE_M)
+            found[each.individual] = made = Ros2Base(facts, each.pose, near_m, self._receiver)
+            self._watched.append((made.feed, facts.timing, facts.name))
+        return found
+
+    def _make_cameras(self, scene: SceneSpec) -> dict[str, Ros2Camera]:
+        found: dict[str, Ros2Camera] = {}
+        transforms: Transforms | None = None
+        for spec in scene.cameras:
+            if (facts := read_camera(self._state, spec.individual)) is None:
+                continue
+            if facts.frame and transforms is None:
+                transforms = Transforms(self._receiver)
+            found[spec.individual] = made = Ros2Camera(spec, facts, transforms, self._receiver)
+            self._watched += [(feed, facts.timing, facts.name) for feed in made.feeds]
+        return found
+
+    def _make_buttons(self, scene: SceneSpec) -> dict[str, Ros2Button]:
+        found: dict[str, Ros2Button] = {}
+        for each in scene.fixtures:
+            facts = DeviceFacts(self._state, each.individual)
+            if facts.topic("switchedTopic"):
+                found[each.individual] = made = Ros2Button(facts, self._receiver)
+                self._told_once.append((made.feed, facts.timing(1.0), facts.name))
+        return found
+
+
+def joints_of(file: str) -> tuple[str, ...]:
+    """Return the names of the joints of a model, in its order."""
+    model = mujoco.MjModel.from_xml_path(file)
+    return tuple(model.joint(number).name for number in range(model.njnt))

@@ -1,0 +1,157 @@
+"""Sends a gripper where its fingers shall be: by topics, by an action, or by services that open and close it."""
+
+from __future__ import annotations
+
+from threading import Thread
+from typing import Any, Protocol, TypeAlias
+
+from skillc_runtime.backends.ros2.actions import Action
+from skillc_runtime.backends.ros2.facts import ARRAY, GRIP, GripperInterface
+from skillc_runtime.backends.ros2.session import Session
+
+SERVICE_S = 5.0
+
+
+class FingerCommands(Protocol):
+    """What a gripper is moved by."""
+
+    def aim(self, opening_m: float, now_m: float, widest_m: float) -> float:
+        """Return the opening in m at which the fingers end if they are told to go to one, from where they are now."""
+        ...
+
+    def send(self, opening_m: float, force_n: float) -> None:
+        """Let the fingers go to an opening in m with at most a force in N; returns at once."""
+        ...
+
+    def repeat(self) -> None:
+        """Send the last command again, as messages may be lost; called while the fingers have not begun to move."""
+        ...
+
+    def stop(self, opening_m: float) -> None:
+        """Let the fingers rest at the opening in m that they have."""
+        ...
+
+    def look(self) -> str | None:
+        """Handle what was answered; return why the last command has failed, or None. Called again and again."""
+        ...
+
+
+class FingerTopics:
+    """Moves them by the position of the first joint, with a topic for the greatest force if there is one."""
+
+    def __init__(self, facts: GripperInterface, session: Session) -> None:
+        reliable = facts.quality.reliable_commands
+        self._facts, self._last = facts, (0.0, 0.0)
+        self._command = session.publish(facts.command, ARRAY, reliable)
+        self._effort = session.publish(facts.effort, ARRAY, reliable) if facts.effort else None
+
+    def aim(self, opening_m: float, now_m: float, widest_m: float) -> float:
+        """Return the opening itself."""
+        return opening_m
+
+    def send(self, opening_m: float, force_n: float) -> None:
+        """Publish force and position."""
+        self._last = opening_m, force_n
+        if self._effort is not None:
+            self._publish(self._effort, [force_n])
+        self._publish(self._command, [self._facts.position(opening_m)] * len(self._facts.joints))
+
+    def repeat(self) -> None:
+        """Publish them again."""
+        self.send(*self._last)
+
+    def stop(self, opening_m: float) -> None:
+        """Publish the opening that there is."""
+        self.send(opening_m, self._last[1])
+
+    def look(self) -> str | None:
+        """Return None: nothing is answered."""
+        return None
+
+    @staticmethod
+    def _publish(publisher: Any, values: list[float]) -> None:
+        publisher.publish(publisher.msg_type(data=values))
+
+
+class FingerAction:
+    """Moves them by goals of an action, which is reliable."""
+
+    def __init__(self, facts: GripperInterface, session: Session) -> None:
+        self._facts, self._action = facts, Action(session, facts.command, facts.command_type)
+
+    def aim(self, opening_m: float, now_m: float, widest_m: float) -> float:
+        """Return the opening itself."""
+        return opening_m
+
+    def send(self, opening_m: float, force_n: float) -> None:
+        """Send a goal."""
+        goal, position = self._action.made_of.Goal(), self._facts.position(opening_m)
+        if self._action.kind == GRIP:
+            goal.command.position, goal.command.max_effort = position, force_n
+        else:
+            count = len(self._facts.joints)
+            goal.command.name, goal.command.position = list(self._facts.joints), [position] * count
+            goal.command.effort = [force_n] * count
+        self._action.send(goal)
+
+    def repeat(self) -> None:
+        """Do nothing."""
+
+    def stop(self, opening_m: float) -> None:
+        """Give the goal up."""
+        self._action.cancel()
+
+    def look(self) -> str | None:
+        """Return that the server does not want to, or has given up, without having been stopped by a thing."""
+        action = self._action
+        action.look()
+        if action.refused:
+            return f"{action.name} has refused a goal"
+        if action.aborted is not None and not action.aborted.stalled:
+            return f"{action.name} has given up a goal"
+        return None
+
+
+class FingerServices:
+    """Opens and closes them."""
+
+    def __init__(self, facts: GripperInterface) -> None:
+        self._facts, self._opens = facts, False
+        self._fault: str | None = None
+
+    def aim(self, opening_m: float, now_m: float, widest_m: float) -> float:
+        """Return the widest opening, or 0."""
+        self._opens = opening_m > now_m
+        return widest_m if self._opens else 0.0
+
+    def send(self, opening_m: float, force_n: float) -> None:
+        """Call the service in a thread: it may take its time."""
+        service = self._facts.open_service if self._opens else self._facts.close_service
+        Thread(target=self._call, args=(service,), daemon=True).start()
+
+    def repeat(self) -> None:
+        """Do nothing."""
+
+    def stop(self, opening_m: float) -> None:
+        """Do nothing: there is no service for that."""
+
+    def look(self) -> str | None:
+        """Return why the last service has not succeeded."""
+        return self._fault
+
+    def _call(self, service: str) -> None:
+        session = Session(f"skillc_{self._facts.name.rpartition(':')[2].replace('-', '_')}")
+        try:
+            self._fault = session.call(service, SERVICE_S)
+        finally:
+            session.close()
+
+
+AnyFingerCommands: TypeAlias = FingerTopics | FingerAction | FingerServices
+
+
+def make_finger_commands(facts: GripperInterface, session: Session) -> AnyFingerCommands:
+    """Return what a gripper is moved by."""
+    if facts.open_service:
+        return FingerServices(facts)
+    return FingerTopics(facts, session) if facts.command_type == ARRAY else FingerAction(facts, session)

@@ -1,0 +1,263 @@
+"""Cameras and grippers by what nodes of ROS 2 publish and offer; control_msgs and tf2_msgs are used where they are."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from importlib.util import find_spec
+from threading import Thread
+from typing import Any
+
+import numpy as np
+import pytest
+
+from robots.ros2.test_link import SCENE
+from simulation.cells import LAB, vocabulary
+from skillc_runtime.backends.ros2.camera import INFO, Ros2Camera
+from skillc_runtime.backends.ros2.controller import ask_controller
+from skillc_runtime.backends.ros2.device_facts import Quality, Timing
+from skillc_runtime.backends.ros2.facts import GRIP, GRIP_BY_NAMES, CameraInterface, read_gripper
+from skillc_runtime.backends.ros2.gripper import Ros2Gripper
+from skillc_runtime.backends.ros2.receiver import Receiver
+from skillc_runtime.backends.ros2.session import Session, find_message
+from skillc_runtime.backends.ros2.stiffness_parameters import NAMES, StiffnessParameters
+from skillc_runtime.backends.ros2.transforms import Transforms
+from skillc_runtime.backends.simulation.camera_spec import CameraErrors, CameraSpec
+from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.space.field_of_view import FieldOfView
+
+pytestmark = pytest.mark.slow
+
+needs_tf2 = pytest.mark.skipif(find_spec("tf2_msgs") is None, reason="there is no tf2_msgs: source an installed ROS 2")
+needs_control = pytest.mark.skipif(
+    find_spec("control_msgs") is None, reason="there is no control_msgs: source an installed ROS 2"
+)
+ROOT_HALF = 0.5**0.5
+SPEC = CameraSpec(
+    LAB + "Camera-1",
+    Pose(np.zeros(3), np.eye(3)),
+    FieldOfView(1.2, 0.1, 3.0),
+    period_s=0.1,
+    delay_s=0.0,
+    least_visible=0.3,
+    errors=CameraErrors(position_noise_m=0.002),
+)
+LOOKS = CameraInterface(
+    "lab:Camera-1", "optical", {LAB + "Box-1": "box"}, "", "", "", Timing(5.0, 1.0), Quality(False, True)
+)
+
+
+@pytest.fixture
+def other() -> Iterator[Session]:
+    session = Session("other")
+    yield session
+    session.close()
+
+
+@contextmanager
+def spun(session: Session, *more: Any) -> Iterator[None]:
+    """Let nodes of a session answer in a thread."""
+    from rclpy.executors import SingleThreadedExecutor
+
+    executor = SingleThreadedExecutor(context=session.context)
+    for node in (session.node, *more):
+        executor.add_node(node)
+    thread = Thread(target=executor.spin, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        executor.shutdown(1.0)
+        thread.join(2.0)
+
+
+@contextmanager
+def receiving(make: Callable[[Receiver], Any]) -> Iterator[Any]:
+    receiver = Receiver("devices")
+    try:
+        made = make(receiver)
+        receiver.begin()
+        yield made
+    finally:
+        receiver.close()
+
+
+def wait_until(holds: Callable[[], Any], then: Callable[[], None] = lambda: None, seconds: float = 20.0) -> Any:
+    """Do something again and again until something holds; return that."""
+    end = time.monotonic() + seconds
+    while not (found := holds()):
+        assert time.monotonic() < end
+        then()
+        time.sleep(0.05)
+    return found
+
+
+def frame(session: Session, parent: str, child: str, place: tuple[float, float, float], turned: bool) -> Any:
+    """Return the message of a transform, dated now."""
+    message = find_message("geometry_msgs/msg/TransformStamped")()
+    message.header.frame_id, message.child_frame_id = parent, child
+    message.header.stamp = session.node.get_clock().now().to_msg()
+    at, turn = message.transform.translation, message.transform.rotation
+    at.x, at.y, at.z = place
+    turn.w, turn.z = (ROOT_HALF, ROOT_HALF) if turned else (1.0, 0.0)
+    return message
+
+
+@needs_tf2
+def test_a_thing_is_where_its_frame_is_seen_from_the_camera(other: Session) -> None:
+    kind = "tf2_msgs/msg/TFMessage"
+    moving = other.publish("/tf", kind, reliable=True)
+    still = other.node.create_publisher(find_message(kind), "/tf_static", _latched())
+    still.publish(still.msg_type(transforms=[frame(other, "map", "optical", (1.0, 0.0, 0.0), turned=True)]))
+
+    def tell() -> None:
+        moving.publish(moving.msg_type(transforms=[frame(other, "map", "box", (1.0, 2.0, 0.5), turned=False)]))
+
+    def make(receiver: Receiver) -> Ros2Camera:
+        return Ros2Camera(SPEC, LOOKS, Transforms(receiver), receiver)
+
+    with receiving(make) as camera:
+        since_s = camera.clock_s
+        found = wait_until(lambda: camera.locate(LAB + "Box-1", since_s), tell)
+        assert found.pose.position == pytest.approx([2.0, 0.0, 0.5], abs=1e-9)
+        assert (found.position_m, found.taken_s > since_s) == (0.002, True)
+        assert camera.locate(LAB + "Box-1", camera.clock_s + 1.0) is None, "no image is as new as that"
+        assert camera.locate(LAB + "Box-2", since_s) is None, "it has no frame"
+        with camera._receiver.lock:
+            assert camera._transforms.find("optical", "elsewhere") is None
+
+
+def _latched() -> Any:
+    from rclpy.qos import DurabilityPolicy, QoSProfile
+
+    return QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+@pytest.mark.parametrize(("encoding", "kind", "unit_m"), [("32FC1", np.float32, 1.0), ("16UC1", np.uint16, 1e-3)])
+def test_depths_are_those_of_the_pixel_in_which_a_point_is_seen(
+    encoding: str, kind: Any, unit_m: float, other: Session
+) -> None:
+    image = find_message("sensor_msgs/msg/Image")(encoding=encoding, width=40, height=30)
+    pixels = np.full((30, 40), 2.0 / unit_m, kind)
+    pixels[15, 30] = 1.0 / unit_m
+    pixels[15, 10] = 0
+    image.step, image.data = pixels.strides[0], pixels.tobytes()
+    lens = find_message(INFO)(k=[50.0, 0.0, 20.0, 0.0, 50.0, 15.0, 0.0, 0.0, 1.0])
+    images, lenses = (
+        other.publish(topic, type_, reliable=True)
+        for topic, type_ in (("/depth/image", "sensor_msgs/msg/Image"), ("/depth/camera_info", INFO))
+    )
+
+    def tell() -> None:
+        images.publish(image)
+        lenses.publish(lens)
+
+    looks = replace(LOOKS, frame="", depth="/depth/image", info="/depth/camera_info", image="/depth/image")
+    with receiving(lambda receiver: Ros2Camera(SPEC, looks, None, receiver)) as camera:
+        middle = wait_until(lambda: camera.depth_m(np.array([0.0, 0.0, 1.0])), tell)
+        assert middle == pytest.approx(2.0)
+        aside = np.array([0.2, 0.0, 1.0])
+        assert camera.depth_m(aside) == pytest.approx(np.linalg.norm(aside))
+        assert camera.depth_m(np.array([-0.2, 0.0, 1.0])) is None, "that pixel has no depth"
+        assert camera.depth_m(np.array([0.0, 0.0, -1.0])) is None, "behind the camera"
+        assert wait_until(lambda: camera.images.newest, tell).encoding == encoding
+        assert len(camera.feeds) == 2
+
+
+class Fingers:
+    """A gripper by an action: a server that has its fingers half closed when they touch a thing."""
+
+    def __init__(self, session: Session, kind: str) -> None:
+        from rclpy.action import ActionServer
+
+        self.forces: list[float] = []
+        self.stalls_at, self.at = 0.0, 0.055
+        self._session, self._named = session, kind == GRIP_BY_NAMES
+        self._states = session.publish("/joint_states", "sensor_msgs/msg/JointState", reliable=True)
+        made = find_message(kind)
+        server = ActionServer(session.node, made, "/gripper_controller/gripper_cmd", self._move)
+        session.closing.append(server.destroy)
+        self._made = made
+
+    def _move(self, handle: Any) -> Any:
+        command, result = handle.request.command, self._made.Result()
+        self.forces.append(command.effort[0] if self._named else command.max_effort)
+        goal = command.position[0] if self._named else command.position
+        self.at = max(goal, self.stalls_at)
+        result.stalled, result.reached_goal = goal < self.stalls_at, goal >= self.stalls_at
+        (handle.succeed if goal >= 0 else handle.abort)()
+        return result
+
+    def tell(self) -> None:
+        """Publish where the fingers are."""
+        names = ["left_finger", "right_finger"]
+        self._states.publish(self._states.msg_type(name=names, position=[self.at] * 2))
+
+
+class Arm:
+    """What a gripper tells its arm."""
+
+    def __init__(self) -> None:
+        self.held: list[str] = []
+
+    def hold(self, thing: str, *_: object) -> None:
+        self.held.append(thing)
+
+    def set_load(self, load: None) -> None:
+        self.held.clear()
+
+
+@needs_control
+@pytest.mark.parametrize("kind", [GRIP, GRIP_BY_NAMES])
+def test_a_gripper_by_an_action_closes_around_a_thing(kind: str, other: Session, tmp_path: Any) -> None:
+    path = tmp_path / "cell.ttl"
+    path.write_text(SCENE.read_text("utf-8") + f'lab:Hand-1 ros2:commandType "{kind}" .\n', "utf-8")
+    state = load_scene(path, vocabulary())
+    spec = read_scene_spec(state).arms[0].gripper
+    assert spec is not None
+    facts, arm = read_gripper(state, LAB + "Hand-1", ("left_finger", "right_finger")), Arm()
+    fingers = Fingers(other, kind)
+    with spun(other), receiving(lambda receiver: Ros2Gripper(spec, facts, arm, receiver)) as hand:  # type: ignore[arg-type]
+        wait_until(lambda: hand.opening_m == pytest.approx(0.11), fingers.tell)
+        wait_until(lambda: hand._commands._action.find_obstacle() is None, fingers.tell)
+        fingers.stalls_at = 0.02
+        hand.move(0.0, 30.0)
+        wait_until(lambda: hand.blocked, fingers.tell)
+        assert hand.opening_m == pytest.approx(0.04)
+        assert (fingers.forces, hand.fault) == ([30.0], None)
+        hand.attach(LAB + "Box-1", Pose(np.zeros(3), np.eye(3)), 0.1)
+        hand.move(0.08, 30.0)
+        wait_until(lambda: not hand.moving and hand.opening_m == pytest.approx(0.08), fingers.tell)
+        fingers.at = 5.0
+        wait_until(lambda: hand.fault, fingers.tell)
+        assert "is 10.000 m open by its facts" in hand.fault
+
+
+def test_stiffness_is_set_as_parameters_of_the_controllers_node(other: Session) -> None:
+    from rclpy.node import Node
+
+    controller = Node("cartesian_compliance_controller", context=other.context)
+    for name in NAMES:
+        controller.declare_parameter(name, 500.0)
+    asks = Session("asks")
+    parameters = StiffnessParameters(asks, "/cartesian_compliance_controller")
+    wanted = np.array([100.0, 200.0, 0.0, 10.0, 20.0, 30.0])
+
+    def are_set() -> bool:
+        parameters.send(wanted)
+        return [controller.get_parameter(name).value for name in NAMES] == wanted.tolist()
+
+    try:
+        with spun(other, controller):
+            wait_until(are_set)
+            assert parameters.find_obstacle() is None
+            controller.undeclare_parameter(NAMES[0])
+            wait_until(lambda: parameters.find_obstacle() is not None, lambda: parameters.send(2 * wanted))
+            assert "refuses: " in parameters.find_obstacle().sentence  # type: ignore[union-attr]
+    finally:
+        asks.close()
+    assert ask_controller(other, "/nobody/commands").joints == ()
