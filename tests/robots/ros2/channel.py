@@ -15,16 +15,19 @@ from typing import Literal
 class Options:
     """What the peer is.
 
-    rate_hz: how often states are published and commands taken. control: the controllers that are active. loss: the
-    share of messages that get lost, in each direction; jitter_s: the greatest delay of those that do not. reverse:
-    joint states are in reverse order. described: the robot publishes its URDF. shuffled: its controller of positions
-    tells its joints, and takes them in reverse order. degrees: states are in degrees, as no driver should publish them.
-    exact: there are no differences from the facts of the scene; otherwise `seed` draws them. seconds: after which the
-    process ends.
+    panel: the file of the socket at which it is asked what is true; none if it is empty. library: the shipped one
+    whose terms the scene has. rate_hz: how often states are published and commands taken. control: the controllers
+    that are active. loss: the share of messages that get lost, in each direction; jitter_s: the greatest delay of
+    those that do not. reverse: joint states are in reverse order. described: the robot publishes its URDF. shuffled:
+    its controller of positions tells its joints, and takes them in reverse order. degrees: states are in degrees, as
+    no driver should publish them. exact: there are no differences from the facts of the scene; otherwise `seed` draws
+    them. seconds: after which the process ends.
     """
 
     scene: str
     report: str = ""
+    panel: str = ""
+    library: str = ""
     rate_hz: float = 250.0
     control: Literal["position", "velocity", "effort", "trajectory", "cartesian", "none"] = "position"
     namespace: str = ""

@@ -14,6 +14,7 @@ import time
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
+from threading import RLock
 from typing import Any
 
 import numpy as np
@@ -27,9 +28,13 @@ from std_srvs.srv import Trigger
 
 from robots.ros2.channel import Channel, Options, Report
 from robots.ros2.controllers import Arm, Base, Hand
+from robots.ros2.panel import Panel
+from skillc.services.libraries import compile_library
+from skillc.services.library_files import SHIPPED, find_library
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.variation import exact_variation
 from skillc_runtime.control.driver import CompliantArmDriver
@@ -69,8 +74,7 @@ class Peer:
         self._executor.add_node(self._node)
         reality = {"reality": lambda scene, _: exact_variation(scene)} if options.exact else {}
         steps = round(1000.0 / options.rate_hz)
-        vocabulary = load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
-        state = load_scene(Path(options.scene), vocabulary)
+        state = load_scene(Path(options.scene), _load_vocabulary(options.library))
         remote = [each for each in state.instances(ARM_DEVICE) if state.value(each, COMPLIANT_CONTROLLER) == "on_robot"]
         # The drivers of the cell are not used; they are made for a law that MuJoCo has.
         world = WorldModel(
@@ -87,13 +91,18 @@ class Peer:
         self._running.publish(Bool(data=True))
         self.serve("stop_program", lambda: self._run_program(False))
         self.serve("resend_program", lambda: self._run_program(True))
+        latched = self._latched
+        self._buttons = {
+            each: self._node.create_publisher(Bool, f"{_topic_of(self.cell.scene.names[each])}/switched", latched)
+            for each in self.cell.buttons
+        }
         self._shares = {
-            each: self.publisher(
-                f"{self.cell.scene.names[each].rpartition(':')[2].replace('-', '_')}/clean_share", Float64
-            )
+            each: self.publisher(f"{_topic_of(self.cell.scene.names[each])}/clean_share", Float64)
             for each in self.cell.coverage
         }
-        self.ended, self._next_call = False, 0.0
+        self.ended, self._next_call, self.lock = False, 0.0, RLock()
+        if options.panel:
+            Panel(self, Path(options.panel))
 
     def subscribe(self, topic: str, kind: Any, take: Callable[[Any], None]) -> None:
         """Take the messages of a topic."""
@@ -149,9 +158,10 @@ class Peer:
                 self.report.late_s += now - due
                 due = now
             due += period / pace
-            self.cell.advance_period()
-            self.cell.publish()
-            self._publish()
+            with self.lock:
+                self.cell.advance_period()
+                self.cell.publish()
+                self._publish()
 
     def write_report(self) -> None:
         """Write what was seen."""
@@ -189,6 +199,8 @@ class Peer:
             base.publish()
         for surface, publisher in self._shares.items():
             publisher.publish(Float64(data=float(self.cell.coverage[surface].wiped_share)))
+        for button, publisher in self._buttons.items():
+            publisher.publish(Bool(data=self.cell.button(button).switched))
         for tool in self.cell.scene.tools:
             force = self._pressing_n(tool.individual)
             self.report.greatest_force_n = max(self.report.greatest_force_n, force)
@@ -197,6 +209,16 @@ class Peer:
         live = self.cell.live.sensors
         first = dict(live.faces)[tool]
         return abs(float(self.cell.data.sensordata[first]))
+
+
+def _load_vocabulary(library: str) -> Vocabulary:
+    if library:
+        return compile_library(find_library(SHIPPED / library)).value.vocabulary
+    return load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
+
+
+def _topic_of(name: str) -> str:
+    return name.rpartition(":")[2].replace("-", "_")
 
 
 def main() -> None:

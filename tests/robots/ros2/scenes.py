@@ -44,6 +44,26 @@ def cartesian_table(folder: Path) -> Path:
     return path
 
 
+def button(folder: Path) -> Path:
+    """Write the scene of the UR5e before a button, for ROS 2; return the file."""
+    facts = f"""
+lab:Ur5e-1 {SLOW.format(rate_hz=125.0)} .
+lab:Wsg-1 ros2:effortTopic "gripper_controller/max_effort" ; ros2:stateTimeout 2.0 .
+lab:Button-1 ros2:switchedTopic "Button_1/switched" .
+"""
+    return _write("ur5e_button", facts, folder)
+
+
+def parts(folder: Path) -> Path:
+    """Write the scene of a UR5e, a part and a box, for ROS 2; return the file."""
+    path = folder / "parts.ttl"
+    scene = (Path(__file__).parents[1] / "ur" / "parts.ttl").read_text("utf-8")
+    path.write_text(
+        f"{ROS2}{scene}\nlab:Ur5e-1 {SLOW.format(rate_hz=125.0)} .\nlab:Wsg-1 ros2:stateTimeout 2.0 .\n", "utf-8"
+    )
+    return path
+
+
 def table(folder: Path, rate_hz: float) -> Path:
     """Write the scene of the iiwa at the table, for ROS 2; return the file."""
     facts = f"""

@@ -25,6 +25,7 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 
 pytestmark = pytest.mark.slow
 
@@ -35,10 +36,15 @@ LIMITS = MotionLimits(speed=0.15, acceleration=0.4)
 
 
 @contextmanager
-def opened(scene: Path = SCENE) -> Iterator[DeviceCell]:
-    world = WorldModel(load_scene(scene, vocabulary()))
-    state = world.snapshot()
-    cell = open_cell(world, describe, lambda spec, arms: make_devices(state, spec, arms), PATIENT)
+def opened(scene: Path = SCENE, patience: Patience = PATIENT) -> Iterator[DeviceCell]:
+    with opened_state(load_scene(scene, vocabulary()), patience) as cell:
+        yield cell
+
+
+@contextmanager
+def opened_state(state: WorldState, patience: Patience = PATIENT) -> Iterator[DeviceCell]:
+    cell = open_cell(WorldModel(state), describe, lambda spec, arms: make_devices(state, spec, arms), patience)
+    cell._heartbeats._timeout = patience.tree_s
     try:
         yield cell
     finally:
