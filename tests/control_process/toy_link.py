@@ -215,7 +215,10 @@ class Toy:
 
     def open(self, state: WorldState | None = None, patience: Patience = PATIENCE) -> DeviceCell:
         """Open its cell with a state of the world; by default with that of its scene."""
-        world = self.world() if state is None else WorldModel(state)
+        return self.open_world(self.world() if state is None else WorldModel(state), patience)
+
+    def open_world(self, world: WorldModel, patience: Patience = PATIENCE) -> DeviceCell:
+        """Open its cell."""
         return open_cell(world, self.describe, self._make_devices, patience)
 
     def world(self) -> WorldModel:

@@ -20,6 +20,7 @@ from skillc.contract.messages import (
     StatusChanged,
     StopRequest,
 )
+from skillc_runtime.devices.control_report import ControlReport
 
 MAX_WAITING = 1000
 """How many requests may wait; those beyond are refused at once."""
@@ -31,11 +32,12 @@ class Outbox:
     """Reports that a thread sends. Of those about one operation, and about the cell, only the last one waits.
 
     So no slow reader fills it: answers are at most as many as the requests that may wait. `rounds` is how often the
-    loop has gone round, `intervals` how far apart its ticks were.
+    loop has gone round, `intervals` how far apart its ticks were, `arms` how real arms are controlled.
     """
 
     def __init__(self, connection: socket.socket) -> None:
         self.rounds, self.intervals = 0, TickIntervals()
+        self.arms: dict[str, ControlReport] = {}
         self._connection = connection
         self._news = Condition()
         self._answers = deque[Report]()
@@ -86,7 +88,8 @@ class Outbox:
             return None if self._closing and not reports else reports
 
     def _describe_progress(self) -> Alive:
-        return Alive(rounds=self.rounds, intervals=self.intervals.counts, intervals_s=self.intervals.sum_s)
+        counts, sum_s = self.intervals.counts, self.intervals.sum_s
+        return Alive(rounds=self.rounds, intervals=counts, intervals_s=sum_s, arms=self.arms)
 
 
 class Inbox:

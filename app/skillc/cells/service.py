@@ -12,7 +12,7 @@ import msgspec
 
 from skillc.cells.assigner import Assigned, Assigner
 from skillc.cells.host import CellHost
-from skillc.cells.mailbox import Inbox, Outbox
+from skillc.cells.mailbox import ALIVE_S, Inbox, Outbox
 from skillc.contract.cell import CellStatus
 from skillc.contract.messages import (
     Acknowledge,
@@ -78,6 +78,7 @@ class CellService:
         self._ending: str | None = None
         self._pending: list[_Pending] = []
         self._status: CellStatus | None = None
+        self._looked = 0.0
 
     def end(self, reason: str) -> None:
         """Interrupt everything in the next round, and end; may be called from signal handlers."""
@@ -248,6 +249,9 @@ class CellService:
         if status != self._status:
             self._status = status
             self._outbox.send(StatusChanged(status=status))
+        if time.monotonic() > self._looked + ALIVE_S:
+            self._looked = time.monotonic()
+            self._outbox.arms = self._host.devices.sampler.read_controls()
 
 
 def _refuse(error: ServiceError | TooManyRequests | NotDurable) -> Refused:

@@ -6,6 +6,8 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
+from skillc_runtime.devices.control_report import ControlReport
+
 DeviceKind: TypeAlias = Literal["base", "robot", "arm", "gripper", "camera", "sensor"]
 
 
@@ -33,7 +35,11 @@ class Device(msgspec.Struct, frozen=True):
 
 
 class DeviceStatus(msgspec.Struct, frozen=True):
-    """A device, and the operation that holds it; null if it is free."""
+    """A device, and the operation that holds it; null if it is free.
+
+    `control` is how the process is that controls a real arm, at most a second ago; null without one.
+    """
 
     device: Device
     held_by: str | None
+    control: ControlReport | None = None

@@ -14,6 +14,7 @@ from skillc.contract.cell import CellStatus
 from skillc.contract.diagnosis import NO_DIAGNOSIS, Diagnosis
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.contract.sample import PoseNumbers
+from skillc_runtime.devices.control_report import ControlReport
 from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.recording.commands import Command
 
@@ -195,12 +196,14 @@ class StatusChanged(_Message, tag="status", frozen=True, kw_only=True):
 class Alive(_Message, tag="alive", frozen=True, kw_only=True):
     """The loop of the cell has gone round `rounds` times; it stands still if that stays the same.
 
-    `intervals` are the counts of `TickIntervals` since the process was started, `intervals_s` their sum in s.
+    `intervals` are the counts of `TickIntervals` since the process was started, `intervals_s` their sum in s. `arms`
+    are the reports of the processes that control real arms, by IRI.
     """
 
     rounds: int
     intervals: tuple[int, ...] = ()
     intervals_s: float = 0.0
+    arms: dict[str, ControlReport] = {}
 
 
 class Preparing(_Message, tag="preparing", frozen=True, kw_only=True):

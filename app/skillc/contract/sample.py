@@ -6,6 +6,8 @@ from typing import Annotated
 
 import msgspec
 
+from skillc_runtime.devices.control_report import ControlReport
+
 PoseNumbers = tuple[float, float, float, float, float, float, float]
 """A pose in the world: position in m, then the unit quaternion (w, x, y, z)."""
 
@@ -20,6 +22,8 @@ class ArmSample(msgspec.Struct, frozen=True):
     `velocity` is that of the tool as measured, `commanded` that of its reference, in m/s, in the world. The difference
     of the poses of two samples is neither: the tool and its reference may change from one sample to the next.
     `commanded_force` is that on the tool which a push asks for now, in N, in the world; None without a push.
+    `reference` is the pose at which the tool is commanded to be, in the world; None if that is not known. `control` is
+    how the process is that controls a real arm; None without one.
     """
 
     joints: tuple[float, ...]
@@ -30,6 +34,8 @@ class ArmSample(msgspec.Struct, frozen=True):
     velocity: Vector = (0.0, 0.0, 0.0)
     commanded: Vector = (0.0, 0.0, 0.0)
     commanded_force: Vector | None = None
+    reference: PoseNumbers | None = None
+    control: ControlReport | None = None
 
 
 class ForceSample(msgspec.Struct, frozen=True):
@@ -40,8 +46,10 @@ class ForceSample(msgspec.Struct, frozen=True):
 
 
 class Sample(msgspec.Struct, frozen=True):
-    """A simulated cell at `time_s` of its clock: its arms, and where things really are in the world, both by IRI.
+    """A cell at `time_s` of its clock: its arms, and where things are in the world, both by IRI.
 
+    In a simulation that is where they really are; in a real cell what hands hold is in them, and all else is where the
+    world model has it.
     `joints` are the angles in rad and ways in m of what moves otherwise, as fingers and drawers, by the names of the
     cell's model; `forces` the contact forces on tools, by IRI of the tool, where there are any.
     """

@@ -14,6 +14,7 @@ from prometheus_client.registry import Collector
 from skillc.cells.tick_intervals import BOUNDS_S
 from skillc.contract.cell import CellState
 from skillc.server.supervisor import CellSupervisor
+from skillc_runtime.devices.control_report import ControlState
 
 CONTENT_TYPE = CONTENT_TYPE_LATEST
 SECONDS = (0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0)
@@ -52,6 +53,7 @@ class _Collector(Collector):
         """Return the metrics of cells and clients."""
         yield from self._collect_states()
         yield self._collect_intervals()
+        yield from self._collect_arms()
         listeners = GaugeMetricFamily("skillc_listeners", "Clients that listen to events")
         listeners.add_metric((), self._count_listeners())
         yield listeners
@@ -71,6 +73,25 @@ class _Collector(Collector):
                 ended.add_metric((name, state), count)
             starts.add_metric((name,), cell.starts)
         yield from (states, going, ended, starts)
+
+    def _collect_arms(self) -> Iterator[Metric]:
+        """Return how the processes are that control real arms."""
+        labels = ("cell", "arm")
+        states = GaugeMetricFamily("skillc_arm_state", "1 for the state of a real arm", labels=(*labels, "state"))
+        rate = GaugeMetricFamily("skillc_arm_rate_hz", "Control periods a second, in the last seconds", labels=labels)
+        late = GaugeMetricFamily("skillc_arm_late_seconds", "The latest begin of a period then", labels=labels)
+        speed = GaugeMetricFamily("skillc_arm_speed_share", "Share of commanded speeds by a slider", labels=labels)
+        lost = CounterMetricFamily("skillc_arm_lost_periods", "Control periods that were lost", labels=labels)
+        for cell in self._cells:
+            for each in cell.alive.arms.values():
+                name = (cell.settings.name, each.name)
+                for state in get_args(ControlState):
+                    states.add_metric((*name, state), float(each.state == state))
+                rate.add_metric(name, each.rate_hz or 0.0)
+                late.add_metric(name, each.late_s or 0.0)
+                speed.add_metric(name, each.speed_share)
+                lost.add_metric(name, each.lost_periods)
+        yield from (states, rate, late, speed, lost)
 
     def _collect_intervals(self) -> Metric:
         help_text = "Time between successive ticks of a cell while something goes on, since its process was started"

@@ -156,7 +156,7 @@ class CellSupervisor:
 
     def _bury(self, code: int) -> None:
         """The process has ended: nothing of it goes on."""
-        self._cell = None
+        self._cell, self.alive = None, Alive(rounds=0)
         self._settled.set()
         reason = self._problem or f"its process ended with {f'signal {-code}' if code < 0 else f'code {code}'}"
         self._ended = reason

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from skillc_runtime.devices.control_report import ControlReport
 from skillc_runtime.motion.pose import Pose
 
 ReadBytes = Callable[[], bytes]
@@ -20,7 +21,8 @@ class LiveArm:
     (1,): when that was measured, in s of the arm's own clock; None if it has none but the cell's. velocity (3,): m/s,
     of the tool as measured. force (3,): N that the tool is commanded to exert, along the axes of its reference; 0
     without a push. None for either if it is not known. timing (2,): how many control periods have been lost so far,
-    and by how many s the last one was late; None if none can be.
+    and by how many s the last one was late; None if none can be. control: how the process is that controls it; None
+    without one.
     """
 
     individual: str
@@ -33,6 +35,7 @@ class LiveArm:
     velocity: ReadBytes | None = None
     force: ReadBytes | None = None
     timing: ReadBytes | None = None
+    control: Callable[[], ControlReport] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +71,7 @@ class LiveSignals:
     """What a cell offers: the time in s, arms in order of IRI, sensors, bodies; `listeners` are called in each period.
 
     `period_s` is the control period; that of a device with its own time may vary. Listeners are called after the
-    controllers; they must neither wait nor raise.
+    controllers; they must neither wait nor raise. `refresh` brings all of it up to now, by whoever may call `advance`.
     """
 
     period_s: float
@@ -77,3 +80,4 @@ class LiveSignals:
     sensors: LiveSensors = NO_SENSORS
     bodies: LiveBodies = NO_BODIES
     listeners: list[Callable[[], None]] = field(default_factory=list)
+    refresh: Callable[[], None] = lambda: None

@@ -37,9 +37,9 @@ async def show_library(call: ApiCall) -> LibraryDescription:
 
 async def list_robots(call: ApiCall) -> tuple[DeviceStatus, ...]:
     devices = await ask_about(call, ListDevices(), tuple[Device, ...], QUERY_S)
-    operations = call.server.find_cell(call.path["cell"]).operations.values()
-    held = {each.id: each.devices for each in operations if each.devices != ()}
-    return tuple(DeviceStatus(each, _find_holder(each.iri, held)) for each in devices)
+    cell = call.server.find_cell(call.path["cell"])
+    held = {each.id: each.devices for each in cell.operations.values() if each.devices != ()}
+    return tuple(DeviceStatus(each, _find_holder(each.iri, held), cell.alive.arms.get(each.iri)) for each in devices)
 
 
 def _find_holder(device: str, held: dict[str, tuple[str, ...] | None]) -> str | None:

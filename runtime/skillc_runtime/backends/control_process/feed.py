@@ -8,6 +8,7 @@ from time import monotonic
 
 import numpy as np
 
+from skillc_runtime.backends.control_process.control_watch import ControlWatch
 from skillc_runtime.backends.control_process.host import ControlProcess
 from skillc_runtime.backends.control_process.memory_plan import TIME
 from skillc_runtime.devices.live import NO_BODIES, LiveArm, LiveBodies, LiveSignals, ReadBytes
@@ -34,11 +35,12 @@ class Feed:
 
     def __init__(self, arms: Mapping[str, FedArm], bodies: LiveBodies = NO_BODIES) -> None:
         self._arms, self._began, self._time = arms, monotonic(), -np.inf
+        self._watches = {each: ControlWatch(arm.process) for each, arm in arms.items()}
         self._rows = {each: np.full(arm.process.ring.width, np.nan) for each, arm in arms.items()}
         self._leading = min(arms, key=lambda each: arms[each].process.connected.period_s)
         self._period_s = arms[self._leading].process.connected.period_s
         described = tuple(self._describe(each, arms[each]) for each in sorted(arms))
-        self.live = LiveSignals(self._period_s, self._find_time, described, bodies=bodies)
+        self.live = LiveSignals(self._period_s, self._find_time, described, bodies=bodies, refresh=self.hand_over)
 
     def begin(self, began_s: float) -> None:
         """Let the time of the cell be 0 at a time of the machine's clock in s."""
@@ -46,7 +48,7 @@ class Feed:
 
     def hand_over(self) -> None:
         """Call the listeners for each cycle since the last call; what has happened long ago is left out."""
-        waiting = {each: self._take(arm) for each, arm in self._arms.items()}
+        waiting = {each: self._take(each, arm) for each, arm in self._arms.items()}
         if not self.live.listeners:
             self._keep_last(waiting)
             return
@@ -59,9 +61,10 @@ class Feed:
             for listen in tuple(self.live.listeners):
                 listen()
 
-    def _take(self, arm: FedArm) -> Array:
+    def _take(self, individual: str, arm: FedArm) -> Array:
         """Return the waiting cycles of an arm; what was before the time of the cell is left out."""
         rows = arm.process.ring.take()
+        self._watches[individual].take(rows)
         return rows[rows[:, TIME] >= self._began]
 
     def _advance(self, individual: str, rows: Array, first: int, until_s: float) -> int:
@@ -96,4 +99,5 @@ class Feed:
             velocity=read("velocity"),
             force=read("force"),
             timing=read("lost", "late_s"),
+            control=self._watches[individual].report,
         )

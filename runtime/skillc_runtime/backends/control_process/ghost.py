@@ -1,13 +1,16 @@
-"""The model of a cell of real devices, its arms where they are measured: what displays draw."""
+"""The model of a cell of real devices, put where they are measured and where things are known to be: for displays."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, Protocol
 
 import mujoco
 
 from skillc_runtime.backends.control_process.fingers import find_fingers
+from skillc_runtime.backends.control_process.placed_things import PlacedThings
+from skillc_runtime.backends.kinematic.riders import Riders
 from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.model_builder import build_model
 from skillc_runtime.backends.simulation.names import base_body_name, part_name
@@ -17,36 +20,70 @@ from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.drawing import Posture
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.live import LiveBodies
-from skillc_runtime.motion.pose import Array, quaternion_from_rotation
+from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
+from skillc_runtime.world.state.world_state import WorldState
+
+
+class ShownArm(Protocol):
+    """What is drawn of an arm."""
+
+    @property
+    def joints(self) -> Array:
+        """The measured joints (nv,) in rad."""
+        ...
+
+    @property
+    def held(self) -> tuple[str, Pose] | None:
+        """What its hand holds, and at which pose in the frame of the empty hand's tool centre point."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class _Hand:
+    """The hand of an arm in the model: its tool centre point by number, and what stands on what it holds."""
+
+    arm: ShownArm
+    tool_centre: int
+    riders: Riders
 
 
 class Ghost(ModelDrawing):
-    """Implements `Drawing`: arms, fingers and bases as they are measured, and all else where the facts had it first."""
+    """Implements `Drawing`: arms, fingers and bases as they are measured, what hands hold in them.
+
+    All else is where the world model has it; what that does not place stays where it was.
+    """
 
     def __init__(
         self,
         scene: SceneSpec,
-        joints: Mapping[str, Callable[[], Array]],
+        arms: Mapping[str, ShownArm],
         grippers: Mapping[str, Gripper],
         bases: Mapping[str, MobileBase],
+        snapshot: Callable[[], WorldState],
     ) -> None:
-        """Build the model; `joints` return those (nv,) in rad of each arm."""
+        """Build the model; `snapshot` returns the world as it is known now."""
         variation = exact_variation(scene)
         model: Any = build_model(scene, variation)
         data = mujoco.MjData(model)
         super().__init__(scene, variation, model, data)
-        self._ghost, self._joints, self._bases = data, joints, bases
+        self._ghost, self._arms, self._bases, self._snapshot = data, arms, bases, snapshot
         self._spans = {each.individual: _find_span(model, scene.names[each.individual]) for each in scene.arms}
         self._fingers = [
             (grippers[hand.individual], *find_fingers(model, scene.names[hand.individual]))
             for hand in _hands(scene.arms)
             if hand.individual in grippers
         ]
+        self._hands = [
+            _Hand(arms[each.individual], _find_tool_centre(model, scene, each), Riders(scene, model, data))
+            for each in scene.arms
+            if each.gripper is not None
+        ]
         self._mocaps = {
             each: int(model.body(base_body_name(scene.names[each])).mocapid[0])
             for each in bases
             if any(base.individual == each for base in scene.bases)
         }
+        self._things = PlacedThings(scene, model, data, self.individuals, snapshot())
         self.bodies = LiveBodies(self._read_positions, lambda: bytes(self._ghost.xquat.tobytes()))
 
     def posture(self) -> Posture:
@@ -56,23 +93,43 @@ class Ghost(ModelDrawing):
 
     def _place(self) -> None:
         data = self._ghost
-        for individual, read in self._joints.items():
-            data.qpos[self._spans[individual]] = read()
+        for individual, arm in self._arms.items():
+            data.qpos[self._spans[individual]] = arm.joints
         for gripper, places, shares in self._fingers:
             data.qpos[places] = gripper.opening_m / shares.sum()
         for individual, number in self._mocaps.items():
             pose = self._bases[individual].pose
             data.mocap_pos[number], data.mocap_quat[number] = pose.position, quaternion_from_rotation(pose.rotation)
+        mujoco.mj_kinematics(self.model, data)
+        self._place_things()
+
+    def _place_things(self) -> None:
+        """Place what hands hold in them, with what stands on it, and all else where the world model has it."""
+        data, moved = self._ghost, set[str]()
+        for hand in self._hands:
+            held = hand.arm.held
+            if held is not None:
+                thing, in_tool_centre = held
+                tool = Pose(data.site_xpos[hand.tool_centre], data.site_xmat[hand.tool_centre].reshape(3, 3))
+                self._things.place(thing, tool @ in_tool_centre)
+                moved.add(thing)
+            moved.update(hand.riders.follow(None if held is None else held[0]))
+        if self._things.follow(self._snapshot(), moved) or moved:
+            mujoco.mj_kinematics(self.model, data)
 
     def _read_positions(self) -> bytes:
         """Return the positions of all bodies; the quaternions are read after them."""
         self._place()
-        mujoco.mj_kinematics(self.model, self._ghost)
         return bytes(self._ghost.xpos.tobytes())
 
 
 def _hands(arms: tuple[ArmSpec, ...]) -> list[Any]:
     return [arm.gripper for arm in arms if arm.gripper is not None]
+
+
+def _find_tool_centre(model: Any, scene: SceneSpec, arm: ArmSpec) -> int:
+    assert arm.gripper is not None
+    return int(model.site(part_name(scene.names[arm.gripper.individual], "tcp")).id)
 
 
 def _find_span(model: Any, name: str) -> slice:

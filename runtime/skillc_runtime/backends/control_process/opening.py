@@ -25,7 +25,7 @@ from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec, re
 from skillc_runtime.devices.backend import BackendUnavailable, DeviceStop
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.motion.numerics.compiled import compile_imported
-from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.state.model import WorldModel
 
 DescribeLink: TypeAlias = Callable[[ArmSpec], LinkDescription]
@@ -98,7 +98,7 @@ def _make_observed(
 def _make_cell(
     world: WorldModel, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver], others: CellDevices
 ) -> DeviceCell:
-    ghost = Ghost(scene, {each: _joints_of(arm) for each, arm in arms.items()}, others.grippers, others.bases)
+    ghost = Ghost(scene, arms, others.grippers, others.bases, world.snapshot)
     fed = {
         each.individual: FedArm(arms[each.individual].process, arms[each.individual].base, each.force_torque)
         for each in scene.arms
@@ -167,7 +167,3 @@ def _find_base(scene: SceneSpec, facts: ArmSpec, bases: Mapping[str, MobileBase]
         return facts.base if base is None else base.pose @ mounted
 
     return find
-
-
-def _joints_of(arm: RemoteArmDriver) -> Callable[[], Array]:
-    return lambda: arm.measured.q

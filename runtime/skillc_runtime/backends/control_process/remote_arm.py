@@ -18,7 +18,7 @@ from skillc_runtime.control.kinematics import Kinematics
 from skillc_runtime.control.virtual_arm import load_virtual_model
 from skillc_runtime.devices.arm import ArmLimits, ArmLoad
 from skillc_runtime.devices.backend import BackendBroken, DeviceStop, StopPersists
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.terms import JERK_LIMIT
 
@@ -27,6 +27,7 @@ class RemoteArmDriver:
     """One arm whose control process runs. Poses are in the world; `base` returns that of the arm's base.
 
     What takes long is computed here, with the models of the facts; the control process takes small calls.
+    held: what the hand holds, by IRI, and its pose in the frame of the empty hand's tool centre point.
     """
 
     def __init__(
@@ -43,6 +44,7 @@ class RemoteArmDriver:
         self.compliance = RemoteCompliance(process, base)
         self._individual, self._speed = facts.individual, 1.0
         self._reason: str | None = None
+        self.held: tuple[str, Pose] | None = None
 
     @property
     def speed(self) -> float:
@@ -54,6 +56,11 @@ class RemoteArmDriver:
         if share != self._speed:
             self.process.call("driver", "set_speed", share)
             self._speed = share
+
+    @property
+    def joints(self) -> Array:
+        """The measured joints (nv,) in rad."""
+        return self.measured.q
 
     @property
     def at_rest(self) -> bool:
@@ -120,10 +127,12 @@ class RemoteArmDriver:
                 "handle needs a pose and skiros:SizeX, SizeY and SizeZ in the scene"
             )
         self.set_load(self._things[thing].load(in_tool_centre, mass_kg))
+        self.held = thing, in_tool_centre
 
     def set_load(self, load: ArmLoad | None) -> None:
         """Count this as held from now on, for the arm's model and for the device; None for the empty hand."""
         self.process.call_device("set_load", load)
+        self.held = None
 
     def tare(self) -> None:
         """Let the wrench that is measured now be 0, while nothing touches the tool; NotOffered."""
