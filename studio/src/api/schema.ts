@@ -2342,10 +2342,14 @@ export interface components {
         /**
          * DeviceStatus
          * @description A device, and the operation that holds it; null if it is free.
+         *
+         *         `control` is how the process is that controls a real arm, at most a second ago; null without one.
          */
         DeviceStatus: {
             device: components["schemas"]["Device"];
             held_by: string | null;
+            /** @default null */
+            control?: components["schemas"]["ControlReport"] | null;
         };
         /**
          * Device
@@ -2371,6 +2375,27 @@ export interface components {
             property: string;
             value: string | boolean | number;
             unit: string;
+        };
+        /**
+         * ControlReport
+         * @description The state of an arm's device, with a sentence about what keeps it from moving, and its control periods.
+         *
+         *         name: the short name of the arm. period_s: the nominal control period. rate_hz: control periods a second, and
+         *         late_s: by how much the latest of them began late, both in the last seconds; None while there is none. lost_periods:
+         *         those without a command or a state so far. speed_share: at which share of the commanded speeds the device moves, by
+         *         its speed slider; 1 without. real_time: whether the process runs before all others of its machine.
+         */
+        ControlReport: {
+            name: string;
+            /** @enum {unknown} */
+            state: "emergency-stop" | "in-control" | "lost" | "not-in-control" | "protective-stop" | "ready" | "wrong-mode";
+            sentence: string;
+            period_s: number;
+            rate_hz: number | null;
+            late_s: number | null;
+            lost_periods: number;
+            speed_share: number;
+            real_time: boolean;
         };
         /**
          * PlanPreview

@@ -57,6 +57,8 @@ export type RunDiff = Schemas["RunDiff"];
 export type SignalRows = Schemas["SignalRows"];
 export type SourceText = Schemas["SourceText"];
 export type LibraryStatus = Required<Schemas["LibraryStatus"]>;
+/** How the process is that controls a real arm. */
+export type ControlReport = Schemas["ControlReport"];
 export type ProblemDetails = Schemas["ProblemDetails"];
 export type Role = Schemas["MadeToken"]["role"];
 
@@ -81,6 +83,10 @@ export interface ArmSample {
   commanded?: [number, number, number];
   /** The force on the tool that a push asks for now, in N; null without a push. */
   commanded_force?: [number, number, number] | null;
+  /** Where the tool of a real arm is commanded to be; null while nobody commands it. */
+  reference?: PoseNumbers | null;
+  /** How the process is that controls a real arm; null for others. */
+  control?: ControlReport | null;
 }
 
 /** A true contact force on a tool in N, and where it acts. */

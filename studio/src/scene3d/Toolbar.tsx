@@ -9,11 +9,16 @@ const PRESETS: readonly [CameraPreset, string, string][] = [
   ["top", "Top", "Look down"],
   ["follow", "Follow", "Follow the tool"],
 ];
-const REALITIES: readonly [Reality, string][] = [
+/** What can be shown of a simulation, and of real devices, of which nothing but what they measure is known. */
+const SIMULATED: readonly [Reality, string][] = [
   ["both", "True, belief as ghost"],
   ["true", "True only"],
   ["believed", "As believed"],
   ["beside", "Side by side"],
+];
+const MEASURED: readonly [Reality, string][] = [
+  ["both", "Measured, command as ghost"],
+  ["true", "Measured only"],
 ];
 const SWITCHES: readonly [Exclude<keyof SceneOptions, "reality">, string, string][] = [
   ["labels", "Names", "Names of things"],
@@ -45,6 +50,7 @@ export interface ToolbarProps {
   tool: ReadonlySignal<Tool>;
   follows: ReadonlySignal<boolean>;
   refusals: SceneActions["refusals"];
+  isReal: SceneActions["isReal"];
   onCamera: (preset: CameraPreset) => void;
   onOptions: (options: Partial<SceneOptions>) => void;
   onTool: (tool: Tool) => void;
@@ -88,7 +94,7 @@ export function Toolbar(props: ToolbarProps) {
         <div class="scene-sheet">
           <fieldset>
             <legend>Reality</legend>
-            {REALITIES.map(([reality, text]) => (
+            {(props.isReal.value ? MEASURED : SIMULATED).map(([reality, text]) => (
               <label key={reality}>
                 <input
                   type="radio"

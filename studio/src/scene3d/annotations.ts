@@ -43,7 +43,7 @@ function nameBeliefs({ model, bodies, poses, misbeliefs, options }: Annotated): 
     const at = topOf(bodies.boxOf(poses, each.individual));
     if (at === null) return [];
     const [x, y, z] = transform(each.shift, [at.x, at.y, at.z]);
-    const text = `${shorten(model.individuals[each.individual]?.label ?? "")} is believed ${describeDifference(each)}`;
+    const text = `${shorten(model.individuals[each.individual]?.label ?? "")} is ${each.why} ${describeDifference(each)}`;
     return [
       { key: `belief ${each.individual}`, text, at: new three.Vector3(x, y, z), kind: "believed", rank: 8 },
     ];

@@ -4,6 +4,7 @@ import { ApiError, call } from "../api/client";
 import { attempt, select } from "../state/actions";
 import type { PoseNumbers } from "../api/types";
 import { readWorld } from "../state/live";
+import { isReal } from "../state/real_arms";
 import { rehearsed } from "../state/replay";
 import {
   cells,
@@ -132,7 +133,11 @@ function followCoverage(cell: string): () => void {
 export function sceneActions(cell: string): SceneActions {
   return {
     select: (iri) => select(iri === null ? { kind: "nothing" } : { kind: "thing", iri }),
-    refusals: computed(() => ({ disturb: refusalOf("operate"), correct: refusalOf("edit") })),
+    isReal,
+    refusals: computed(() => ({
+      disturb: isReal.value ? "Nothing of this cell is simulated." : refusalOf("operate"),
+      correct: refusalOf("edit"),
+    })),
     disturb: (displacement) => disturb(cell, displacement),
     take: (displacement) => take(cell, displacement),
     correct: (displacement, why) => correct(cell, displacement, why),

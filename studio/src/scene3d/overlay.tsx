@@ -82,6 +82,7 @@ export function showControls(
         tool={tool}
         follows={follows}
         refusals={actions.refusals}
+        isReal={actions.isReal}
         onCamera={(preset) => handle.setCamera(preset === "follow" && follows.value ? "fit" : preset)}
         onOptions={(changed) => handle.setOptions(changed)}
         onTool={(chosen) => handle.setTool(chosen)}

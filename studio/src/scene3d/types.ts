@@ -117,6 +117,8 @@ export type MovingTool = "disturb" | "correct";
 
 /** What a person does in the view. */
 export interface SceneActions {
+  /** Whether the cell is one of real devices, where nothing is simulated. */
+  isReal: Source<boolean>;
   select(individual: string | null): void;
   /** Why each tool moves nothing now, as a sentence; empty where it may. */
   refusals: Source<Readonly<Record<MovingTool, string>>>;

@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import * as three from "three";
 import { annotate } from "./annotations";
-import { findMisbeliefs, shiftsOf, type Misbelief } from "./belief";
+import { findOffsets, shiftsOf, type Misbelief } from "./belief";
 import { SceneBodies } from "./bodies";
 import { SceneCamera } from "./camera";
 import { CoverageLayer } from "./coverage";
@@ -229,7 +229,7 @@ export class SceneView implements SceneHandle {
     this.overlay.setHalves(options.reality === "beside");
     if (model.value === null || this.bodies === null) return;
     this.poses = placeBodies(model.value, sample.value);
-    this.misbeliefs = findMisbeliefs(model.value, this.poses, believed.value);
+    this.misbeliefs = findOffsets(model.value, this.poses, believed.value, sample.value);
     this.forces = options.forces && sample.value !== null ? findForces(sample.value) : [];
     this.bodies.placeGhosts(this.poses, options.reality === "both" ? shiftsOf(this.misbeliefs) : NO_SHIFTS);
     this.bodies.outlineThese(selected.value);

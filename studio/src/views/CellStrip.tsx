@@ -25,6 +25,7 @@ import {
 import { describeReason, describeRequest } from "../state/text";
 import { shownSeries } from "../state/trials";
 import type { OperationStatus } from "../api/types";
+import { ArmControls } from "./ArmControls";
 import { CellMenu } from "./CellMenu";
 import { Icon } from "./icons";
 import { choosing, maximised, runTab } from "./layout";
@@ -59,6 +60,7 @@ export function CellStrip() {
         </button>
       )}
       {waiting.length > 0 && <Queue waiting={waiting} />}
+      <ArmControls />
       <CellMenu />
     </nav>
   );

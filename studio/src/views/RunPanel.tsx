@@ -1,6 +1,6 @@
 // Run: choose what to do, see the plan first, start; then how far it is, and how it ended.
 import type { Failure, RunState } from "../api/types";
-import { command, select, start } from "../state/actions";
+import { command, select } from "../state/actions";
 import {
   allows,
   cell,
@@ -11,7 +11,6 @@ import {
   replay,
   shownRun,
   shownTime,
-  status,
 } from "../state/studio";
 import { describeRemaining, nameOperations } from "../state/activity";
 import { bounds } from "../state/bounds";
@@ -19,6 +18,7 @@ import { NOTHING } from "../state/selection";
 import { formatTime, formatValue } from "../state/text";
 import { BoundsChart } from "./BoundsChart";
 import { Choose } from "./Choose";
+import { Continue, Decisions } from "./Decisions";
 import { Icon } from "./icons";
 import { choosing, detailsTab, maximised } from "./layout";
 import { NothingToDo } from "./NothingToDo";
@@ -115,80 +115,6 @@ function Prompts() {
         </div>
       ))}
     </>
-  );
-}
-
-const DECISIONS = [
-  { name: "approve", label: "Approve the plan", why: "Run this plan" },
-  { name: "retry", label: "Try again", why: "Run the failed step again" },
-  { name: "skip", label: "Count as done", why: "Somebody did the step by hand; its effects are assumed" },
-  { name: "replan", label: "Plan again", why: "Make another plan for the world as it is" },
-] as const;
-
-/** How an operation that was interrupted can be continued; nothing goes on by itself. */
-function Continue() {
-  const current = status.value;
-  if (replay.value !== null || current?.state !== "interrupted" || current.continued_by !== "") return null;
-  const halted = describeHalted();
-  const go = (decision: "replan" | "retry" | "skip"): void => {
-    const why = decision === "skip" ? "counted as done in the studio" : "";
-    void start({ continues: current.id, decision, why }, crypto.randomUUID());
-  };
-  return (
-    <>
-      <p class="small">
-        {halted !== undefined && `It was interrupted in ${halted}. `}
-        How shall it go on? Check first how the cell is now.
-      </p>
-      <div class="row decisions">
-        {current.decisions.map((name) => {
-          const known = DECISIONS.find((each) => each.name === name);
-          return (
-            <button
-              key={name}
-              disabled={!mayCommand()}
-              title={refusalOf("operate") || known?.why}
-              onClick={() => go(name)}
-            >
-              {known?.label ?? name}
-            </button>
-          );
-        })}
-      </div>
-    </>
-  );
-}
-
-/** Return the step in which the operation was interrupted; undefined if it was in none. */
-function describeHalted(): string | undefined {
-  const { attempts, nodes } = operation.value;
-  const last = attempts.at(-1);
-  const at = (last?.nodes ?? []).findIndex((key) => key !== null && nodes.get(key)?.status === "halted");
-  const step = last?.plan?.steps[at];
-  if (step === undefined) return undefined;
-  return `${step.skill} ${Object.values(step.arguments).map(formatValue).join(", ")}`;
-}
-
-/** What a person can decide now: about a plan, or after a failure. */
-function Decisions() {
-  const possible = DECISIONS.filter((each) => allows(each.name));
-  if (possible.length === 0) return null;
-  const give = (type: (typeof DECISIONS)[number]["name"]): void =>
-    void command(type === "skip" ? { type, why: "counted as done in the studio" } : { type });
-  return (
-    <div class="row decisions">
-      {possible.map((each, index) => (
-        <button
-          key={each.name}
-          class={index === 0 && each.name !== "replan" ? "primary" : ""}
-          disabled={!mayCommand()}
-          title={refusalOf("operate") || each.why}
-          onClick={() => give(each.name)}
-        >
-          {each.label}
-        </button>
-      ))}
-    </div>
   );
 }
 

@@ -1,5 +1,5 @@
 // States of cells, operations and nodes: each has a colour, a shape and a word.
-import type { CellState, RunState } from "../api/types";
+import type { CellState, ControlReport, RunState } from "../api/types";
 import type { NodeStatus } from "../state/operation";
 import { ENDS } from "../state/studio";
 import { Icon, type IconName } from "./icons";
@@ -25,6 +25,15 @@ const CELL: Record<CellState, Look> = {
   "protective-stop": ["is-bad", "warning", "protective stop"],
   fault: ["is-bad", "cross", "fault"],
   "emergency-stop": ["is-bad", "stop", "emergency stop"],
+};
+const CONTROL: Record<ControlReport["state"], Look> = {
+  ready: ["is-idle", "ring", "not controlled"],
+  "in-control": ["is-good", "check", "in control"],
+  "not-in-control": ["is-waiting", "locked", "somebody else has control"],
+  "wrong-mode": ["is-waiting", "warning", "takes no commands"],
+  "protective-stop": ["is-bad", "warning", "protective stop"],
+  "emergency-stop": ["is-bad", "stop", "emergency stop"],
+  lost: ["is-bad", "plug", "does not answer"],
 };
 const NODE: Record<NodeStatus, Look> = {
   pending: ["is-idle", "ring", "not started"],
@@ -87,6 +96,11 @@ export function FalseClaims({ claims }: { claims: readonly string[] | undefined 
 export function CellBadge({ state, isKnown }: { state: CellState; isKnown: boolean }) {
   const [, , word] = CELL[state];
   return <Badge look={isKnown ? CELL[state] : ["is-idle", "ring", `was ${word}`]} />;
+}
+
+/** Return how the state of a real arm looks, or the one that it had last while there is no connection. */
+export function lookOfControl(state: ControlReport["state"], isKnown: boolean): Look {
+  return isKnown ? CONTROL[state] : ["is-idle", "ring", `was: ${CONTROL[state][2]}`];
 }
 
 /** The state of a node as a shape; its word is for screen readers. */
