@@ -1,0 +1,85 @@
+"""The page with a cell whose arm a control process controls: the toy robot, without a library of any robot."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import BrowserContext, Page, expect
+
+from control_process.served_toy import serving_toy
+from server.running import RunningServer, wait_until
+from studio.opening import EXPECTED_ERRORS, open_studio, start, wait_for_state
+
+pytestmark = pytest.mark.slow
+PRESSED = "the emergency stop of the toy is pressed; release it"
+
+
+def shots(page: Page, name: str) -> None:
+    if "GHOST_SHOTS" not in os.environ:
+        return
+    for scheme in ("light", "dark"):
+        for width, height in ((1280, 800), (1920, 1080)):
+            page.emulate_media(color_scheme=scheme)
+            page.set_viewport_size({"width": width, "height": height})
+            page.wait_for_timeout(700)
+            page.screenshot(path=f"/tmp/ghost/{name}-{scheme}-{width}.png")
+    page.emulate_media(color_scheme="light")
+    page.set_viewport_size({"width": 1280, "height": 800})
+
+
+def state_of_arm(server: RunningServer) -> object:
+    """Return the state of the arm in the world model."""
+    answer = server.client.get("/cells/yard/world", params={"subject": "lab:Iiwa-1", "limit": 1000})
+    facts = [each["fact"] for each in answer.json()["facts"]]
+    (found,) = [each["value"] for each in facts if each.get("property", {}).get("label") == "skillc:deviceState"]
+    return found["value"] if isinstance(found, dict) else found
+
+
+def test_a_real_arm_is_shown_operated_and_its_stop_acknowledged(
+    context: BrowserContext, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    problems: list[str] = []
+    with serving_toy(tmp_path, monkeypatch) as (toy, server):
+        page = context.new_page()
+        page.on("pageerror", lambda error: problems.append(str(error)))
+        page.on("console", lambda said: problems.append(said.text) if said.type == "error" else None)
+        open_studio(page, server)
+        arm = page.get_by_role("button", name="Iiwa-1: in control")
+        expect(arm).to_contain_text("Hz")
+        page.locator(".scene-menu summary").click()
+        expect(page.get_by_label("Measured, command as ghost")).to_be_checked()
+        expect(page.get_by_role("button", name="Move in reality")).to_be_disabled()
+        start(page, "swing")
+        wait_for_state(page, "running", "swing")
+
+        arm.click()
+        report = page.get_by_role("region", name="How lab:Iiwa-1 is controlled")
+        lost = report.locator("dt", has_text="Lost periods").locator("+ dd")
+        before = int(lost.inner_text())
+        toy.ask("lose", 5)
+        wait_until(lambda: int(lost.inner_text()), lambda now: now > before)
+        toy.ask("lose", 0)
+        shots(page, "moving")
+
+        toy.ask("condition", "emergency-stop")
+        wait_for_state(page, "failed", "swing")
+        expect(page.get_by_role("alert").filter(has_text=PRESSED)).to_be_visible()
+        expect(report).to_contain_text(PRESSED)
+        assert state_of_arm(server) == "Fault"
+        shots(page, "stopped")
+        acknowledge = page.get_by_role("button", name="Acknowledge")
+        acknowledge.click()
+        expect(page.locator(".messages")).to_contain_text(PRESSED)
+        shots(page, "refused")
+        toy.ask("condition", "ready")
+        acknowledge.click()
+        page.get_by_text("operational", exact=True).wait_for()
+        expect(arm).to_be_visible()
+        assert state_of_arm(server) == "Idle"
+        metrics = server.client.get("/metrics").text
+        assert 'skillc_arm_state{arm="lab:Iiwa-1",cell="yard",state="in-control"} 1.0' in metrics
+        (control,) = [each["control"] for each in server.client.get("/cells/yard/robots").json() if each["control"]]
+        assert (control["state"], control["lost_periods"] > 0) == ("in-control", True)
+    assert [each for each in problems if not any(known in each for known in EXPECTED_ERRORS)] == []
