@@ -1,4 +1,4 @@
-"""A package whose back end drives the toy robot, and a server of a cell with it: what a robot's package is, made small."""
+"""A package with a back end for the toy robot, and a server of a cell with it: what the package of a robot is."""
 
 from __future__ import annotations
 
