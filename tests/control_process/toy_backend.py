@@ -17,6 +17,4 @@ def make_backend(world: WorldModel, start: BackendStart) -> DeviceCell:
     """Return the cell of the toy; it is `MakeBackend`."""
     scene, port, panel = os.environ[VARIABLE].split()
     toy = Toy(scene, running=(int(port), int(panel)))
-    cell = open_cell(world, toy.describe, toy._make_devices, MUCH_PATIENCE, start.observed)
-    cell._heartbeats._timeout = MUCH_PATIENCE.tree_s
-    return cell
+    return open_cell(world, toy.describe, toy._make_devices, MUCH_PATIENCE, start.observed)

@@ -44,7 +44,6 @@ def opened(scene: Path = SCENE, patience: Patience = PATIENT) -> Iterator[Device
 @contextmanager
 def opened_state(state: WorldState, patience: Patience = PATIENT) -> Iterator[DeviceCell]:
     cell = open_cell(WorldModel(state), describe, lambda spec, arms: make_devices(state, spec, arms), patience)
-    cell._heartbeats._timeout = patience.tree_s
     try:
         yield cell
     finally:

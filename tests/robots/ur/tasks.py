@@ -81,7 +81,6 @@ def with_peer(peer: Peer, state: WorldState) -> WorldState:
 def opened(peer: Peer, state: WorldState, patience: Patience = PATIENCE) -> Iterator[DeviceCell]:
     """Open the cell of a state of the world."""
     cell = open_arms(WorldModel(state), patience, PeerCamera(peer))
-    cell._heartbeats._timeout = patience.tree_s
     try:
         yield cell
     finally:

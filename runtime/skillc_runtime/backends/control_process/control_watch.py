@@ -8,7 +8,7 @@ import numpy as np
 
 from skillc_runtime.backends.control_process.host import ControlProcess
 from skillc_runtime.backends.control_process.link import Condition
-from skillc_runtime.backends.control_process.memory_plan import LATE, TIME
+from skillc_runtime.backends.control_process.memory_plan import TIME
 from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.devices.control_report import WINDOW_S, ControlReport, ControlState
 from skillc_runtime.motion.pose import Array
@@ -23,11 +23,13 @@ class ControlWatch:
     def __init__(self, process: ControlProcess) -> None:
         self._process = process
         self._cycles = np.empty((0, 2))
-        self._condition, self._asked = Condition("ready"), -np.inf
+        self._state: tuple[ControlState, str] = ("ready", "")
+        self._asked = -np.inf
 
     def take(self, rows: Array) -> None:
         """Take the rows of new cycles; those of the last seconds are kept."""
-        cycles = np.concatenate([self._cycles, rows[:, [TIME, LATE]]])
+        late = self._process.row.spans["late_s"].start
+        cycles = np.concatenate([self._cycles, rows[:, [TIME, late]]])
         self._cycles = cycles[cycles[:, 0] > monotonic() - WINDOW_S]
 
     def report(self) -> ControlReport:
@@ -50,22 +52,10 @@ class ControlWatch:
         )
 
     def _find_state(self) -> tuple[ControlState, str]:
-        """Return the state with its sentence; a device under control is not asked, because that takes its time."""
-        process = self._process
-        if (silence := process.find_silence()) is not None:
-            return "lost", silence
-        snapshot = process.read()
-        if snapshot.phase == "in-control":
-            return "in-control", ""
-        try:
-            if snapshot.phase == "lost":
-                stop = process.call("device", "explain")
-                return "lost", "" if stop is None else stop.reason
-            if monotonic() > self._asked + ASK_S:
-                self._condition, self._asked = process.call("device", "condition"), monotonic()
-        except BackendBroken as error:
-            return "lost", str(error)
-        return self._condition.kind, self._condition.sentence
+        """Return the state with its sentence; one that has to be asked for may be half a second old."""
+        if self._process.read().phase != "connected" or monotonic() > self._asked + ASK_S:
+            self._state, self._asked = find_control_state(self._process), monotonic()
+        return self._state
 
     def _describe_cycles(self, period_s: float) -> tuple[float | None, float | None]:
         """Return the rate in Hz and by how much the latest cycle began late in s; None for either without cycles."""
@@ -73,3 +63,20 @@ class ControlWatch:
             return None, None
         late = self._cycles[:, 1]
         return float(1.0 / (period_s + late.mean())), max(0.0, float(late.max()))
+
+
+def find_control_state(process: ControlProcess) -> tuple[ControlState, str]:
+    """Return the state of an arm's device with its sentence; one under control is not asked, as that takes its time."""
+    if (silence := process.find_silence()) is not None:
+        return "lost", silence
+    phase = process.read().phase
+    if phase == "in-control":
+        return "in-control", ""
+    try:
+        if phase == "lost":
+            stop = process.call("device", "explain")
+            return "lost", "" if stop is None else stop.reason
+        condition: Condition = process.call("device", "condition")
+    except BackendBroken as error:
+        return "lost", str(error)
+    return condition.kind, condition.sentence

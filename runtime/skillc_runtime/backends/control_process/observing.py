@@ -10,13 +10,13 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from skillc_runtime.backends.control_process.control_watch import find_control_state
 from skillc_runtime.backends.control_process.joint_doubts import (
     find_beyond,
     find_confusion,
     find_opposite_speeds,
     find_opposite_weights,
 )
-from skillc_runtime.backends.control_process.link import Condition
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.real_time.device_cell import CellDevices
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
@@ -24,7 +24,7 @@ from skillc_runtime.control.kinematics import Kinematics
 from skillc_runtime.control.measured import STILL_RAD_S
 from skillc_runtime.control.virtual_arm import load_virtual_model
 from skillc_runtime.devices.arm import ArmState
-from skillc_runtime.devices.backend import BackendBroken, DeviceStop
+from skillc_runtime.devices.backend import DeviceStop
 from skillc_runtime.devices.observed import (
     DIFFERS_HEADING_RAD,
     DIFFERS_M,
@@ -88,7 +88,8 @@ class _ArmLook:
 
     def observe(self) -> ObservedArm:
         arm, home = self._arm, self._facts.home
-        snapshot, condition, base = arm.process.read(), self._find_condition(), arm.base()
+        snapshot, base = arm.process.read(), arm.base()
+        condition, sentence = find_control_state(arm.process)
         state = snapshot.state
         at_home, _ = self._kinematics.tool_at(home, state)
         force = self._feel(state)
@@ -96,8 +97,8 @@ class _ArmLook:
             self._seen.append((state.q.copy(), state.dq.copy()))
         return ObservedArm(
             arm=self._name,
-            condition=condition.kind,
-            sentence=condition.sentence,
+            condition=condition,
+            sentence=sentence,
             joints=tuple(
                 ObservedJoint(joint=name, measured_rad=float(q), scene_rad=float(there))
                 for name, q, there in zip(self._joints, state.q, home, strict=True)
@@ -110,16 +111,6 @@ class _ArmLook:
             late_s=snapshot.number("late_s"),
             remarks=tuple(self._find_remarks(state, None if force is None else base.rotation @ force)),
         )
-
-    def _find_condition(self) -> Condition:
-        """Return the condition of the device; one that has fallen silent is in the wrong mode, and says so."""
-        try:
-            stop = self._arm.find_stop()
-            condition: Condition = self._arm.process.call("device", "condition")
-        except BackendBroken as error:
-            return Condition("wrong-mode", str(error))
-        lost = self._arm.process.read().phase == "lost"
-        return Condition("wrong-mode", stop.reason) if stop is not None and lost else condition
 
     def _feel(self, state: ArmState) -> Array | None:
         """Return the force (3,) in N on the tool in base; None where nothing measures it."""

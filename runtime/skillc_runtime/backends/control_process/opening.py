@@ -90,7 +90,7 @@ def _make_observed(
 ) -> DeviceCell:
     """Return a cell without devices, so that nothing can be told to move, nor to stop, that can be looked at."""
     together = _Together(tuple(arms.values()), others, None)
-    ghost = Ghost(scene, {each: _joints_of(arm) for each, arm in arms.items()}, others.grippers, others.bases)
+    ghost = Ghost(scene, arms, others.grippers, others.bases, world.snapshot)
     observer = DeviceObserver(scene, arms, others)
     return DeviceCell(world, CellDevices(drawing=ghost, observer=observer, close=together.close))
 

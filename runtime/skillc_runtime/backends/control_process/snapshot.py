@@ -46,7 +46,7 @@ class FieldLayout:
 
 def _count(size: str, joints: int) -> int:
     """Return the number that a size such as "6n" stands for."""
-    return int(size.rstrip("n") or 1) * joints ** size.count("n")
+    return int(size.rstrip("n") or 1) * int(joints ** size.count("n"))
 
 
 @dataclass(frozen=True, slots=True)
