@@ -20,8 +20,8 @@ from skillc_runtime.execution.cell_loop import TooManyRequests
 from skillc_runtime.execution.consistency import check_events
 from skillc_runtime.execution.planning_queue import PlanningQueue
 from skillc_runtime.execution.repeat import repeat_run
-from skillc_runtime.recording.commands import EditWorld
-from skillc_runtime.recording.events import Requested, TaskStarted
+from skillc_runtime.recording.commands import EditWorld, Resume
+from skillc_runtime.recording.events import PlanMade, Requested, TaskStarted
 from skillc_runtime.recording.run_spec import specify
 from skillc_runtime.recording.states import ENDS
 from skillc_runtime.scene.load import load_scene
@@ -101,3 +101,22 @@ def test_what_is_requested_goes_whole_to_the_engine_and_into_the_journal(tmp_pat
         with closing(JournalReader(host.settings.journal)) as reader:
             started = reader.envelopes("first", 0)[0].event
     assert isinstance(started, TaskStarted) and started.settings == wanted
+
+
+def test_each_step_waits_for_a_resume_and_a_repeat_does_too(tmp_path: Path) -> None:
+    with opened(tmp_path) as host:
+        host.submit("first", OperationRequest(task="carry_all", confirm_steps=True))
+        run, confirmed = host.loop.runs[0], list[str]()
+        while not run.ended:
+            if run.state == "paused":
+                confirmed.append(run.reason)
+                host.loop.request(run, Resume(who="Ada"))
+            if not host.tick():
+                host.loop.wait(0.01)
+        with closing(JournalReader(host.settings.journal)) as reader:
+            recorded = [each.event for each in reader.envelopes("first")]
+        scene = load_scene(Path(host.settings.scene), host.library.vocabulary)
+        repeated = repeat_run(recorded, host.library, make_backend("kinematic", WorldModel(scene), 0))
+    made = next(each for each in recorded if isinstance(each, PlanMade))
+    assert sorted(confirmed) == sorted(f"{step.skill} is to be confirmed" for step in made.steps)
+    assert repeated.difference is None and repeated.ended, str(repeated.difference)
