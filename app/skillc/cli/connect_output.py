@@ -15,6 +15,7 @@ CONDITIONS = {
     "wrong-mode": "wrong mode",
     "protective-stop": "protective stop",
     "emergency-stop": "emergency stop",
+    "lost": "does not answer",
 }
 
 
