@@ -8,11 +8,14 @@ from typing import Any
 
 import pytest
 
-from simulation.cells import ARM, LAB, world
+from simulation.cells import ARM, LAB, SURFACE, world
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
 from skillc_runtime.devices.backend import BackendBroken, DeviceStop, StopPersists
+from skillc_runtime.devices.sensors import Camera
+from skillc_runtime.primitives.inspect import Inspect
+from skillc_runtime.world.state.facts import PropertyFact
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.terms import DEVICE_STATE
+from skillc_runtime.world.state.terms import DEVICE_STATE, IS_CLEAN
 
 DEADLINE_S = 30.0
 
@@ -132,3 +135,23 @@ def test_what_was_recorded_is_handed_over_in_the_thread_that_waits(make: Make) -
     cell.advance(0.001)
     cell.advance(0.001)
     assert len(passed) == 2
+
+
+class Inspection(Camera):
+    """A camera that has looked at a clean surface."""
+
+    def inspect(self, surface: str) -> float:
+        return 1.0
+
+    def rubbed_share(self, surface: str, seconds: float) -> float:
+        return 1.0
+
+
+def test_what_its_camera_inspects_is_sensed(make: Make) -> None:
+    cell = make(Reports(), inspection=Inspection())
+    inspect = Inspect(cell, surface=SURFACE["iiwa_table"])
+    inspect.start()
+    inspect.tick()
+    write = cell.world.deciding_write(PropertyFact(SURFACE["iiwa_table"], IS_CLEAN))
+    assert write is not None
+    assert write.evidence == "sensed"

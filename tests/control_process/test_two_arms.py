@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from control_process.still_link import StillDescription
-from control_process.toy_link import MUCH_PATIENCE
 from simulation.cells import LAB, world
 from skillc_runtime.backends.control_process.link import LinkAbilities
 from skillc_runtime.backends.control_process.opening import open_cell
@@ -18,7 +17,9 @@ from skillc_runtime.backends.real_time.device_cell import DeviceCell
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.recording.mcap.signal_tap import SampledBlock, SignalTap
+from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import SKILLC
 
 pytestmark = pytest.mark.robot
 IIWA, UR5E = LAB + "Iiwa-1", LAB + "Ur5e-1"
@@ -32,7 +33,9 @@ def describe(facts: ArmSpec) -> StillDescription:
 
 @pytest.fixture(scope="module")
 def cell() -> Iterator[DeviceCell]:
-    made = open_cell(WorldModel(world("two_robots")), describe, patience=MUCH_PATIENCE)
+    times = ("treeTimeout", "controlTimeout", "cycleTimeout")
+    slow = [SetProperty(arm, SKILLC + name, 60.0) for arm in (IIWA, UR5E) for name in times]
+    made = open_cell(WorldModel(world("two_robots").with_changes(slow)), describe)
     yield made
     made.close()
 
