@@ -91,7 +91,7 @@ def test_a_robot_that_is_paused_stops_the_cell_with_its_name_and_goes_on_once_it
     assert f"the robot at {between.address} does not answer any more" in cell.stops.report.reason
     os.kill(simulated.process.pid, signal.SIGCONT)
     wait(lambda: is_cleared(cell))
-    assert np.abs(cell.arm(ARM).measured.dq).max() < 0.05
+    assert np.abs(cell.arm(ARM).measured.state.dq).max() < 0.05
     begin_to_move(cell)
     wait(lambda: cell.arm(ARM).motion.done)
     assert between.ask("report")["violations"] == []

@@ -159,7 +159,7 @@ def test_a_robot_that_is_not_the_one_of_the_facts_gets_no_command(
         with pytest.raises(ControlRefused, match=says):
             link.take_control("torque")
 
-    before.tell("swap 1 3")
+    before.tell("swap 4 6")
     refuse(r"its flange is \d+ mm and \d+ deg away .* is that of another one")
     before.tell("swap 0 0")
     refuse(r"its end effector in Desk has 0.73 kg, the hand of the facts 1.50 kg", 1.5)
@@ -190,18 +190,6 @@ def test_a_reflex_is_told_with_its_cause_and_recovered_from(link: FrankaLink, be
     link.recover()
     link.take_control("torque")
     assert hold(link, 100) == "in-control"
-
-
-def test_lost_and_late_packets_change_nothing_beyond_limits(link: FrankaLink, before: Peer) -> None:
-    link.take_control("torque")
-    before.tell("drop 0.05")
-    assert hold(link, 500, push=1.0) == "in-control"
-    before.tell("drop 0")
-    before.tell("delay 4")
-    assert hold(link, 200) == "in-control"
-    report = before.ask("report")
-    assert report["dropped"] > 10
-    assert report["violations"] == []
 
 
 def test_a_robot_that_gets_no_commands_stops_and_says_why(link: FrankaLink, before: Peer) -> None:
