@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import Final
 
 import numpy as np
@@ -27,7 +28,7 @@ def describe(facts: ArmSpec) -> FrankaDescription:
     rest = _numbers(facts, REST_TORQUE, 1)
     gravity = tuple((facts.base.rotation.T @ GRAVITY).tolist())
     return FrankaDescription(
-        read_address(facts), facts.model, gravity, torques, forces, None if rest is None else rest[0]
+        read_address(facts), facts.model, gravity, torques, forces, inf if rest is None else rest[0]
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from math import pi
+from math import inf, pi
 from pathlib import Path
 from time import monotonic
 from typing import Any
@@ -48,7 +48,7 @@ class FrankaDescription:
     """Where a robot is, what it must be, and from where on it counts a force as a collision, by facts of the arm.
 
     gravity: m/s^2 in the base. reflex_torques (nv,) in N m at the joints, reflex_forces (6,) in N and N m on the tool;
-    None leaves what the robot has. rest_torque_n_m: which torque on a joint at rest is too much, None for none.
+    None leaves what the robot has. rest_torque_n_m: which torque on a joint at rest is too much.
     """
 
     address: str
@@ -56,7 +56,7 @@ class FrankaDescription:
     gravity: tuple[float, ...] = (0.0, 0.0, -9.81)
     reflex_torques: tuple[float, ...] | None = None
     reflex_forces: tuple[float, ...] | None = None
-    rest_torque_n_m: float | None = None
+    rest_torque_n_m: float = inf
 
     @property
     def name(self) -> str:
@@ -76,7 +76,7 @@ class FrankaLink(RobotLink):
         self._torques = library.Torques
         self._model = ArmModel(description.model, np.array(description.gravity))
         self._carried: tuple[PointMass, PointMass] | None = None
-        self._weighed = description.rest_torque_n_m is None
+        self._weighed = False
         self._robot: Any = None
         self._control: Any = None
         self._sent = np.zeros(0)
@@ -105,7 +105,7 @@ class FrankaLink(RobotLink):
             self._robot = None
             raise BackendUnavailable(
                 f"{name} cannot be used ({_sentence(error)}): is the address right (skiros:DriverAddress), is the "
-                "robot on, are its joints unlocked, and is FCI activated in Desk?"
+                "robot on, are its joints unlocked, is FCI activated in Desk, and is no other program connected?"
             ) from error
 
     def read(self, state: StateView) -> None:
@@ -232,12 +232,12 @@ class FrankaLink(RobotLink):
 
         Later it may rest against something, where it stopped.
         """
-        difference = self._model.find_other_arm(state)
-        if difference is None and self._carried is not None:
-            difference = find_other_hand(state, self._carried[0].mass_kg)
-        if difference is None and self._carried is not None and not self._weighed:
-            assert self._description.rest_torque_n_m is not None
-            difference = self._model.find_other_weight(state, self._carried, self._description.rest_torque_n_m)
+        carried, difference = self._carried, self._model.find_other_arm(state)
+        if carried is not None:
+            difference = difference or find_other_hand(state, carried[0].mass_kg)
+        if carried is not None and not self._weighed:
+            most_n_m = self._description.rest_torque_n_m
+            difference = difference or self._model.find_other_weight(state, carried, most_n_m)
             self._weighed = difference is None
         if difference is not None:
             raise ControlRefused(f"{self._description.name} is not as the facts say: {difference}")
