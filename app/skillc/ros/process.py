@@ -6,11 +6,11 @@ It ends with the server, which has started it, or with its standard input.
 from __future__ import annotations
 
 import asyncio
-import os
-import signal
 import sys
 import threading
+from collections.abc import Callable
 from contextlib import aclosing, suppress
+from functools import partial
 from typing import Any
 
 from skillc.client.connecting import connect_async
@@ -26,7 +26,11 @@ THREADS = 4
 
 
 async def run(node: Any) -> None:
-    """Publish the cells of the server, and pass on orders, until the server ends."""
+    """Publish the cells of the server, and pass on orders, until the server or standard input ends."""
+    loop, task = asyncio.get_running_loop(), asyncio.current_task()
+    assert task is not None
+    end = partial(loop.call_soon_threadsafe, task.cancel)
+    threading.Thread(target=_end_with_input, args=(end,), daemon=True).start()
     async with connect_async() as server:
         bridges = {each.name: CellBridge(node, server, await server.cell(each.name)) for each in await server.cells()}
         motions = [asyncio.create_task(_keep_showing(each)) for each in bridges.values()]
@@ -45,7 +49,7 @@ async def run(node: Any) -> None:
 
 async def _keep_showing(bridge: CellBridge) -> None:
     """Show what moves, again after the cell was off."""
-    while True:
+    while True:  # wait ends: with the node, which cancels it
         with suppress(SkillcError):
             await bridge.show_motion()
         await asyncio.sleep(1.0)
@@ -63,9 +67,8 @@ def main() -> int:
     executor = MultiThreadedExecutor(THREADS, context=session.node.context)
     executor.add_node(session.node)
     threading.Thread(target=executor.spin, daemon=True).start()
-    threading.Thread(target=_end_with_input, daemon=True).start()
     try:
-        with suppress(UnavailableError, KeyboardInterrupt):
+        with suppress(UnavailableError, KeyboardInterrupt, asyncio.CancelledError):
             asyncio.run(run(session.node))
     except SkillcError as error:
         print(error, file=sys.stderr)
@@ -76,10 +79,11 @@ def main() -> int:
     return 0
 
 
-def _end_with_input() -> None:
-    """End this process when the one that has started it is gone."""
-    sys.stdin.buffer.read()
-    os.kill(os.getpid(), signal.SIGINT)
+def _end_with_input(end: Callable[[], object]) -> None:
+    """Call `end` when the process that has started this one is gone."""
+    sys.stdin.buffer.read()  # wait ends: with the process at its other end
+    with suppress(RuntimeError):  # The loop has ended before.
+        end()
 
 
 if __name__ == "__main__":

@@ -43,4 +43,4 @@ def _end(process: subprocess.Popen[bytes]) -> None:
         process.wait(END_S)
     except subprocess.TimeoutExpired:
         process.kill()
-        process.wait()
+        process.wait()  # wait ends: it is killed

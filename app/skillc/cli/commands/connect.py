@@ -88,7 +88,7 @@ def _show(observer: CellObserver) -> None:
 
     page, console = page_of(sys.stderr), rich_console(sys.stderr)
     with Live(console=console, auto_refresh=False, transient=False) as live:
-        while True:
+        while True:  # wait ends: with Ctrl-C
             lines = format_cell(observer.observe(), page)
             live.update(Text.from_ansi("\n".join([*lines, "", "Ctrl-C ends; nothing is moved"])), refresh=True)
             time.sleep(LOOK_S)
@@ -97,7 +97,7 @@ def _show(observer: CellObserver) -> None:
 def _print_changes(observer: CellObserver) -> None:
     """Print what the devices tell, again whenever a condition or a remark is another one."""
     said: tuple[list[str], int] | None = None
-    while True:
+    while True:  # wait ends: with Ctrl-C
         seen = observer.observe()
         if (says := ([each.condition for each in seen.arms], len(seen.problems))) != said:
             said = says

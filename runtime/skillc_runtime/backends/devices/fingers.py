@@ -132,7 +132,7 @@ class Fingers(Gripper):
     @property
     def moving(self) -> bool:
         """Whether the fingers still move towards the commanded opening, as far as the gripper has told since then."""
-        with self._lock:
+        with self._lock:  # wait ends: at once, since no call is made with it
             return self._fault is None and (self._is_new or self._state.moving)
 
     @property
@@ -189,7 +189,7 @@ class Fingers(Gripper):
             self._device.close()
             self._device.connect()
             self._device.activate()
-            with self._lock:
+            with self._lock:  # wait ends: at once, since no call is made with it
                 self._order, self._is_new, self._fault = None, False, None
 
     def close(self) -> None:
@@ -200,7 +200,7 @@ class Fingers(Gripper):
         self._device.close()
 
     def _send(self, order: Callable[[], None]) -> None:
-        with self._lock:
+        with self._lock:  # wait ends: at once, since no call is made with it
             self._order, self._is_new = order, True
         self._wake.set()
 
@@ -216,12 +216,12 @@ class Fingers(Gripper):
 
     def _serve(self) -> None:
         """Pass on the last order, and read the state after it."""
-        with self._lock:
+        with self._lock:  # wait ends: at once, since no call is made with it
             order, self._order = self._order, None
         if order is not None:
             order()
         state = self._device.read()
-        with self._lock:
+        with self._lock:  # wait ends: at once, since no call is made with it
             self._state = state
             if self._order is None:
                 self._is_new = False

@@ -28,7 +28,7 @@ class TextLine:
         """Connect; BackendUnavailable, which ends with `cure`."""
         self.close()
         try:
-            self._socket = create_connection((self._host, self._port), TIMEOUT_S)
+            self._socket = create_connection((self._host, self._port), timeout=TIMEOUT_S)
         except OSError as error:
             raise BackendUnavailable(
                 f"{self._name} does not answer at {self._host}, port {self._port} ({error}): {cure}"
@@ -45,7 +45,7 @@ class TextLine:
         if self._socket is None:
             raise OSError("not connected")
         while b"\n" not in self._rest:
-            part = self._socket.recv(1024)
+            part = self._socket.recv(1024)  # wait ends: after the timeout of the socket
             if not part:
                 raise OSError("the connection was closed")
             self._rest += part
@@ -56,7 +56,7 @@ class TextLine:
         """Return an answer that has no line end: all that has arrived, at least one byte."""
         if self._socket is None:
             raise OSError("not connected")
-        part = self._socket.recv(1024)
+        part = self._socket.recv(1024)  # wait ends: after the timeout of the socket
         if not part:
             raise OSError("the connection was closed")
         return part.decode(errors="replace").strip()

@@ -67,7 +67,7 @@ class HandClient:
     def close(self) -> None:
         """End the process, whatever it waits for."""
         self._process.kill()
-        self._process.wait()
+        self._process.wait()  # wait ends: it is killed
 
     def _listen(self) -> None:
         assert self._process.stdout is not None

@@ -10,9 +10,11 @@ nothing is to be done the hand is read every `SENSING_S`: {"done": how many line
 from __future__ import annotations
 
 import json
-import os
-import select
+import sys
+from contextlib import suppress
 from importlib import import_module
+from queue import Empty, Queue
+from threading import Thread
 from typing import Any, Final
 
 SENSING_S: Final = 0.02
@@ -23,15 +25,13 @@ ANY_WIDTH_M: Final = 1.0
 def main() -> None:
     """Carry out lines until there are no more."""
     library, hand = import_module("pylibfranka"), None
-    done, waiting = 0, b""
+    done, arrived = 0, Queue[bytes]()
     print(json.dumps({"done": done}), flush=True)
+    Thread(target=_pass_on, args=(arrived,), daemon=True).start()
     while True:
-        ready, _, _ = select.select([0], [], [], None if hand is None else SENSING_S)
-        if ready:
-            if not (data := os.read(0, 1 << 12)):
-                return
-            waiting += data
-        *lines, waiting = waiting.split(b"\n")
+        lines = _take(arrived, None if hand is None else SENSING_S)
+        if b"" in lines:
+            return
         try:
             for line in lines:
                 done += 1
@@ -43,6 +43,23 @@ def main() -> None:
                 return
         else:
             print(json.dumps({"done": done, **said}), flush=True)
+
+
+def _pass_on(arrived: Queue[bytes]) -> None:
+    """Put the lines of standard input into a queue, and an empty one at its end."""
+    for line in sys.stdin.buffer:
+        arrived.put_nowait(line)
+    arrived.put_nowait(b"")
+
+
+def _take(arrived: Queue[bytes], seconds: float | None) -> list[bytes]:
+    """Return the lines that have arrived; wait for one for so long, or, without a limit, until there is one."""
+    lines = []
+    with suppress(Empty):
+        lines.append(arrived.get(timeout=seconds))  # The last line is empty, so there always is one.
+        while True:
+            lines.append(arrived.get_nowait())
+    return lines
 
 
 def carry_out(library: Any, hand: Any, order: str, *arguments: Any) -> Any:

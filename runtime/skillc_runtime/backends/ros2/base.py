@@ -38,7 +38,7 @@ class Ros2Base(MobileBase):
     @property
     def pose(self) -> Pose:
         """The pose of the base."""
-        with self._receiver.lock:
+        with self._receiver.lock:  # wait ends: with the messages that have arrived
             return self._pose
 
     @property

@@ -59,7 +59,7 @@ class Ros2Camera:
         frame = self._interface.frames.get(thing)
         if self._transforms is None or frame is None:
             return None
-        with self._receiver.lock:
+        with self._receiver.lock:  # wait ends: with the messages that have arrived
             found = self._transforms.find(frame, self._interface.frame)
         if found is None or not isfinite(found.stamp_s) or found.stamp_s < since_s:
             return None
@@ -68,7 +68,7 @@ class Ros2Camera:
 
     def depth_m(self, towards: Array) -> float | None:
         """Return the distance in m of what the newest depth image has at a point (3,) in the frame of the camera."""
-        with self._receiver.lock:
+        with self._receiver.lock:  # wait ends: with the messages that have arrived
             image, lens = None if self._depths is None else self._depths.newest, self._lens
         if image is None or lens is None or image.encoding not in DEPTHS or self._spec.view.obstacle(towards):
             return None

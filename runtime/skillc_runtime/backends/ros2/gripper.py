@@ -58,7 +58,7 @@ class Ros2Gripper(Gripper):
     @property
     def opening_m(self) -> float:
         """The measured distance between the fingers in m."""
-        with self._receiver.lock:
+        with self._receiver.lock:  # wait ends: with the messages that have arrived
             return self._opening_m
 
     @property

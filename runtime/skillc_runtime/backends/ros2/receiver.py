@@ -75,7 +75,7 @@ class Receiver:
     def _run(self) -> None:
         while not self._closing.is_set():
             self.session.wait(WAIT_S)
-            with self.lock:
+            with self.lock:  # wait ends: with what a device copies of a message
                 for feed in self._feeds:
                     while (message := feed.subscription.take()) is not None:
                         feed.take(message)

@@ -18,7 +18,7 @@ class Dashboard:
         """Connect to the controller of an arm called `name`; BackendUnavailable if it does not answer."""
         self._name = name
         try:
-            self._socket: socket = create_connection((address, PORT), TIMEOUT_S)
+            self._socket: socket = create_connection((address, PORT), timeout=TIMEOUT_S)
             self._lines = self._socket.makefile("r", encoding="utf-8", newline="\n")
             self._lines.readline()
         except OSError as error:

@@ -39,7 +39,7 @@ class Exchange:
         self.fault: str | None = None
         self._turn, self._first, self._closing = Lock(), Event(), False
         try:
-            self._socket: socket = create_connection((address, PORT), TIMEOUT_S)
+            self._socket: socket = create_connection((address, PORT), timeout=TIMEOUT_S)
             self._open(rate_hz, tuple(fields))
         except (OSError, ExchangeLost) as error:
             raise BackendUnavailable(
@@ -103,7 +103,7 @@ class Exchange:
     def _receive_bytes(self, count: int) -> bytes:
         data = b""
         while len(data) < count:
-            part = self._socket.recv(count - len(data))
+            part = self._socket.recv(count - len(data))  # wait ends: after the timeout of the socket
             if not part:
                 raise ExchangeLost("the connection was closed")
             data += part

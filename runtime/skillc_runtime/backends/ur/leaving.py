@@ -29,9 +29,9 @@ class Leaving:
         thread.start()
         self._threads.append(thread)
 
-    def wait(self) -> None:
-        """Wait until all connections have ended, or for `CLOSE_S`."""
-        until = monotonic() + CLOSE_S
+    def wait(self, seconds: float) -> None:
+        """Wait until all connections have ended, or for so long."""
+        until = monotonic() + seconds
         for thread in self._threads:
             thread.join(max(until - monotonic(), 0.0))
 

@@ -24,7 +24,7 @@ from skillc_runtime.backends.control_process.link import (
 )
 from skillc_runtime.backends.ur.dashboard import Dashboard
 from skillc_runtime.backends.ur.facts import UrFacts
-from skillc_runtime.backends.ur.leaving import Leaving
+from skillc_runtime.backends.ur.leaving import CLOSE_S, Leaving
 from skillc_runtime.backends.ur.program import UrProgram
 from skillc_runtime.backends.ur.states import UrStates
 from skillc_runtime.devices.backend import StopPersists
@@ -169,7 +169,7 @@ class UrLink(RobotLink):
         with suppress(Exception):
             self.give_back()
         self._drop()
-        self._leaving.wait()
+        self._leaving.wait(CLOSE_S)
         self._condition = Condition("wrong-mode", f"{self._name} is not connected")
 
     @property
