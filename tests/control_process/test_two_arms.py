@@ -78,3 +78,10 @@ def test_one_that_has_ended_stops_the_other(cell: DeviceCell) -> None:
         cell.advance(0.01)
     wait_until(lambda: "lab:Iiwa-1 has ended" in str(remote(cell, UR5E).take_fault()))
     assert remote(cell, UR5E).process.find_silence() is None
+
+
+def test_a_process_that_is_asked_to_end_does(cell: DeviceCell) -> None:
+    process = remote(cell, UR5E).process
+    process.process.terminate()
+    assert process.process.wait(DEADLINE_S) == 0
+    assert process.find_silence() == "the control process of lab:Ur5e-1 has ended with exit code 0"

@@ -74,7 +74,7 @@ class Mailbox:
         try:
             call = self._channel.take()
         except (EOFError, OSError):
-            self.closed = True
+            self.close()
             return None
         return call if isinstance(call, Call) else None
 
@@ -83,4 +83,8 @@ class Mailbox:
         try:
             self._channel.send(answer)
         except OSError:
-            self.closed = True
+            self.close()
+
+    def close(self) -> None:
+        """Take no further call."""
+        self.closed = True

@@ -71,17 +71,13 @@ class ControlLoop:
         finally:
             self._link.close()
 
-    def end(self) -> None:
-        """Stop the arm, give it back when it is at rest, and end."""
+    def _is_over(self) -> bool:
+        """Tell whether nobody calls any more, and the arm, which is stopped then, is at rest."""
+        if not self._mailbox.closed:
+            return False
         if self._ending_since is None:
             self._ending_since = monotonic()
             self._arm.driver.abort("nobody is in charge of the arm any more")
-
-    def _is_over(self) -> bool:
-        if self._mailbox.closed:
-            self.end()
-        if self._ending_since is None:
-            return False
         still = self._phase != "in-control" or self._arm.driver.at_rest
         return still or self._seen > self._ending_since + BRAKING_S
 

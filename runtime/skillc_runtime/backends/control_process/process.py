@@ -45,8 +45,9 @@ def main(channel: Channel, memory_file: int) -> int:
     except Exception as error:  # noqa: BLE001  the boundary to the other process, which raises it
         channel.send(error)
         return 1
-    loop = ControlLoop(link, arm, Mailbox(channel), plan, memory, task.patience)
-    signal.signal(signal.SIGTERM, lambda *_: loop.end())
+    mailbox = Mailbox(channel)
+    loop = ControlLoop(link, arm, mailbox, plan, memory, task.patience)
+    signal.signal(signal.SIGTERM, lambda *_: mailbox.close())  # The loop stops the arm between two periods.
     real_time = run_in_real_time()
     loop.begin()
     channel.send(Connected(link.period_s, link.abilities, arm.mode, arm.arm.limits, real_time))

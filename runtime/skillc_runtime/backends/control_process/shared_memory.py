@@ -1,7 +1,8 @@
 """Arrays that two processes share: one writes, the other reads without waiting for it.
 
 A record is guarded by a counter that is odd while it is written; a reader copies it again if the counter was odd or has
-changed. A ring keeps the last rows, each written before its counter.
+changed. A ring keeps the last rows, each written before its counter. Both rely on a processor that shows writes in
+their order, as x86-64 does.
 """
 
 from __future__ import annotations
