@@ -46,7 +46,10 @@ class FieldLayout:
 
 def _count(size: str, joints: int) -> int:
     """Return the number that a size such as "6n" stands for."""
-    return int(size.rstrip("n") or 1) * int(joints ** size.count("n"))
+    count = int(size.rstrip("n") or 1)
+    for _ in range(size.count("n")):
+        count *= joints
+    return count
 
 
 @dataclass(frozen=True, slots=True)
