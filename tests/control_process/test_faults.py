@@ -126,21 +126,18 @@ def test_lost_states_are_counted_and_a_motion_goes_on(both: tuple[Toy, DeviceCel
 
 
 @pytest.mark.parametrize(("what", "how_much"), [("delay", 12), ("flip_speeds", 1)])
-def test_what_makes_a_law_unstable_ends_at_rest(both: tuple[Toy, DeviceCell], what: str, how_much: int) -> None:
+def test_what_makes_a_law_unstable_ends_at_rest(what: str, how_much: int) -> None:
     """Commands that come late, and speeds with the wrong sign, let an arm shake: it is stopped, or given back."""
-    toy, cell = both
-    swing(cell)
-    toy.ask(what, how_much)
-    wait_until(lambda: cell.stops.report is not None)
-    if what == "delay":
-        wait_until(lambda: "did not come to rest, so control was given back" in str(cell.stops.report))
-    wait_until(lambda: is_still(toy))
-    time.sleep(1.0)
-    assert is_still(toy)
-    assert report(toy)["violations"] == []
-    toy.ask(what, 0)
-    cell.stops.clear()
-    swing(cell)
+    with toy_cell(SCENE) as (toy, cell):
+        swing(cell)
+        toy.ask(what, how_much)
+        wait_until(lambda: cell.stops.report is not None)
+        if what == "delay":
+            wait_until(lambda: "did not come to rest, so control was given back" in str(cell.stops.report))
+        wait_until(lambda: is_still(toy))
+        time.sleep(1.0)
+        assert is_still(toy)
+        assert report(toy)["violations"] == []
 
 
 def test_an_arm_that_settles_is_waited_for_when_control_is_taken(both: tuple[Toy, DeviceCell]) -> None:

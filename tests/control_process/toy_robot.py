@@ -2,7 +2,8 @@
 
 The stream has a state a cycle, and what comes back: a command, or a request. The panel is what an operator, the fingers
 and the camera of the robot are asked by: calls of methods of `Panel`, by name. With `paced` the robot waits no longer
-than its period for a command; else for `PATIENCE_S`, so that a slow machine does not disturb what a test looks at.
+than its period for a command; else for `PATIENCE_S`, twice in a row, so that a slow machine does not disturb what a test
+looks at.
 A third argument is the socket where it tells what is true.
 """
 
@@ -33,7 +34,7 @@ from skillc_runtime.world.state.terms import AT
 CONDITIONS = ("ready", "in-control", "not-in-control", "wrong-mode", "protective-stop", "emergency-stop")
 COMMAND, TAKE, GIVE, RECOVER, LOAD = range(5)
 MADE: dict[float, type[Command]] = {1.0: Torque, 2.0: JointPosition, 3.0: JointVelocity}
-PATIENCE_S, STOP_CYCLES = 0.5, 8
+PATIENCE_S, PATIENT_CYCLES, STOP_CYCLES = 1.0, 2, 8
 HERE = Pose(np.zeros(3), np.eye(3))
 LAB = "http://example.org/lab#"
 
@@ -280,7 +281,7 @@ def serve_stream(robot: Robot, stream: socket.socket) -> None:
                 stream.sendall(state.tobytes())
         except OSError:
             break
-        waits = robot.condition == 1 and not robot.paced and not is_lost
+        waits = robot.condition == 1 and not robot.paced and not is_lost and robot.silent < PATIENT_CYCLES
         until = time.monotonic() + PATIENCE_S if waits else due
         while (frame := receive(stream, size, until)) is not None and frame.size:
             with robot.lock:

@@ -237,6 +237,7 @@ class ControlLoop:
             if self._phase == "lost":
                 self._link.connect()
                 self._phase = "connected"
+                self._link.read(self._measured)  # Its condition may be another one than before.
             self._link.recover()
             self._link.read(self._measured)
             self._arm.recover()
