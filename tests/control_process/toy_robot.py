@@ -2,8 +2,8 @@
 
 The stream has a state a cycle, and what comes back: a command, or a request. The panel is what an operator, the fingers
 and the camera of the robot are asked by: calls of methods of `Panel`, by name. With `paced` the robot waits no longer
-than its period for a command; else for `PATIENCE_S`, twice in a row, so that a slow machine does not disturb what a test
-looks at.
+than its period for a command; else for `PATIENCE_S`, twice in a row, so that a slow machine does not disturb what a
+test looks at.
 A third argument is the socket where it tells what is true.
 """
 
@@ -83,7 +83,7 @@ class Robot:
         self.judge = Judge(self.arm.limits, rate, self.cell.period_s)
         self.paced, self.condition, self.lose_every, self.cycle, self.silent = paced, 0, 0, 0, 0
         self.flip = 1.0
-        self.commands, self.delay = 0, 0
+        self.commands, self.delay, self.is_commanded = 0, 0, False
         self.waiting: deque[Command] = deque()
         self.lock = threading.RLock()
         self._flange = self.cell.model.site(f"{self.cell.scene.names[self.facts.individual]}/flange").id
@@ -110,13 +110,13 @@ class Robot:
     def obey(self, frame: Array) -> None:
         operation = int(frame[0])
         if operation == COMMAND and self.condition == 1 and frame[1] in MADE:
-            self.commands, self.silent = self.commands + 1, 0
+            self.commands, self.silent, self.is_commanded = self.commands + 1, 0, True
             self.judge.check(float(frame[1]), frame[2:])
             self.waiting.append(MADE[float(frame[1])](frame[2:].copy()))
             while len(self.waiting) > self.delay:
                 self.arm.command(self.waiting.popleft())
         elif operation == TAKE and self.condition == 0:
-            self.condition, self.silent = 1, 0
+            self.condition, self.silent, self.is_commanded = 1, 0, False
             self.judge.begin()
             self.waiting.clear()
             self.arm.switch("torque" if frame[1] == 1.0 else "position" if frame[1] == 2.0 else "velocity")
@@ -146,7 +146,7 @@ class Robot:
 
     def step(self) -> None:
         """Run a period; a controller that gets no commands for a while stops by itself."""
-        self.silent += 1
+        self.silent += self.is_commanded
         self.cycle += 1
         if self.condition == 1 and self.silent > STOP_CYCLES:
             self.condition = 4
@@ -281,8 +281,8 @@ def serve_stream(robot: Robot, stream: socket.socket) -> None:
                 stream.sendall(state.tobytes())
         except OSError:
             break
-        waits = robot.condition == 1 and not robot.paced and not is_lost and robot.silent < PATIENT_CYCLES
-        until = time.monotonic() + PATIENCE_S if waits else due
+        waits = robot.condition == 1 and robot.is_commanded and robot.silent < PATIENT_CYCLES
+        until = time.monotonic() + PATIENCE_S if waits and not robot.paced and not is_lost else due
         while (frame := receive(stream, size, until)) is not None and frame.size:
             with robot.lock:
                 robot.obey(frame)
