@@ -10,7 +10,7 @@ from skillc_runtime.backends.control_process.command_limits import CommandLimits
 from skillc_runtime.backends.control_process.facts import read_rate_limits
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
-from skillc_runtime.devices.arm import Command, Mode, command_values
+from skillc_runtime.devices.arm import ArmState, Command, Mode, command_values
 from skillc_runtime.devices.command_record import ArmCommands
 from skillc_runtime.motion.pose import Array
 
@@ -31,14 +31,14 @@ class CommandKeeper:
     values: list[Array] = field(default_factory=list)
     _limits: CommandLimits | None = None
 
-    def limit(self, command: Command, arm: SimulatedArm, now_s: float) -> Command:
+    def limit(self, command: Command, arm: SimulatedArm, measured: ArmState, now_s: float) -> Command:
         """Return a command within the limits, and keep it; ControlError if it is far beyond them."""
-        state, wanted = arm.state(), command_values(command)
+        wanted = command_values(command)
         if self._limits is None:
             self._limits = CommandLimits(arm.limits, read_rate_limits(self.facts), self.period_s)
-            self._limits.begin(arm.interface, state.q, state.bias)
+            self._limits.begin(arm.interface, measured.q, measured.bias)
         limited = np.array(wanted)
-        self._limits.apply(arm.interface, limited, state.bias)
+        self._limits.apply(arm.interface, limited, measured.bias)
         self.altered += bool(np.abs(limited - wanted).max() > ALTERED)
         self.times_s.append(now_s)
         self.values.append(limited)
@@ -58,4 +58,4 @@ class DryArm(SimulatedArm):
 
     def command(self, command: Command) -> None:
         """Take a command as the device would get it."""
-        super().command(self.keeper.limit(command, self, float(self._data.time)))
+        super().command(self.keeper.limit(command, self, self._here, float(self._data.time)))

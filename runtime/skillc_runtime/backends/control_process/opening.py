@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import replace
 from importlib import import_module
@@ -89,10 +89,9 @@ def _make_observed(
     world: WorldModel, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver], others: CellDevices
 ) -> DeviceCell:
     """Return a cell without devices, so that nothing can be told to move, nor to stop, that can be looked at."""
-    together = _Together(tuple(arms.values()), others, None)
     ghost = Ghost(scene, arms, others.grippers, others.bases, world.snapshot)
     observer = DeviceObserver(scene, arms, others)
-    return DeviceCell(world, CellDevices(drawing=ghost, observer=observer, close=together.close))
+    return DeviceCell(world, CellDevices(drawing=ghost, observer=observer, close=lambda: _close(arms.values(), others)))
 
 
 def _make_cell(
@@ -126,7 +125,7 @@ def _make_cell(
 class _Together:
     """The arms of a cell and its other devices, as a cell watches and ends them."""
 
-    def __init__(self, arms: Sequence[RemoteArmDriver], others: CellDevices, feed: Feed | None) -> None:
+    def __init__(self, arms: Sequence[RemoteArmDriver], others: CellDevices, feed: Feed) -> None:
         self._arms, self._others, self._feed = arms, others, feed
 
     def find_fault(self) -> DeviceStop | str | None:
@@ -144,15 +143,18 @@ class _Together:
 
     def passed(self) -> None:
         """Hand over what was recorded."""
-        if self._feed is not None:
-            self._feed.hand_over()
+        self._feed.hand_over()
         self._others.passed()
 
     def close(self) -> None:
         """Give all devices back."""
-        for arm in self._arms:
-            arm.close()
-        self._others.close()
+        _close(self._arms, self._others)
+
+
+def _close(arms: Iterable[RemoteArmDriver], others: CellDevices) -> None:
+    for arm in arms:
+        arm.close()
+    others.close()
 
 
 def _find_base(scene: SceneSpec, facts: ArmSpec, bases: Mapping[str, MobileBase]) -> Callable[[], Pose]:
