@@ -64,7 +64,7 @@ def test_connecting_shows_what_is_measured_beside_the_scene(toy: Toy) -> None:
     assert np.linalg.norm(arm["force_n"]) < 4.0 and arm["period_s"] == 0.001
     assert seen["cell"]["grippers"][0]["opening_m"] == pytest.approx(toy.ask("fingers")[0], abs=1e-3)
     text = type_in("connect", PLACE, "--backend", "toy", "--once").stdout
-    assert "ready  1000 Hz, " in text and "shoulder_pan_joint" in text
+    assert "ready  1000 Hz, " in text and "shoulder_pan" in text
 
 
 def test_a_stop_and_a_force_that_nobody_expects_are_named(toy: Toy) -> None:
