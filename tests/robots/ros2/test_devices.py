@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from importlib.util import find_spec
-from threading import Thread
 from typing import Any
 
 import numpy as np
 import pytest
 
+from robots.ros2.nodes import offer, spun
 from robots.ros2.test_link import SCENE
 from simulation.cells import LAB, vocabulary
 from skillc_runtime.backends.ros2.camera import INFO, Ros2Camera
@@ -56,23 +56,6 @@ def other() -> Iterator[Session]:
     session = Session("other")
     yield session
     session.close()
-
-
-@contextmanager
-def spun(session: Session, *more: Any) -> Iterator[None]:
-    """Let nodes of a session answer in a thread."""
-    from rclpy.executors import SingleThreadedExecutor
-
-    executor = SingleThreadedExecutor(context=session.context)
-    for node in (session.node, *more):
-        executor.add_node(node)
-    thread = Thread(target=executor.spin, daemon=True)
-    thread.start()
-    try:
-        yield
-    finally:
-        executor.shutdown(1.0)
-        thread.join(2.0)
 
 
 @contextmanager
@@ -232,9 +215,40 @@ def test_a_gripper_by_an_action_closes_around_a_thing(kind: str, other: Session,
         hand.attach(LAB + "Box-1", Pose(np.zeros(3), np.eye(3)), 0.1)
         hand.move(0.08, 30.0)
         wait_until(lambda: not hand.moving and hand.opening_m == pytest.approx(0.08), fingers.tell)
-        fingers.at = 5.0
-        wait_until(lambda: hand.fault, fingers.tell)
-        assert "is 10.000 m open by its facts" in hand.fault
+
+
+def test_a_gripper_by_services_opens_and_closes_and_says_what_is_wrong(other: Session, tmp_path: Any) -> None:
+    path, said = tmp_path / "cell.ttl", [""]
+    path.write_text(
+        SCENE.read_text("utf-8") + 'lab:Hand-1 ros2:openService "open" ; ros2:closeService "close" .\n', "utf-8"
+    )
+    state = load_scene(path, vocabulary())
+    spec, facts = read_scene_spec(state).arms[0].gripper, read_gripper(state, LAB + "Hand-1", ("left_finger",))
+    assert spec is not None
+    states, at = other.publish("/joint_states", "sensor_msgs/msg/JointState", reliable=True), [0.055]
+
+    def move(position: float) -> str:
+        at[0] = position if not said[0] else at[0]
+        return said[0]
+
+    def tell() -> None:
+        states.publish(states.msg_type(name=["left_finger"], position=at))
+
+    offer(other, "/open", lambda: move(0.055))
+    offer(other, "/close", lambda: move(0.02))
+    with spun(other), receiving(lambda receiver: Ros2Gripper(spec, facts, Arm(), receiver)) as hand:  # type: ignore[arg-type]
+        wait_until(lambda: hand.opening_m == pytest.approx(0.11), tell)
+        hand.move(0.03, 30.0)
+        wait_until(lambda: hand.blocked and hand.opening_m == pytest.approx(0.04), tell)
+        hand.move(0.08, 30.0)
+        wait_until(lambda: not hand.moving and hand.opening_m == pytest.approx(0.11), tell)
+        said[0] = "there is no air"
+        hand.move(0.0, 30.0)
+        wait_until(lambda: hand.fault == "there is no air", tell)
+        hand.recover()
+        assert hand.fault is None
+        said[0], at[0] = "", 55.0
+        wait_until(lambda: "is 110.000 m open by its facts" in (hand.fault or ""), tell)
 
 
 def test_stiffness_is_set_as_parameters_of_the_controllers_node(other: Session) -> None:

@@ -13,12 +13,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from robots.ros2.nodes import offer, spun
 from robots.ros2.running import Robot, robot
 from simulation.cells import vocabulary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.control_process.link import KINDS, ControlRefused, LinkLost, make_command, make_state
 from skillc_runtime.backends.ros2.controller import ask_controller
-from skillc_runtime.backends.ros2.facts import ArmInterface, read_arm
+from skillc_runtime.backends.ros2.facts import ArmInterface, Services, read_arm
 from skillc_runtime.backends.ros2.link import Ros2Description, Ros2Link
 from skillc_runtime.backends.ros2.session import Session, find_message
 from skillc_runtime.devices.arm import Mode
@@ -107,7 +108,7 @@ def test_a_silent_robot_is_lost_by_the_name_of_its_topic_and_found_again(there: 
 
 
 def test_joints_of_other_names_are_listed_with_those_that_are_there(there: Robot) -> None:
-    wrong = facts(joints=MODEL_JOINTS, timing=replace(facts().timing, connect_s=6.0))
+    wrong = facts(joints=MODEL_JOINTS, timing=replace(facts().timing, connect_s=3.0))
     with (
         pytest.raises(BackendUnavailable, match=r"/joint_states has no shoulder_pan, .*but .*shoulder_pan_joint"),
         link_of(wrong),
@@ -145,7 +146,7 @@ def wait_until_true(holds: Callable[[], bool], seconds: float = 10.0) -> None:
 
 
 def test_a_topic_that_nobody_publishes_or_that_has_another_type_is_named(there: Robot) -> None:
-    soon = replace(facts().timing, connect_s=6.0)
+    soon = replace(facts().timing, connect_s=3.0)
     with (
         pytest.raises(BackendUnavailable, match=r"nobody publishes /arm/joint_states .*; there are /joint_states"),
         link_of(facts(states="/arm/joint_states", timing=soon)),
@@ -199,6 +200,29 @@ def test_a_program_that_has_stopped_is_a_protective_stop_until_it_is_sent_again(
         assert "/robot_program_running says" in link.condition.sentence
         link.recover()
         wait_until(link, lambda: link.condition.kind in ("ready", "in-control"))
+
+
+def test_the_sensor_is_tared_by_the_service_of_its_driver(there: Robot) -> None:
+    with link_of(facts(services=Services(tare="/zero_sensor"))) as link:
+        assert link.abilities.tares
+        with pytest.raises(LinkLost, match="nobody offers the service /zero_sensor"):
+            link.tare()
+        called, driver = list[str](), Session("driver")
+        try:
+            offer(driver, "/zero_sensor", lambda: called.append("tared") or "")
+            with spun(driver):
+                wait_until(link, lambda: bool(_tare(link)))
+        finally:
+            driver.close()
+        assert called == ["tared"]
+
+
+def _tare(link: Ros2Link) -> bool:
+    try:
+        link.tare()
+    except LinkLost:
+        return False
+    return True
 
 
 def test_messages_are_those_of_ros() -> None:

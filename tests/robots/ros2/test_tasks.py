@@ -29,6 +29,7 @@ def run(goal: str, scene: Path, folder: Path) -> tuple[int, dict[str, Any]]:
     return done.returncode, json.loads((folder / "out" / "result.json").read_text("utf-8"))
 
 
+@pytest.mark.long
 def test_a_ur5e_drives_and_picks(tmp_path: Path) -> None:
     scene = scenes.whiteboard(tmp_path)
     with robot(scene, tmp_path, rate_hz=125, joint_names=IN_ROS) as there:

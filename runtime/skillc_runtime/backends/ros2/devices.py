@@ -43,6 +43,7 @@ def make_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteA
         buttons=devices.buttons,
         inspection=devices.inspection,
         find_fault=devices.find_fault,
+        recover=devices.recover,
         close=receiver.close,
     )
 
@@ -76,6 +77,11 @@ class _Devices:
         silences = (feed.find_silence(timing) for feed, timing, _ in self._watched)
         found = (*(hand.fault for hand in self.grippers.values()), *silences)
         return next((why for why in found if why is not None), None)
+
+    def recover(self) -> None:
+        """Acknowledge what the devices have reported."""
+        for hand in self.grippers.values():
+            hand.recover()
 
     def _make_grippers(self, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> dict[str, Ros2Gripper]:
         found: dict[str, Ros2Gripper] = {}

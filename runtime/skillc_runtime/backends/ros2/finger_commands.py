@@ -35,6 +35,10 @@ class FingerCommands(Protocol):
         """Handle what was answered; return why the last command has failed, or None. Called again and again."""
         ...
 
+    def forget(self) -> None:
+        """Forget why the last command has failed: somebody has acknowledged that."""
+        ...
+
 
 class FingerTopics:
     """Moves them by the position of the first joint, with a topic for the greatest force if there is one."""
@@ -67,6 +71,9 @@ class FingerTopics:
     def look(self) -> str | None:
         """Return None: nothing is answered."""
         return None
+
+    def forget(self) -> None:
+        """Do nothing."""
 
     @staticmethod
     def _publish(publisher: Any, values: list[float]) -> None:
@@ -111,6 +118,10 @@ class FingerAction:
             return f"{action.name} has given up a goal"
         return None
 
+    def forget(self) -> None:
+        """Forget the answer of the server."""
+        self._action.refused, self._action.aborted = False, None
+
 
 class FingerServices:
     """Opens and closes them."""
@@ -138,6 +149,10 @@ class FingerServices:
     def look(self) -> str | None:
         """Return why the last service has not succeeded."""
         return self._fault
+
+    def forget(self) -> None:
+        """Forget the last service."""
+        self._fault = None
 
     def _call(self, service: str) -> None:
         session = Session(f"skillc_{self._facts.name.rpartition(':')[2].replace('-', '_')}")

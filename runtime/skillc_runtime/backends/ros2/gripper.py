@@ -91,6 +91,12 @@ class Ros2Gripper(Gripper):
         """Why it has not done what it was told, or is not the gripper of its facts; None if it has, and is."""
         return self._fault
 
+    def recover(self) -> None:
+        """Forget that it has not done what it was told: somebody has acknowledged that."""
+        with self._receiver.lock:
+            self._commands.forget()
+            self._fault = self._find_misfit()
+
     def move(self, opening_m: float, force_n: float) -> None:
         """Move the fingers to an opening in m with at most a force in N; returns at once."""
         now_m, widest_m = self.opening_m, self._facts.max_opening_m

@@ -1,0 +1,38 @@
+"""Nodes of ROS 2 in a test, which answer what they are asked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from threading import Thread
+from typing import Any
+
+from skillc_runtime.backends.ros2.session import Session, find_message
+
+
+@contextmanager
+def spun(session: Session, *more: Any) -> Iterator[None]:
+    """Let nodes of a session answer in a thread."""
+    from rclpy.executors import SingleThreadedExecutor
+
+    executor = SingleThreadedExecutor(context=session.context)
+    for node in (session.node, *more):
+        executor.add_node(node)
+    thread = Thread(target=executor.spin, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        executor.shutdown(1.0)
+        thread.join(2.0)
+
+
+def offer(session: Session, service: str, act: Callable[[], str]) -> None:
+    """Offer a service that refuses if `act` returns why."""
+
+    def answer(_: Any, response: Any) -> Any:
+        response.message = act()
+        response.success = not response.message
+        return response
+
+    session.node.create_service(find_message("std_srvs/srv/Trigger"), service, answer)
