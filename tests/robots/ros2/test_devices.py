@@ -20,6 +20,7 @@ from skillc_runtime.backends.ros2.controller import ask_controller
 from skillc_runtime.backends.ros2.device_facts import Quality, Timing
 from skillc_runtime.backends.ros2.facts import GRIP, GRIP_BY_NAMES, CameraInterface, read_gripper
 from skillc_runtime.backends.ros2.gripper import Ros2Gripper
+from skillc_runtime.backends.ros2.place_check import check_places
 from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.backends.ros2.session import Session, find_message
 from skillc_runtime.backends.ros2.stiffness_parameters import NAMES, StiffnessParameters
@@ -112,6 +113,26 @@ def test_a_thing_is_where_its_frame_is_seen_from_the_camera(other: Session) -> N
         assert camera.locate(LAB + "Box-2", since_s) is None, "it has no frame"
         with camera._receiver.lock:
             assert camera._transforms.find("optical", "elsewhere") is None
+
+
+@needs_tf2
+def test_an_arm_that_stands_elsewhere_by_tf_is_told(other: Session, tmp_path: Any) -> None:
+    path, kind = tmp_path / "cell.ttl", "tf2_msgs/msg/TFMessage"
+    path.write_text(SCENE.read_text("utf-8") + 'lab:Arm-1 skiros:LinkedToFrameId "base" .\n', "utf-8")
+    state = load_scene(path, vocabulary())
+    scene = read_scene_spec(state)
+    still = other.node.create_publisher(find_message(kind), "/tf_static", _latched())
+    for place, turned, said in (
+        ((0.0, 0.0, 0.6), False, []),
+        (
+            (0.3, 0.0, 1.0),
+            True,
+            ["lab:Arm-1: tf has base 0.50 m and 90 deg from where the facts have the base of the arm"],
+        ),
+    ):
+        assert scene.arms[0].base.position == pytest.approx([0.0, 0.0, 0.6])
+        still.publish(still.msg_type(transforms=[frame(other, "map", "base", place, turned)]))
+        assert list(check_places(state, scene)) == said
 
 
 def _latched() -> Any:

@@ -21,6 +21,7 @@ from skillc_runtime.backends.ros2.description import Description
 from skillc_runtime.backends.ros2.devices import joints_of
 from skillc_runtime.backends.ros2.facts import ArmInterface, read_base, read_gripper
 from skillc_runtime.backends.ros2.joint_states import JointOrder
+from skillc_runtime.backends.ros2.place_check import check_places
 from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
 from skillc_runtime.backends.ros2.tool_commands import make_commands
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
@@ -70,6 +71,7 @@ def check_graph(state: WorldState) -> Iterator[str]:
                 yield f"{driven.name}: {each}"
     finally:
         session.close()
+    yield from check_places(state, scene)
 
 
 def _check_arm(arm: ArmSpec, facts: ArmInterface, session: Session) -> Iterator[str]:
