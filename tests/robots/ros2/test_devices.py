@@ -15,10 +15,11 @@ import pytest
 from robots.ros2.nodes import offer, spun
 from robots.ros2.test_link import SCENE
 from simulation.cells import LAB, vocabulary
-from skillc_runtime.backends.ros2.camera import INFO, Ros2Camera
+from skillc_runtime.backends.ros2.camera import IMAGE, INFO, Ros2Camera
 from skillc_runtime.backends.ros2.controller import ask_controller
+from skillc_runtime.backends.ros2.device_check import check_devices
 from skillc_runtime.backends.ros2.device_facts import Quality, Timing
-from skillc_runtime.backends.ros2.facts import GRIP, GRIP_BY_NAMES, CameraInterface, read_gripper
+from skillc_runtime.backends.ros2.facts import ARRAY, GRIP, GRIP_BY_NAMES, CameraInterface, read_gripper
 from skillc_runtime.backends.ros2.gripper import Ros2Gripper
 from skillc_runtime.backends.ros2.place_check import check_places
 from skillc_runtime.backends.ros2.receiver import Receiver
@@ -113,6 +114,36 @@ def test_a_thing_is_where_its_frame_is_seen_from_the_camera(other: Session) -> N
         assert camera.locate(LAB + "Box-2", since_s) is None, "it has no frame"
         with camera._receiver.lock:
             assert camera._transforms.find("optical", "elsewhere") is None
+
+
+def test_what_devices_lack_on_the_graph_is_told(other: Session, tmp_path: Any) -> None:
+    path, asks = tmp_path / "cell.ttl", Session("asks")
+    more = """lab:Camera-1 a skillc:Camera ; skillc:hasSheet skillc:depth-camera-sheet ; skillc:on lab:Cell ;
+        ros2:depthTopic "/depth/image" .
+        lab:Hand-1 ros2:effortTopic "/force" ."""
+    path.write_text(SCENE.read_text("utf-8") + more, "utf-8")
+    state = load_scene(path, vocabulary())
+    scene = read_scene_spec(state)
+    wanted = [
+        "lab:Hand-1: nobody publishes /joint_states (sensor_msgs/msg/JointState)",
+        "lab:Hand-1: nobody subscribes to /gripper_controller/commands (std_msgs/msg/Float64MultiArray)",
+        "lab:Hand-1: nobody subscribes to /force (std_msgs/msg/Float64MultiArray)",
+        "lab:Camera-1: nobody publishes /depth/image (sensor_msgs/msg/Image)",
+        "lab:Camera-1: nobody publishes /depth/camera_info (sensor_msgs/msg/CameraInfo)",
+    ]
+    try:
+        assert list(check_devices(state, scene, asks)) == wanted
+        for topic, kind in (("/joint_states", "sensor_msgs/msg/JointState"), ("/depth/image", IMAGE)):
+            other.publish(topic, kind, reliable=True)
+        other.publish("/depth/camera_info", IMAGE, reliable=True)
+        other.subscribe("/gripper_controller/commands", ARRAY, reliable=True)
+        other.subscribe("/force", ARRAY, reliable=True)
+        odd = (
+            "lab:Camera-1: /depth/camera_info has messages of sensor_msgs/msg/Image, not of sensor_msgs/msg/CameraInfo"
+        )
+        wait_until(lambda: list(check_devices(state, scene, asks)) == [odd])
+    finally:
+        asks.close()
 
 
 @needs_tf2

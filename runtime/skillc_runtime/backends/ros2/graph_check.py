@@ -18,8 +18,8 @@ from skillc_runtime.backends.control_process.joint_doubts import (
 )
 from skillc_runtime.backends.ros2.cell import describe
 from skillc_runtime.backends.ros2.description import Description
-from skillc_runtime.backends.ros2.devices import joints_of
-from skillc_runtime.backends.ros2.facts import ArmInterface, read_base, read_gripper
+from skillc_runtime.backends.ros2.device_check import check_devices, check_services
+from skillc_runtime.backends.ros2.facts import ArmInterface
 from skillc_runtime.backends.ros2.joint_states import JointOrder
 from skillc_runtime.backends.ros2.place_check import check_places
 from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
@@ -55,20 +55,7 @@ def check_graph(state: WorldState) -> Iterator[str]:
             interface = describe(arm).interface
             for each in _check_arm(arm, interface, session):
                 yield f"{interface.name}: {each}"
-            if arm.gripper is not None:
-                gripper = read_gripper(state, arm.gripper.individual, joints_of(str(arm.gripper.model)))
-                states = ((gripper.states, "sensor_msgs/msg/JointState", True),)
-                services = (gripper.open_service, gripper.close_service)
-                for each in (*_check_topics(states, session), *_check_services(services, session)):
-                    yield f"{gripper.name}: {each}"
-        for base in scene.bases:
-            driven = read_base(state, base.individual)
-            kinds = (
-                (driven.odometry, "nav_msgs/msg/Odometry", True),
-                (driven.goal, "geometry_msgs/msg/PoseStamped", False),
-            )
-            for each in _check_topics(kinds, session):
-                yield f"{driven.name}: {each}"
+        yield from check_devices(state, scene, session)
     finally:
         session.close()
     yield from check_places(state, scene)
@@ -99,7 +86,7 @@ def _check_arm(arm: ArmSpec, facts: ArmInterface, session: Session) -> Iterator[
             yield difference
     yield from _check_commands(facts, str(arm.model), session)
     services = facts.services
-    yield from _check_services((services.recover, services.tare), session)
+    yield from check_services((services.recover, services.tare), session)
 
 
 def _take_all(listened: Listened, only_if: Any = lambda _: True) -> Iterator[Any]:
@@ -147,17 +134,3 @@ def _check_commands(facts: ArmInterface, model: str, session: Session) -> Iterat
     found = commands.fit() if problem is None else problem.sentence
     if found is not None:
         yield found
-
-
-def _check_topics(kinds: tuple[tuple[str, str, bool], ...], session: Session) -> Iterator[str]:
-    for topic, kind, offered in kinds:
-        ends = session.node.get_publishers_info_by_topic if offered else session.node.get_subscriptions_info_by_topic
-        if kind not in {each.topic_type for each in ends(topic)}:
-            yield describe_topic(session.node, topic, kind, offered)
-
-
-def _check_services(services: tuple[str, ...], session: Session) -> Iterator[str]:
-    there = dict(session.node.get_service_names_and_types())
-    for service in filter(None, services):
-        if "std_srvs/srv/Trigger" not in there.get(service, ()):
-            yield f"nobody offers the service {service} (std_srvs/srv/Trigger)"
