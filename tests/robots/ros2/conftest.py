@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from importlib.util import find_spec
+from typing import Any
 
 import pytest
 
@@ -26,3 +27,13 @@ def _on_loopback() -> Iterator[None]:
             patch.setenv(name, value)
         yield
     assert os.environ.get("ROS_DOMAIN_ID") != LOOPBACK["ROS_DOMAIN_ID"]
+
+
+@pytest.fixture
+def other() -> Iterator[Any]:
+    """Return a node beside those of the back end."""
+    from skillc_runtime.backends.ros2.session import Session
+
+    session = Session("other")
+    yield session
+    session.close()

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import Thread
+from time import monotonic, sleep
 from typing import Any
 
+from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.backends.ros2.session import Session, find_message
 
 
@@ -36,3 +38,24 @@ def offer(session: Session, service: str, act: Callable[[], str]) -> None:
         return response
 
     session.node.create_service(find_message("std_srvs/srv/Trigger"), service, answer)
+
+
+@contextmanager
+def receiving(make: Callable[[Receiver], Any]) -> Iterator[Any]:
+    receiver = Receiver("devices")
+    try:
+        made = make(receiver)
+        receiver.begin()
+        yield made
+    finally:
+        receiver.close()
+
+
+def wait_until(holds: Callable[[], Any], then: Callable[[], None] = lambda: None, seconds: float = 20.0) -> Any:
+    """Do something again and again until something holds; return that."""
+    end = monotonic() + seconds
+    while not (found := holds()):
+        assert monotonic() < end
+        then()
+        sleep(0.05)
+    return found
