@@ -91,10 +91,10 @@ class Peer:
         self._running.publish(Bool(data=True))
         self.serve("stop_program", lambda: self._run_program(False))
         self.serve("resend_program", lambda: self._run_program(True))
-        latched = self._latched
+        switches = [each.individual for each in self.cell.scene.fixtures if each.switch_travel_m is not None]
+        topics = {each: f"{_topic_of(self.cell.scene.names[each])}/switched" for each in switches}
         self._buttons = {
-            each: self._node.create_publisher(Bool, f"{_topic_of(self.cell.scene.names[each])}/switched", latched)
-            for each in self.cell.buttons
+            each: self._node.create_publisher(Bool, topic, self._latched) for each, topic in topics.items()
         }
         self._shares = {
             each: self.publisher(f"{_topic_of(self.cell.scene.names[each])}/clean_share", Float64)
