@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from skillc_runtime.backends.control_process.link import Condition
 from skillc_runtime.backends.ros2.session import Session, find_message
 
+TAKEN = 3
+"""How many answers are handled at a time."""
 ABORTED = 6
 """The status of a goal that its server has given up (action_msgs/msg/GoalStatus)."""
 
@@ -14,8 +17,8 @@ ABORTED = 6
 class Action:
     """The client of one action. `look` handles what has come; nothing is waited for.
 
-    done: whether the newest goal has ended. aborted: the result of the newest goal, if its server has given it up.
-    refused: whether the server has not accepted the newest goal.
+    refused: whether the server has not accepted the newest goal. aborted: the result of the last goal that it has given
+    up, and whether that was the newest one; None for none. Goals whose place was taken count as given up by nobody.
     """
 
     def __init__(self, session: Session, name: str, kind: str) -> None:
@@ -30,8 +33,9 @@ class Action:
         self._executor: Any = SingleThreadedExecutor(context=session.context)
         self._sent: Any = None
         self._handle: Any = None
-        self._ends: Any = None
-        self.done, self.refused, self.aborted = True, False, None
+        self._number = 0
+        self.refused = False
+        self.aborted: tuple[Any, bool] | None = None
 
     @property
     def is_free(self) -> bool:
@@ -41,24 +45,27 @@ class Action:
     def look(self) -> None:
         """Handle the answers that have come."""
         self._executor.add_node(self._session.node)  # A call of a service has taken it.
-        self._executor.spin_once(timeout_sec=0.0)
+        for _ in range(TAKEN):
+            self._executor.spin_once(timeout_sec=0.0)
         if self._sent is not None and self._sent.done():
             self._handle, self._sent = self._sent.result(), None
             self.refused = not self._handle.accepted
-            self.done = self.refused
-            self._ends = None if self.refused else self._handle.get_result_async()
-        if self._ends is not None and self._ends.done():
-            found, self._ends, self.done = self._ends.result(), None, True
-            self.aborted = found.result if found.status == ABORTED else None
+            if self._handle.accepted:
+                self._handle.get_result_async().add_done_callback(partial(self._end, self._number))
 
     def send(self, goal: Any) -> None:
-        """Send a goal; its result is the one that counts from now on."""
-        self._sent, self._ends, self.done, self.refused, self.aborted = None, None, False, False, None
+        """Send a goal, which takes the place of the one before."""
+        self._number += 1
+        self.forget()
         self._sent = self._client.send_goal_async(goal)
 
+    def forget(self) -> None:
+        """Forget how the newest goal has ended."""
+        self.refused, self.aborted = False, None
+
     def cancel(self) -> None:
-        """Give the newest goal up; nothing happens without one."""
-        if self._handle is not None and not self.done:
+        """Give the newest goal up; nothing happens without one, or if it has ended."""
+        if self._handle is not None and self._handle.accepted:
             self._handle.cancel_goal_async()
 
     def find_obstacle(self) -> Condition | None:
@@ -70,3 +77,8 @@ class Action:
         if self._session.node.count_clients(f"{self.name}/_action/send_goal") > 1:
             return Condition("not-in-control", f"another node sends goals to {self.name} as well: end it")
         return None
+
+    def _end(self, number: int, future: Any) -> None:
+        found = future.result()
+        if found is not None and found.status == ABORTED:
+            self.aborted = found.result, number == self._number

@@ -163,14 +163,15 @@ class ActionCommands:
         return controller.find_problem(self._facts.joints, self._facts.mode)
 
     def begin(self, q: Array) -> None:
-        """Do nothing: the controller holds the arm."""
+        """Forget how the last goal has ended: the controller holds the arm."""
+        self._action.forget()
 
     def send(self, kind: CommandKind, command: CommandView) -> str | None:
         """Send the positions, to be reached by when the next goal will come; return why the last one has failed."""
         action = self._action
         action.look()
         if action.refused or action.aborted is not None:
-            why = getattr(action.aborted, "error_string", "")
+            why = "" if action.aborted is None else action.aborted[0].error_string
             return f"{action.name} has {'refused' if action.refused else 'given up'} a goal{why and ': '}{why}"
         if action.is_free:
             now, period_s = monotonic(), 1.0 / self._facts.rate_hz

@@ -114,13 +114,13 @@ class FingerAction:
         action.look()
         if action.refused:
             return f"{action.name} has refused a goal"
-        if action.aborted is not None and not action.aborted.stalled:
+        if action.aborted is not None and action.aborted[1] and not action.aborted[0].stalled:
             return f"{action.name} has given up a goal"
         return None
 
     def forget(self) -> None:
         """Forget the answer of the server."""
-        self._action.refused, self._action.aborted = False, None
+        self._action.forget()
 
 
 class FingerServices:
