@@ -32,6 +32,7 @@ def describe(host: str, **changes: Any) -> UrFacts:
         servo=QUICK,
         silence_s=0.5,
         command_timeout_s=1.0,
+        torque_timeout_s=0.2,
         model=model_path("robots/ur5e.xml"),
         tolerance_m=0.005,
         tolerance_rad=0.02,

@@ -38,13 +38,16 @@ class Exchange:
         self.fields: dict[str, float] = {}
         self.fault: str | None = None
         self._turn, self._first, self._closing = Lock(), Event(), False
+        refusal = f"{name} does not offer its Real-Time Data Exchange (port {PORT})"
         try:
             self._socket: socket = create_connection((address, PORT), timeout=TIMEOUT_S)
+        except OSError as error:
+            raise BackendUnavailable(f"{refusal}: {error}") from error
+        try:
             self._open(rate_hz, tuple(fields))
         except (OSError, ExchangeLost) as error:
-            raise BackendUnavailable(
-                f"{name} does not offer its Real-Time Data Exchange (port {PORT}): {error}"
-            ) from error
+            self._socket.close()
+            raise BackendUnavailable(f"{refusal}: {error}") from error
         self._thread = Thread(target=self._receive_all, name=f"exchange with {name}", daemon=True)
         self._thread.start()
         if not self._first.wait(TIMEOUT_S):

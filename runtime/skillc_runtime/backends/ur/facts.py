@@ -28,10 +28,11 @@ class ServoFacts:
 class UrFacts:
     """One arm.
 
-    modes: what its sheet says that it takes. silence_s: how long it may be silent. command_timeout_s: how long the
-    controller waits for a command before it stops the arm. model: MJCF of the arm; the flange that it gives, and the
-    one that the controller gives, may be `tolerance_m` and `tolerance_rad` apart. offset_n: up to which force what a
-    sensor measures first counts as its offset.
+    modes: what its sheet says that it takes. silence_s: how long it may be silent. command_timeout_s and
+    torque_timeout_s: how long the controller waits for a command of a position or speed, and of a torque, before it
+    stops the arm. model: MJCF of the arm; the flange that it gives, and the one that the controller gives, may be
+    `tolerance_m` and `tolerance_rad` apart. offset_n: up to which force what a sensor measures first counts as its
+    offset.
     """
 
     arm: str
@@ -40,6 +41,7 @@ class UrFacts:
     servo: ServoFacts
     silence_s: float
     command_timeout_s: float
+    torque_timeout_s: float
     model: Path
     tolerance_m: float
     tolerance_rad: float
@@ -69,6 +71,7 @@ def read_facts(state: WorldState, arm: str, sheet: DataSheet, modes: tuple[Mode,
         ),
         silence_s=number("stateTimeout", 0.1),
         command_timeout_s=number("commandTimeout", 0.1),
+        torque_timeout_s=number("torqueTimeout", 0.02),
         model=sheet.model,
         tolerance_m=number("flangeTolerance", 0.005),
         tolerance_rad=number("flangeAngleTolerance", 0.02),

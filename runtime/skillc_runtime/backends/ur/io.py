@@ -27,7 +27,7 @@ BANKS = (("standard", 0), ("configurable", 8), ("tool", 16))
 VOLTAGES = 0b11
 """Both analogue outputs are voltages."""
 
-FREE_S = 1.0
+FREE_S = 3.0
 """How long a controller may take to notice that a connection has gone, and to let the next one set the same, in s."""
 
 VOLTS = 10.0
@@ -100,7 +100,7 @@ class UrIo:
             except BackendUnavailable:
                 if monotonic() > until:
                     raise
-            sleep(FREE_S / 10)
+            sleep(0.1)
 
     def close(self) -> None:
         """Disconnect."""

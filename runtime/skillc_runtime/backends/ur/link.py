@@ -117,7 +117,7 @@ class UrLink(RobotLink):
                 )
         self._program = UrProgram(self._facts, self.period_s, self._connected)
         try:
-            self._program.start(self._load)
+            self._program.start(mode, self._load)
             self._tare_once(self._program)
         except ControlRefused:
             self.give_back()

@@ -35,12 +35,14 @@ class UrProgram:
             what = "another program commands it, or a fieldbus uses its registers" if in_use else in_one_line(error)
             raise ControlRefused(f"{self._name} does not give control: {what}") from error
 
-    def start(self, load: PointMass) -> None:
+    def start(self, mode: LinkMode, load: PointMass) -> None:
         """Start the program with its watchdog, tool centre point and payload; ControlRefused, with what to do."""
-        control = self.connection
+        control, facts = self.connection, self._facts
+        # A position that stays is where the arm stops; a torque that stays accelerates it.
+        timeout_s = facts.torque_timeout_s if mode == "torque" else facts.command_timeout_s
         control.reuploadScript()
         started = self._states.await_that(lambda: self._states.executes and control.isProgramRunning(), START_S)
-        if not started or not control.setWatchdog(1.0 / self._facts.command_timeout_s):
+        if not started or not control.setWatchdog(1.0 / timeout_s):
             raise ControlRefused(f"{self._name} does not start the program that obeys commands: look at its panel")
         # Moments are then about the flange, whichever of both points a version means.
         control.setTcp([0.0] * 6)
