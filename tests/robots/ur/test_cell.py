@@ -174,6 +174,7 @@ def test_what_takes_the_arm_in_motion_is_named_until_it_is_over(
     wait_until(lambda: np.abs(peer.tell()["dq"]).max() < 1e-3)
     with pytest.raises(StopPersists, match=persists):
         cell.stops.clear()
+    assert (peer.tell()["runtime"] == "PLAYING") == (what == "program"), "the program of somebody else goes on"
     peer.do(cure)
     if cure == "release":
         peer.do("power")

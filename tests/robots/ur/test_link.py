@@ -132,6 +132,20 @@ def test_control_is_not_taken_from_somebody_else(peer: Peer) -> None:
         assert first.link.condition.kind == "in-control"
 
 
+def test_the_program_of_somebody_else_ends_ours_and_is_left_alone(peer: Peer) -> None:
+    with connected(peer) as loop:
+        loop.link.take_control("position")
+        start = loop.state.q.copy()
+        loop.run(50, lambda _c, _s: start)
+        peer.do("program")
+        loop.run(200, lambda _c, _s: start)
+        assert loop.link.condition.kind == "not-in-control"
+        assert "executes another program" in loop.link.condition.sentence
+        loop.link.give_back()
+        assert peer.tell()["runtime"] == "PLAYING"
+        peer.do("stop")
+
+
 def test_control_is_refused_in_local_mode(peer: Peer) -> None:
     with connected(peer) as loop:
         peer.do("remote", on=False)

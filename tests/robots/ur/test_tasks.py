@@ -16,7 +16,7 @@ from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.terms import DRIVER_ADDRESS, GRIPPER_PROTOCOL, IS_CLEAN, SKILLC
 
 pytest.importorskip("rtde_control", reason="ur-rtde is not installed: pip install 'skillc[ur]'")
-pytestmark = [pytest.mark.robot, pytest.mark.sim]
+pytestmark = [pytest.mark.robot, pytest.mark.long]
 CONTACT_LIMIT_N = 80.0
 """skillc:contactForceLimit of the sheet."""
 
@@ -44,7 +44,6 @@ def is_wiping(peer: Peer) -> bool:
     return bool(peer.do("inspect", surface=BOARD)) and np.linalg.norm(peer.tell()["wrench"][:3]) > 4.0
 
 
-@pytest.mark.long
 def test_a_protective_stop_in_mid_wipe_ends_it_with_the_cause_and_it_is_wiped_afterwards(tmp_path: Path) -> None:
     task = BODY.task("wipe", tmp_path)
     with running_peer(*PATIENT, "--unlock", "1.0", "--library", task.library.name, scene=task.scene) as peer:

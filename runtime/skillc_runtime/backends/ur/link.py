@@ -179,11 +179,13 @@ class UrLink(RobotLink):
         return self._states
 
     def _update_condition(self) -> None:
-        states = self._connected
-        found = states.read_condition(controls=self._program is not None)
-        if found.kind == "in-control" and self._program is not None and self._mode is not None:
-            contradiction = self._program.find_contradiction()
-            found = found if contradiction is None else Condition("wrong-mode", contradiction)
+        states, program = self._connected, self._program
+        is_others = program is None or (program.has_ended and states.executes)
+        found = states.read_condition(controls=not is_others)
+        if program is not None and self._mode is not None:
+            program.has_ended = program.has_ended or found.kind == "not-in-control"
+            if found.kind == "in-control" and (contradiction := program.find_contradiction()) is not None:
+                found = Condition("wrong-mode", contradiction)
         if found != self._condition:
             self._condition = found
 

@@ -21,12 +21,16 @@ TARE_STATES = 100
 
 
 class UrProgram:
-    """The connection that commands; the program runs once `start` has returned."""
+    """The connection that commands; the program runs once `start` has returned.
+
+    has_ended: whether it was seen that the controller executes it no more; what runs then is somebody else's.
+    """
 
     def __init__(self, facts: UrFacts, period_s: float, states: UrStates) -> None:
         """Connect; ControlRefused, with what to do."""
         self._facts, self._name, self._period_s, self._states = facts, facts.name, period_s, states
         self._contradiction: str | None = None
+        self.has_ended = False
         interface = load_library("rtde_control").RTDEControlInterface
         try:
             self.connection: Any = interface(facts.address, 1.0 / period_s, interface.FLAG_NO_WAIT)
@@ -99,7 +103,7 @@ class UrProgram:
 
     def end(self, mode: LinkMode | None) -> None:
         """Let the controller brake and end the program; a silent controller brakes by its watchdog."""
-        if self._states.is_alive():
+        if self._states.is_alive() and not self.has_ended:
             do_within(END_S, lambda: self._end(mode))
 
     def _end(self, mode: LinkMode | None) -> None:

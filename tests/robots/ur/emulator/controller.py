@@ -20,7 +20,7 @@ from skillc_runtime.motion.pose import Array
 UNLOCK_S = 5.0
 """After this time a protective stop can be released (dashboard guide)."""
 
-START_S = 0.05
+START_S = 0.1
 """How long it takes from the upload of a program to its first command; nobody has published that."""
 
 STOPPING = 20.0
