@@ -171,6 +171,9 @@ def test_the_program_ends_when_commands_are_missing(peer: Peer) -> None:
         loop.run(5)
         assert loop.link.condition.kind == "not-in-control"
         assert "ur:commandTimeout" in loop.link.condition.sentence
+        loop.link.recover()
+        loop.run(5)
+        assert loop.link.condition.kind == "ready"
 
 
 def test_a_slow_speed_slider_is_told(peer: Peer) -> None:

@@ -137,12 +137,14 @@ class UrLink(RobotLink):
         self._update_condition()
 
     def recover(self) -> None:
-        """Release a protective stop; StopPersists, with what somebody has to do."""
-        if self._condition.kind == "emergency-stop":
+        """Leave a program that has ended, and release a protective stop; StopPersists, with what somebody has to do."""
+        kind = self._condition.kind
+        if kind == "emergency-stop":
             raise StopPersists(self._condition.sentence)
-        if self._condition.kind != "protective-stop":
+        if kind != "in-control":
+            self.give_back()
+        if kind != "protective-stop":
             return
-        self.give_back()
         with Dashboard(self._name, self._facts.address) as dashboard:
             if (refusal := dashboard.release_protective_stop()) is not None:
                 raise StopPersists(f"{self._name} does not release its protective stop: {refusal}")
