@@ -140,6 +140,18 @@ def test_pause_step_resume_and_stop(page: Page, server: RunningServer) -> None:
     wait_for_state(page, "stopped")
 
 
+def test_a_paused_run_says_which_step_is_next_and_goes_on_by_a_button(page: Page, server: RunningServer) -> None:
+    operation = server.submit(task="carry_all", breakpoints=["Unload"])["id"]
+    server.wait_for(operation, "paused")
+    page.locator(".strip-item", has_text="breakpoint at Unload").click()
+    run = page.locator(".run")
+    for crate in (0, 1):
+        expect(run).to_contain_text(re.compile(rf"Next: Unload lab:Cart-1, lab:crate-{crate}, lab:Goal"))
+        run.get_by_role("button", name="Go on").click()
+    page.get_by_role("button", name="Stop", exact=True).click()
+    server.wait_for(operation, "stopped")
+
+
 def test_a_goal_with_completion_and_one_that_is_impossible(page: Page) -> None:
     page.keyboard.press("r")
     goal = page.get_by_role("combobox", name="Goal")

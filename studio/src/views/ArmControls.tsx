@@ -19,7 +19,7 @@ export function ArmControls() {
 function ArmControl({ report }: { report: ControlReport }) {
   const isKnown = connection.value.state === "open";
   const [tone, icon, word] = lookOfControl(report.state, isKnown);
-  const figures = isKnown ? [describeSlider(report), describeRate(report)].filter((each) => each !== "") : [];
+  const isAlone = realArms.value.length === 1;
   return (
     <Popover
       label={`${report.name}: ${word}`}
@@ -33,7 +33,10 @@ function ArmControl({ report }: { report: ControlReport }) {
             {word}
           </span>
           <strong>{report.name}</strong>
-          <span class="small mono arm-figures">{figures.join(", ")}</span>
+          {isKnown && <span class="small mono arm-slider">{describeSlider(report)}</span>}
+          {isKnown && (
+            <span class={`small mono arm-rate ${isAlone ? "" : "is-crowded"}`}>{describeRate(report)}</span>
+          )}
         </>
       }
     >

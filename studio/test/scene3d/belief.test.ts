@@ -1,7 +1,8 @@
 // What is elsewhere than believed or commanded is marked above a threshold, and said in words.
 import { expect, test } from "vitest";
 import { describeDifference, findOffsets } from "../../src/scene3d/belief";
-import type { Body, CellModel, ModelIndividual, PoseNumbers, Sample } from "../../src/scene3d/types";
+import type { PoseNumbers } from "../../src/api/types";
+import type { Body, CellModel, ModelIndividual, Sample } from "../../src/scene3d/types";
 
 const AT: PoseNumbers = [0, 0, 0, 1, 0, 0, 0];
 const at = (z: number): PoseNumbers => [0, 0, z, 1, 0, 0, 0];
