@@ -32,7 +32,7 @@ OFFERED: Final[Mapping[Part, frozenset[str]]] = MappingProxyType(
             }
         ),
         "device": frozenset(
-            {"explain", "condition", "recover", "give_back", "take_control", "set_load", "tare", "end"}
+            {"explain", "condition", "recover", "give_back", "take_control", "set_load", "tare"}
         ),
     }
 )  # fmt: skip

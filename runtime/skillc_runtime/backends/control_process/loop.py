@@ -180,8 +180,6 @@ class ControlLoop:
                 return self._arm.stop
             case "condition", ():
                 return self._link.condition
-            case "end", ():
-                return self.end()
         slow: dict[str, Callable[..., None]] = {
             "take_control": self._take_control,
             "give_back": self._give_back,
