@@ -41,7 +41,7 @@ def test_the_table_of_keys_is_that_of_the_code() -> None:
 def test_the_options_exist() -> None:
     options = {name for parameter in command.params for name in parameter.opts}
     named = {option for cells in rows("Options") for option in re.findall(r"--[a-z-]+", cells[0])}
-    assert len(named) == 6 and named <= options
+    assert len(named) == 8 and named <= options
 
 
 @pytest.mark.sim

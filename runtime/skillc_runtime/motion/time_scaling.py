@@ -40,5 +40,5 @@ class TimeScaling:
 
 
 def start_time(now: float, rate: float) -> TimeScaling:
-    """Return motion time that is 0 now and has a rate."""
+    """Return motion time that is 0 at the time `now` in s, and has a rate."""
     return TimeScaling(since=now, rate=rate, goal=rate)

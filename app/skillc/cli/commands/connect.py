@@ -29,7 +29,7 @@ SETTLE_S = 0.5
 EXAMPLES = """
 skillc connect cell.ttl --backend ur
 skillc connect cell.ttl --backend ros2 --once
-skillc connect cell.ttl --backend franka --json
+skillc connect cell.ttl --backend ur --json
 """
 
 
