@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -11,7 +12,7 @@ import rclpy  # noqa: F401  the table leaves this body out without ROS 2
 
 from robots.bodies import Opened, Task, TaskName, shipped_task
 from robots.ros2 import scenes
-from robots.ros2.running import robot
+from robots.ros2.running import LOOPBACK, robot
 from robots.ros2.test_cell import opened_state
 from robots.ros2.test_link import IN_ROS
 from robots.truth import RemoteTruth
@@ -44,6 +45,7 @@ class Ros2Body:
     def open(self, task: Task, folder: Path) -> Iterator[Opened]:
         """Start a robot, and open its cell."""
         panel = folder / "panel"
+        os.environ.update(LOOPBACK)
         options = {"library": task.library.name, "panel": str(panel), "rate_hz": 125, "joint_names": IN_ROS, **CHANNEL}
         with robot(task.scene, folder, **options), opened_state(task.state) as cell:
             truth = RemoteTruth(panel, lambda: cell.now)
