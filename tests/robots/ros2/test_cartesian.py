@@ -18,7 +18,7 @@ from skillc_runtime.devices.guarded_push import GuardedPush, Travel
 from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Pose
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.long]
 
 ARM, BELOW, WRENCH = LAB + "Iiwa-1", "/cartesian_controller/", "geometry_msgs/msg/WrenchStamped"
 FORCE_N, WAY_M = 6.0, 0.03

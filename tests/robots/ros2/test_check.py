@@ -44,7 +44,6 @@ WRONG = {
         "nobody subscribes to /arm/commands (std_msgs/msg/Float64MultiArray); there are /forward_position_controller",
     ),
     'ros2:jointNames "a b c d e elbow_joint"': ("/joint_states has no a, b, c, d, e, but",),
-    'ros2:jointStateTopic "robot_program_running"': ("/robot_program_running has messages of std_msgs/msg/Bool, not",),
 }
 """Facts that the graph contradicts, with what is said of them."""
 
