@@ -9,6 +9,7 @@ from playwright.sync_api import BrowserContext, expect
 
 from control_process.served_toy import serving_toy
 from server.running import RunningServer, wait_until
+from studio.accessibility import check_axe
 from studio.opening import EXPECTED_ERRORS, choose, open_studio, press_start, wait_for_state
 
 pytestmark = pytest.mark.slow
@@ -31,7 +32,7 @@ def test_a_real_arm_is_shown_operated_and_its_stop_acknowledged(
         page.on("pageerror", lambda error: problems.append(str(error)))
         page.on("console", lambda said: problems.append(said.text) if said.type == "error" else None)
         open_studio(page, server)
-        arm = page.get_by_role("button", name="Iiwa-1: in control")
+        arm = page.get_by_role("button", name="in control lab:Iiwa-1")
         expect(arm).to_contain_text("Hz")
         page.locator(".scene-menu summary").click()
         expect(page.get_by_label("Measured, command as ghost")).to_be_checked()
@@ -52,6 +53,7 @@ def test_a_real_arm_is_shown_operated_and_its_stop_acknowledged(
         wait_for_state(page, "failed", "swing")
         expect(page.get_by_role("alert").filter(has_text=PRESSED)).to_be_visible()
         expect(report).to_contain_text(PRESSED)
+        check_axe(page, "real_arm")
         assert state_of_arm(server) == "Fault"
         acknowledge = page.get_by_role("button", name="Acknowledge")
         acknowledge.click()

@@ -19,10 +19,11 @@ export function ArmControls() {
 function ArmControl({ report }: { report: ControlReport }) {
   const isKnown = connection.value.state === "open";
   const [tone, icon, word] = lookOfControl(report.state, isKnown);
+  const [slider, rate] = isKnown ? [describeSlider(report), describeRate(report)] : ["", ""];
   const isAlone = realArms.value.length === 1;
   return (
     <Popover
-      label={`${report.name}: ${word}`}
+      label={[word, report.name, slider, rate].filter((each) => each !== "").join(" ")}
       name={`How ${report.name} is controlled`}
       title={report.sentence || `How ${report.name} is controlled, and how regularly`}
       isRight
@@ -31,12 +32,9 @@ function ArmControl({ report }: { report: ControlReport }) {
           <span class={`badge ${tone}`}>
             <Icon name={icon} />
             {word}
-          </span>
-          <strong>{report.name}</strong>
-          {isKnown && <span class="small mono arm-slider">{describeSlider(report)}</span>}
-          {isKnown && (
-            <span class={`small mono arm-rate ${isAlone ? "" : "is-crowded"}`}>{describeRate(report)}</span>
-          )}
+          </span>{" "}
+          <strong>{report.name}</strong> <span class="small mono arm-slider">{slider}</span>{" "}
+          <span class={`small mono arm-rate ${isAlone ? "" : "is-crowded"}`}>{rate}</span>
         </>
       }
     >
@@ -49,7 +47,9 @@ function Report({ report, word }: { report: ControlReport; word: string }) {
   const { rate_hz: rate, late_s: late, sentence } = report;
   return (
     <>
-      <h3>{report.name}</h3>
+      <p>
+        <strong>{report.name}</strong>
+      </p>
       {sentence !== "" && <p class="notice bad">{sentence}</p>}
       <dl class="arm-report">
         <dt>Device</dt>
