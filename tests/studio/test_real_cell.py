@@ -63,8 +63,8 @@ def test_a_real_arm_is_shown_operated_and_its_stop_acknowledged(
         page.get_by_text("operational", exact=True).wait_for()
         expect(arm).to_be_visible()
         assert state_of_arm(server) == "Idle"
-        metrics = server.client.get("/metrics").text
-        assert 'skillc_arm_state{arm="lab:Iiwa-1",cell="yard",state="in-control"} 1.0' in metrics
+        told = 'skillc_arm_state{arm="lab:Iiwa-1",cell="yard",state="in-control"} 1.0'
+        wait_until(lambda: server.client.get("/metrics").text, lambda text: told in text)
         (control,) = [each["control"] for each in server.client.get("/cells/yard/robots").json() if each["control"]]
         assert (control["state"], control["lost_periods"] > 0) == ("in-control", True)
     assert [each for each in problems if not any(known in each for known in EXPECTED_ERRORS)] == []
