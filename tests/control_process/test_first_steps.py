@@ -43,7 +43,7 @@ def toy(started: Toy, monkeypatch: pytest.MonkeyPatch) -> Iterator[Toy]:
     started.ask("condition", "ready")
     after = started.ask("report")
     assert (after["commands"], after["condition"]) == (before["commands"], "ready")
-    assert np.allclose(after["q"], before["q"], atol=1e-3)
+    assert np.allclose(after["q"], before["q"], atol=0.05)  # A wall has pushed it.
 
 
 def type_in(*arguments: str) -> Result:
@@ -75,7 +75,7 @@ def test_a_stop_and_a_force_that_nobody_expects_are_named(toy: Toy) -> None:
     (arm,) = seen["cell"]["arms"]
     assert (code, arm["condition"]) == (1, "emergency-stop")
     assert seen["problems"][0] == "lab:Ur5e-1: the emergency stop of the toy is pressed; release it"
-    assert any("the tool feels" in each for each in seen["problems"])
+    assert arm["felt"].startswith("the tool feels ")
 
 
 def test_a_dry_run_sends_nothing_and_keeps_what_it_would_send(toy: Toy, tmp_path: Path) -> None:

@@ -47,7 +47,7 @@ def _format_arm(arm: ObservedArm, page: TerminalPage) -> Iterator[str]:
     yield f"  tool    ({_numbers(arm.tool_m, 3)}) m, {away_mm:.0f} mm from where it is at home"
     felt = "not measured" if arm.force_n is None else f"({_numbers(arm.force_n, 1)}) N, in the world"
     yield f"  force   {felt}"
-    for remark in arm.remarks:
+    for remark in filter(None, (arm.felt, *arm.remarks)):
         yield from page.wrap(remark, "warning", "  ", "    ")
 
 

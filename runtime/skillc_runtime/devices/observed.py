@@ -28,7 +28,8 @@ class ObservedArm(msgspec.Struct, frozen=True, kw_only=True):
 
     `force_n` is what its tool feels, in the world in N, None where nothing measures it. Of the cycles of its control
     process `lost` were without a state of the device; the last one was `late_s` s late. `remarks` say what contradicts
-    the scene, or cannot be.
+    the scene, or cannot be; `felt` what a force at rest may come from, which keeps no task from beginning: many devices
+    are tared when they are taken under control.
     """
 
     arm: str
@@ -41,6 +42,7 @@ class ObservedArm(msgspec.Struct, frozen=True, kw_only=True):
     period_s: float
     lost: int
     late_s: float
+    felt: str = ""
     remarks: tuple[str, ...] = ()
 
     @property

@@ -109,7 +109,8 @@ class _ArmLook:
             period_s=arm.process.connected.period_s,
             lost=int(snapshot.number("lost")),
             late_s=snapshot.number("late_s"),
-            remarks=tuple(self._find_remarks(state, None if force is None else base.rotation @ force)),
+            felt="" if force is None else self._describe_felt(state, base.rotation @ force),
+            remarks=tuple(self._find_remarks(state)),
         )
 
     def _feel(self, state: ArmState) -> Array | None:
@@ -126,7 +127,12 @@ class _ArmLook:
         connected = self._arm.process.connected
         return connected.mode == "torque" and connected.abilities.measures_effort
 
-    def _find_remarks(self, state: ArmState, force: Array | None) -> Iterator[str]:
+    def _describe_felt(self, state: ArmState, force: Array) -> str:
+        most = FELT_N if self._facts.force_torque else FELT_BY_TORQUES_N
+        rests = np.abs(state.dq).max() < STILL_RAD_S
+        return describe_felt(force) if rests and np.linalg.norm(force) > most else ""
+
+    def _find_remarks(self, state: ArmState) -> Iterator[str]:
         names, home = self._joints, self._facts.home
         if (beyond := find_beyond(names, state.q, self._arm.limits.range)) is not None:
             yield beyond
@@ -137,9 +143,6 @@ class _ArmLook:
         yield from find_opposite_speeds(names, seen, speeds)
         if self._measures_torques:
             yield from find_opposite_weights(names, state.bias, state.effort)
-        most = FELT_N if self._facts.force_torque else FELT_BY_TORQUES_N
-        if force is not None and np.linalg.norm(force) > most and np.abs(state.dq).max() < STILL_RAD_S:
-            yield describe_felt(force)
 
 
 def describe_felt(force: Array) -> str:
