@@ -106,6 +106,31 @@ def test_brakes_and_local_control_are_stops_of_the_cell_one_after_the_other(cell
     begin_to_move(cell, peer)
 
 
+def test_a_protective_stop_in_a_task_fails_it_with_the_cause_and_can_be_acknowledged(
+    cell: DeviceCell, peer: Peer, state: WorldState, library: SkillLibrary
+) -> None:
+    def step_in() -> None:
+        wait_until(lambda: np.abs(peer.tell()["dq"]).max() > 0.1, 60.0)
+        peer.do("protect")
+
+    goal = library.tasks["press_button"].goal
+    assert goal is not None
+    person = Thread(target=step_in, daemon=True)
+    person.start()
+    execution = run_goal(cell, state, library, goal)
+    person.join()
+    assert execution.status == "failed"
+    assert "has stopped by itself (protective stop)" in str(execution.failure)
+    wait_until(lambda: np.abs(peer.tell()["dq"]).max() < 1e-3)
+    report = cell.stops.report
+    assert report is not None
+    assert (report.kind, "lab:Ur5e-1" in report.reason) == ("protective-stop", True)
+    seen_at = peer.tell()["now"]
+    wait_until(lambda: peer.tell()["now"] > seen_at + UNLOCK_S)
+    cell.stops.clear()
+    begin_to_move(cell, peer)
+
+
 def test_a_button_is_pressed_and_its_input_read(
     cell: DeviceCell, peer: Peer, state: WorldState, library: SkillLibrary
 ) -> None:
@@ -130,31 +155,6 @@ def test_a_skill_switches_an_output_and_waits_for_an_input(
     peer.do("input", bits=1 << 6)
     assert run_call(cell, state, library, f"{AWAIT})").status == "succeeded"
     assert cell.world.snapshot().value(BARRIER, LEVEL) == 1.0
-
-
-def test_a_protective_stop_in_a_task_fails_it_with_the_cause_and_can_be_acknowledged(
-    cell: DeviceCell, peer: Peer, state: WorldState, library: SkillLibrary
-) -> None:
-    def step_in() -> None:
-        wait_until(lambda: np.abs(peer.tell()["dq"]).max() > 0.1, 60.0)
-        peer.do("protect")
-
-    goal = library.tasks["press_button"].goal
-    assert goal is not None
-    person = Thread(target=step_in, daemon=True)
-    person.start()
-    execution = run_goal(cell, state, library, goal)
-    person.join()
-    assert execution.status == "failed"
-    assert "has stopped by itself (protective stop)" in str(execution.failure)
-    wait_until(lambda: np.abs(peer.tell()["dq"]).max() < 1e-3)
-    report = cell.stops.report
-    assert report is not None
-    assert (report.kind, "lab:Ur5e-1" in report.reason) == ("protective-stop", True)
-    peer.do("protect")
-    wait_until(lambda: peer.tell()["safety"] == "PROTECTIVE_STOP")
-    cell.stops.clear()
-    begin_to_move(cell, peer)
 
 
 @pytest.mark.parametrize(
