@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import rclpy  # noqa: F401  the table leaves this body out without ROS 2
 
@@ -26,8 +27,11 @@ RIGID = SetProperty(SKILLC + "ur5e-sheet", SKILLC + "admittance", 0.002)
 CHANNEL = {"loss": 0.02, "jitter_s": 0.004, "seed": 1}
 
 
+@dataclass(frozen=True, slots=True)
 class Ros2Body:
-    """Implements `Body`."""
+    """Implements `Body`; `options` are those of the robot."""
+
+    options: Mapping[str, Any]
 
     def task(self, name: TaskName, folder: Path) -> Task:
         """Return what it does: with a whiteboard, a part and a box, or a button."""
@@ -46,10 +50,10 @@ class Ros2Body:
         """Start a robot, and open its cell."""
         panel = folder / "panel"
         os.environ.update(LOOPBACK)
-        options = {"library": task.library.name, "panel": str(panel), "rate_hz": 125, "joint_names": IN_ROS, **CHANNEL}
+        options = {**CHANNEL, **self.options, "library": task.library.name, "panel": str(panel)}
         with robot(task.scene, folder, **options), opened_state(task.state) as cell:
             truth = RemoteTruth(panel, lambda: cell.now)
             yield Opened(cell, truth, truth.violations)
 
 
-BODY = Ros2Body()
+BODY = Ros2Body({"rate_hz": 125, "joint_names": IN_ROS})

@@ -6,19 +6,21 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from robots import bodies
+from robots.bodies import shipped_task
 from robots.ros2 import scenes
+from robots.ros2.body import Ros2Body
 from robots.ros2.running import LOOPBACK, robot
 from robots.ros2.test_link import IN_ROS
 
 pytestmark = pytest.mark.sim
-
-PRESSED_SHARE = 1.5
-"""How much harder than commanded a tool may press, at most: when it meets the surface."""
 
 
 def run(goal: str, scene: Path, folder: Path) -> tuple[int, dict[str, Any]]:
@@ -40,26 +42,20 @@ def test_a_ur5e_drives_and_picks(tmp_path: Path) -> None:
     assert (report["beyond_limits"], report["examples"]) == (0, [])
 
 
-@pytest.mark.long
-def test_a_ur5e_drives_picks_and_wipes_a_whiteboard(tmp_path: Path) -> None:
-    scene = scenes.whiteboard(tmp_path)
-    with robot(scene, tmp_path, rate_hz=125, joint_names=IN_ROS) as there:
-        code, result = run("lab:Whiteboard-1.isClean == true", scene, tmp_path)
-        report = there.end()
-    assert (code, result["status"]) == (0, "succeeded"), result.get("failure")
-    assert report["coverage"]["lab:Whiteboard-1"] == 1.0
-    assert report["holds"]["lab:Wsg-1"] == "lab:Eraser-1"
-    assert report["greatest_force_n"] < 2 * PRESSED_SHARE * 8.0
-    assert (report["beyond_limits"], report["examples"]) == (0, [])
+WAYS: Mapping[str, tuple[Callable[[Path], Path], Ros2Body]] = {
+    "torques": (lambda folder: scenes.table(folder, 500.0), Ros2Body({"control": "effort", "rate_hz": 500})),
+    "a law on the robot's side": (scenes.cartesian_table, Ros2Body({"control": "cartesian", "rate_hz": 250})),
+}
+"""Scenes of the iiwa at the table, and the robots that are driven there."""
 
 
 @pytest.mark.long
-def test_an_iiwa_wipes_a_table_by_torques(tmp_path: Path) -> None:
-    scene = scenes.table(tmp_path, rate_hz=500.0)
-    with robot(scene, tmp_path, rate_hz=500, control="effort") as there:
-        code, result = run("lab:Table-1.isClean == true", scene, tmp_path)
-        report = there.end()
-    assert (code, result["status"]) == (0, "succeeded"), result.get("failure")
-    assert report["coverage"]["lab:Table-1"] == 1.0
-    assert report["greatest_force_n"] < PRESSED_SHARE * 18.0
-    assert (report["beyond_limits"], report["examples"]) == (0, [])
+@pytest.mark.parametrize("way", sorted(WAYS))
+def test_an_iiwa_wipes_a_table(way: str, tmp_path: Path) -> None:
+    write, body = WAYS[way]
+    figures = bodies.run(body, replace(shipped_task("wiping", "clean_table"), scene=write(tmp_path)), tmp_path)
+    print(figures)
+    assert (figures.outcome, figures.violations) == ("succeeded", 0)
+    assert figures.coverage == pytest.approx(1.0, abs=0.01)
+    assert figures.rmse is not None
+    assert figures.rmse < 0.25
