@@ -20,7 +20,7 @@ DIMENSIONLESS = (  # and whatever is given in the units of something else
     r"|\brotations? \(3, 3\)|\baxes \(3, [3n]\)|\bdirections? \(3,\)"
 )
 UNIT = re.compile(
-    rf"(?<![\w`.])(?:m|rad|s|N|kg|Hz|deg|seconds|Seconds|metres)(?![\w`(.]\w|[\w`(])|\b1/(?:s|kg)\b|{DIMENSIONLESS}"
+    rf"(?<![\w`.])(?:m|rad|s|N|kg|V|Hz|deg|seconds|Seconds|metres)(?![\w`(.]\w|[\w`(])|\b1/(?:s|kg)\b|{DIMENSIONLESS}"
 )
 """An SI unit as a word of its own, or a word for a quantity that has none."""
 

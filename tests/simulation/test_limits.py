@@ -22,10 +22,11 @@ DEGREES = np.pi / 180
 RANGES = {
     "ur5e": [(-360, 360), (-360, 360), (-180, 180), (-360, 360), (-360, 360), (-360, 360)],
     "iiwa14": [(-170, 170), (-120, 120), (-170, 170), (-120, 120), (-170, 170), (-120, 120), (-175, 175)],
-    "fr3": [(-157, 157), (-102, 102), (-166, 166), (-174, -9), (-161, 161), (31, 259), (-173, 173)],
+    "fr3": [(-155, 155), (-100, 100), (-165, 165), (-171, -12), (-160, 160), (34, 256), (-172, 172)],
     "panda": [(-166, 166), (-101, 101), (-166, 166), (-176, -4), (-166, 166), (-1, 215), (-166, 166)],
 }
-"""deg: the makers' data sheets, the elbow of the UR5e as its maker halves it for planning."""
+"""deg: the makers' data sheets, the elbow of the UR5e as its maker halves it for planning. The Franka Research 3 goes
+as far as the limits of its speeds, which fall towards the ends of the joints, leave what it needs to brake."""
 
 SPEEDS = {
     "ur5e": [180] * 6,

@@ -41,9 +41,10 @@ class IoPoint(Protocol):
 
     @property
     def level(self) -> float:
-        """The level that the controller reports."""
+        """The level that the controller reports: 0 or 1, or V or A of an analogue one."""
         ...
 
     def set(self, level: float) -> None:
-        """Set an output; ValueError if it cannot have that level, NotOffered for an input."""
+        """Set an output to 0 or 1, or V of an analogue one; ValueError if it cannot have that level,
+        NotOffered for an input."""
         ...
