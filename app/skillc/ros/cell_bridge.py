@@ -135,7 +135,7 @@ def _describe_operation(status: OperationStatus) -> dict[str, Any]:
         "reason": status.reason,
         "allowed": status.allowed,
         "verified": status.verified,
-        "failure": None if status.failure is None else str(status.failure),
+        "failure": None if status.failure is None else status.failure.message,
     }
 
 
