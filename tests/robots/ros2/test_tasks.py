@@ -16,7 +16,6 @@ import pytest
 from robots import bodies
 from robots.bodies import shipped_task
 from robots.ros2 import scenes
-from robots.ros2.body import Ros2Body
 from robots.ros2.running import LOOPBACK, robot
 from robots.ros2.test_link import IN_ROS
 
@@ -42,18 +41,22 @@ def test_a_ur5e_drives_and_picks(tmp_path: Path) -> None:
     assert (report["beyond_limits"], report["examples"]) == (0, [])
 
 
-WAYS: Mapping[str, tuple[Callable[[Path], Path], Ros2Body]] = {
-    "torques": (lambda folder: scenes.table(folder, 500.0), Ros2Body({"control": "effort", "rate_hz": 500})),
-    "a law on the robot's side": (scenes.cartesian_table, Ros2Body({"control": "cartesian", "rate_hz": 250})),
+WAYS: Mapping[str, tuple[Callable[[Path], Path], Mapping[str, Any]]] = {
+    "torques": (lambda folder: scenes.table(folder, 500.0), {"control": "effort", "rate_hz": 500}),
+    "a law on the robot's side": (scenes.cartesian_table, {"control": "cartesian", "rate_hz": 250}),
 }
-"""Scenes of the iiwa at the table, and the robots that are driven there."""
+"""Scenes of the iiwa at the table, and the options of the robots that are driven there."""
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("way", sorted(WAYS))
 def test_an_iiwa_wipes_a_table(way: str, tmp_path: Path) -> None:
-    write, body = WAYS[way]
-    figures = bodies.run(body, replace(shipped_task("wiping", "clean_table"), scene=write(tmp_path)), tmp_path)
+    from robots.ros2.body import Ros2Body
+
+    write, options = WAYS[way]
+    figures = bodies.run(
+        Ros2Body(options), replace(shipped_task("wiping", "clean_table"), scene=write(tmp_path)), tmp_path
+    )
     print(figures)
     assert (figures.outcome, figures.violations) == ("succeeded", 0)
     assert figures.coverage == pytest.approx(1.0, abs=0.01)
