@@ -34,7 +34,9 @@ from skillc_runtime.world.state.terms import (
     CONTACT,
     FRAME_ID,
     HAS_SHEET,
+    INPUT_POINT,
     MOBILE_ROBOT,
+    OUTPUT_POINT,
     RPARTS,
     SKILLC,
     SURFACE,
@@ -44,7 +46,7 @@ from skillc_runtime.world.state.terms import (
 from skillc_runtime.world.state.world_state import WorldState
 from tree.library import Library, call, par, with_
 
-EYE = LAB + "Eye-1"
+EYE, LAMP, GATE = LAB + "Eye-1", LAB + "Lamp-1", LAB + "Gate-1"
 GRIPPER_EFFECTOR, WORKSTATION = RPARTS + "GripperEffector", SKILLC + "Workstation"
 SCENES = ("iiwa_table", "ur5e_whiteboard", "ur5e_button", "panda_peg", "iiwa_guiding")
 
@@ -80,6 +82,8 @@ KINDS = {
     "socket": CONTACT + "Socket",
     "pose": CONTACT + "TaughtPose",
     "camera": CAMERA,
+    "output": OUTPUT_POINT,
+    "point": INPUT_POINT,
 }
 """Of which classes the things are that parameters of these names stand for."""
 
@@ -97,19 +101,20 @@ PRESSING = {
 }
 SWINGING = {"radius": 0.01, "rate": 1.0, "amplitude": 0.01, "pitch": 0.001}
 ASKING = {"text": "Is it empty?", "choices": "yes | no", "default": None, "limit": 60.0}
+WIRED = {"level": 1.0, "least": 1.0, "most": 1.0}
 FIGURE = {"width": 0.01, "height": 0.01, "across_rate": 2.0, "phase": 0.0}
 
 
 @cache
 def watched(scene: str) -> WorldState:
-    """Return the world of a shipped scene with a camera over its tool."""
+    """Return the world of a shipped scene with a camera over its tool, an output and an input."""
     state = world(scene)
     tool = pose(state, min(state.instances(TOOL))).position if state.instances(TOOL) else np.zeros(3)
     over = Pose.of((float(tool[0]), float(tool[1]), float(tool[2]) + 1.0), (0.0, 1.0, 0.0, 0.0))
     sheet = AddRelation(EYE, HAS_SHEET, SKILLC + "depth-camera-sheet")
-    return state.with_changes(
-        [AddIndividual(EYE, (CAMERA,)), sheet, SetProperty(EYE, FRAME_ID, "eye"), *placement_changes(EYE, over)]
-    )
+    wired = [AddIndividual(LAMP, (OUTPUT_POINT,)), AddIndividual(GATE, (INPUT_POINT,))]
+    seen = [AddIndividual(EYE, (CAMERA,)), sheet, SetProperty(EYE, FRAME_ID, "eye"), *placement_changes(EYE, over)]
+    return state.with_changes([*wired, *seen])
 
 
 def things(scene: str) -> dict[str, str]:
@@ -132,7 +137,18 @@ def arguments(scene: str, cell: Cell) -> dict[str, object]:
     beside = Pose(tool.position + np.array([0.02, 0.0, 0.025]), tool.rotation)
     poses = {"via": beside, "target": raised, "path": [raised, tool], "at": tool}
     directions = {"along": -tool.rotation[:, 2], "plane": tool.rotation[:, 0]}
-    return {**things(scene), **MOTION, **WAITING, **PRESSING, **SWINGING, **FIGURE, **ASKING, **poses, **directions}
+    return {
+        **things(scene),
+        **MOTION,
+        **WAITING,
+        **PRESSING,
+        **SWINGING,
+        **FIGURE,
+        **ASKING,
+        **WIRED,
+        **poses,
+        **directions,
+    }
 
 
 class Pushing(Primitive):

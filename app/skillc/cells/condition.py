@@ -47,12 +47,17 @@ class CellCondition:
             raise RequestError(f"{self._name} takes no operations ({state}): {reason}")
 
     def update(self) -> None:
-        """Keep a stop that devices report, if it is news or worse, and let all operations fail because of it."""
+        """Keep a stop that devices report, if it is news or worse, and let all operations fail because of it.
+
+        The world model gets the states of devices while time passes, or here while nothing runs: never between the
+        events of a run, which could not be repeated then.
+        """
+        if not self._loop.runs:
+            self._loop.backend.publish()
         found, known = self._loop.backend.stops.report, self._stop
         if found is None or (known is not None and (known.kind == found.kind or known.kind == "emergency-stop")):
             return
         self._set(found)
-        self._loop.backend.publish()
         self._loop.abort(f"{found.kind.replace('-', ' ')}: {found.reason}")
 
     def acknowledge(self, commit: Callable[[], None]) -> None:

@@ -93,7 +93,7 @@ class Ros2Gripper(Gripper):
 
     def recover(self) -> None:
         """Forget that it has not done what it was told: somebody has acknowledged that."""
-        with self._receiver.lock:
+        with self._receiver.lock:  # wait ends: with the messages that have arrived
             self._commands.forget()
             self._fault = self._find_misfit()
 

@@ -31,7 +31,7 @@ def check_places(state: WorldState, scene: SceneSpec) -> Iterator[str]:
         transforms = Transforms(receiver)
         receiver.begin()
         sleep(LOOK_S)
-        with receiver.lock:
+        with receiver.lock:  # wait ends: with the messages that have arrived
             found = {arm: transforms.find(frame, WORLD) for arm, frame in frames.items()}
     finally:
         receiver.close()
