@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
@@ -30,20 +31,34 @@ DEADLINE_S = 60.0
 """Wall time after which a test gives up."""
 
 
+class SharedCell:
+    """A robot and its cell for several tests; both are started again if a test has left them stopped."""
+
+    def __init__(self, opened: ExitStack) -> None:
+        self._opened = opened
+        self._pair: tuple[Toy, DeviceCell] | None = None
+
+    def find(self) -> tuple[Toy, DeviceCell]:
+        if self._pair is None or self._pair[1].stops.report is not None:
+            self._opened.close()
+            self._pair = self._opened.enter_context(toy_cell(SCENE))
+        return self._pair
+
+
 @pytest.fixture(scope="module")
-def shared() -> Iterator[tuple[Toy, DeviceCell]]:
-    with toy_cell(SCENE) as made:
-        yield made
+def shared() -> Iterator[SharedCell]:
+    with ExitStack() as opened:
+        yield SharedCell(opened)
 
 
 @pytest.fixture
-def both(shared: tuple[Toy, DeviceCell]) -> tuple[Toy, DeviceCell]:
-    """A robot and its cell, in order and at rest: each test leaves them so."""
-    _, cell = shared
+def both(shared: SharedCell) -> tuple[Toy, DeviceCell]:
+    """A robot and its cell, in order and at rest."""
+    toy, cell = shared.find()
     cell.secure()
     wait_until(cell.is_at_rest)
     assert cell.stops.report is None
-    return shared
+    return toy, cell
 
 
 def wait_until(holds: Callable[[], bool]) -> None:

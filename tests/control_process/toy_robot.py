@@ -126,6 +126,11 @@ class Robot:
             mass, centre = float(frame[1]), (self.arm.fixed_tool.inverse() @ self.arm._flange).apply(frame[2:5])
             self.arm.set_load(None if mass == 0.0 else ArmLoad(mass, centre, HERE, HERE))
 
+    @property
+    def awaits_command(self) -> bool:
+        """Whether it waits for a command beyond its period."""
+        return not self.paced and self.condition == 1 and self.is_commanded and self.silent < PATIENT_CYCLES
+
     def put_wall(self, gap_m: float) -> None:
         """Put a soft wall before the tool."""
         from backends.backend import Wall
@@ -281,9 +286,8 @@ def serve_stream(robot: Robot, stream: socket.socket) -> None:
                 stream.sendall(state.tobytes())
         except OSError:
             break
-        waits = robot.condition == 1 and robot.is_commanded and robot.silent < PATIENT_CYCLES
-        until = time.monotonic() + PATIENCE_S if waits and not robot.paced and not is_lost else due
-        while (frame := receive(stream, size, until)) is not None and frame.size:
+        longest = due if is_lost else time.monotonic() + PATIENCE_S
+        while (frame := receive(stream, size, longest if robot.awaits_command else due)) is not None and frame.size:
             with robot.lock:
                 robot.obey(frame)
             if frame[0] == COMMAND:
