@@ -65,7 +65,7 @@ class MeasuredArm:
     @property
     def still(self) -> bool:
         """Whether all joints are at rest."""
-        return bool(np.abs(self.state.dq).max() < STILL_RAD_S)
+        return is_still(self.state.dq)
 
     def at_joints(self, q: Array) -> bool:
         """Tell whether the joints are at q (nv,) in rad."""
@@ -81,3 +81,8 @@ class MeasuredArm:
 
     def _in_world(self, vector: Array) -> Array:
         return (vector.reshape(2, 3) @ self.base().rotation.T).ravel()
+
+
+def is_still(dq: Array) -> bool:
+    """Tell whether joints with the speeds dq (nv,) in rad/s are at rest."""
+    return bool(np.abs(dq).max() < STILL_RAD_S)

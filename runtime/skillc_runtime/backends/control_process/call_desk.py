@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import count
 from typing import Any
 
-from skillc_runtime.backends.control_process.calls import OFFERED, Call
+from skillc_runtime.backends.control_process.calls import OFFERED, RemoteCall
 from skillc_runtime.backends.control_process.controlled_arm import ControlledArm
 from skillc_runtime.devices.guarded_push import GuardedPush, MeasuredForce
 
@@ -19,7 +19,7 @@ class CallDesk:
     def __init__(self, arm: ControlledArm) -> None:
         self._arm, self._numbers = arm, count(1)
 
-    def call(self, call: Call) -> Any:
+    def call(self, call: RemoteCall) -> Any:
         """Return what a call of a part of the driver returns; errors are those of the driver."""
         if call.name not in OFFERED[call.part]:
             raise ValueError(f"nothing is called {call.part}.{call.name}")
@@ -33,7 +33,7 @@ class CallDesk:
             case _:
                 return self._call_part(call, call.arguments)
 
-    def _call_part(self, call: Call, arguments: tuple[Any, ...]) -> Any:
+    def _call_part(self, call: RemoteCall, arguments: tuple[Any, ...]) -> Any:
         driver = self._arm.driver
         value = getattr(driver if call.part == "driver" else getattr(driver, call.part), call.name)
         return value(*arguments) if callable(value) else value

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, Final, Literal, TypeAlias
 
-from skillc_runtime.backends.control_process.channel import Channel
+from skillc_runtime.backends.control_process.message_socket import MessageSocket
 
 Part: TypeAlias = Literal["driver", "motion", "compliance", "device"]
 """What is called: the driver of the arm, one of its parts, or the loop itself."""
@@ -43,7 +43,7 @@ CALLS_A_CYCLE_SHARE = 0.2
 
 
 @dataclass(frozen=True, slots=True)
-class Call:
+class RemoteCall:
     """A call with a number, by which its answer is known."""
 
     number: int
@@ -53,7 +53,7 @@ class Call:
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class RemoteAnswer:
     """What a call has returned, or the error that it has raised."""
 
     number: int
@@ -62,26 +62,26 @@ class Answer:
 
 
 class Mailbox:
-    """The end of a channel from which a control process takes calls, one at a time; `closed` if nobody calls."""
+    """The end of a socket from which a control process takes calls, one at a time; `closed` if nobody calls."""
 
-    def __init__(self, channel: Channel) -> None:
-        self._channel, self.closed = channel, False
+    def __init__(self, messages: MessageSocket) -> None:
+        self._socket, self.closed = messages, False
 
-    def take(self) -> Call | None:
+    def take(self) -> RemoteCall | None:
         """Return the next call; None if none waits. Nothing is waited for."""
         if self.closed:
             return None
         try:
-            call = self._channel.take()
+            call = self._socket.take()
         except (EOFError, OSError):
             self.close()
             return None
-        return call if isinstance(call, Call) else None
+        return call if isinstance(call, RemoteCall) else None
 
-    def answer(self, answer: Answer) -> None:
+    def answer(self, answer: RemoteAnswer) -> None:
         """Send an answer."""
         try:
-            self._channel.send(answer)
+            self._socket.send(answer)
         except OSError:
             self.close()
 

@@ -1,4 +1,4 @@
-"""The last limits of what a device is told, whichever law it comes from: range, speed, acceleration, jerk, torque."""
+"""The last limits of commands to a device, of whichever law: range, speed, acceleration, jerk and torque."""
 
 from __future__ import annotations
 

@@ -13,7 +13,10 @@ NOTHING: Final = float(KINDS.index("nothing"))
 
 
 class CommandSlot(Motors):
-    """Implements `Motors` for a device, which moves its joints and holds them by itself. `command` is the last one."""
+    """Implements `Motors` for a device, which moves its joints and holds them by itself.
+
+    command_for_device: the last one.
+    """
 
     def __init__(self, joints: Joints, modes: tuple[Mode, ...], timestep_s: float) -> None:
         super().__init__(joints, modes, timestep_s)

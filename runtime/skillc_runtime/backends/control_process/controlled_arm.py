@@ -9,6 +9,7 @@ import numpy as np
 
 from skillc_runtime.backends.control_process.command_limits import CommandLimits
 from skillc_runtime.backends.control_process.command_slot import NOTHING
+from skillc_runtime.backends.control_process.device_arm import build_arm
 from skillc_runtime.backends.control_process.facts import read_margins, read_rate_limits
 from skillc_runtime.backends.control_process.link import (
     CommandView,
@@ -18,14 +19,13 @@ from skillc_runtime.backends.control_process.link import (
     StateView,
     make_command,
 )
-from skillc_runtime.backends.control_process.measured_arm import build_arm
 from skillc_runtime.backends.control_process.tool_target import fill_target, fill_tool
 from skillc_runtime.backends.simulation.driver_factory import read_setup
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.guarded_push import ActivePush
-from skillc_runtime.control.measured import STILL_RAD_S
+from skillc_runtime.control.measured import is_still
 from skillc_runtime.devices.backend import DeviceStop
 from skillc_runtime.motion.pose import Pose
 
@@ -62,7 +62,7 @@ class ControlledArm:
         state = self.arm.state()
         if (reason := self._limits.check_measured(state.q, state.dq)) is not None:
             raise ControlRefused(f"{reason}; move the arm by hand, or correct the facts")
-        if np.abs(state.dq).max() > STILL_RAD_S:
+        if not is_still(state.dq):
             raise ControlRefused("the arm moves; wait until it is at rest")
         driver = CompliantArmDriver(self._setup)
         if driver.outside_workspace_m > 0.0:

@@ -1,4 +1,4 @@
-"""What the process of the tree and a control process tell each other once, at the start."""
+"""What the process of the tree and a control process send each other once, at the start."""
 
 from __future__ import annotations
 

@@ -12,11 +12,11 @@ from threading import Event, RLock, Thread
 from time import monotonic
 from typing import Any
 
-from skillc_runtime.backends.control_process.calls import Answer, Call, Part
-from skillc_runtime.backends.control_process.channel import Channel
+from skillc_runtime.backends.control_process.calls import Part, RemoteAnswer, RemoteCall
 from skillc_runtime.backends.control_process.handshake import Connected, ControlTask
 from skillc_runtime.backends.control_process.link import CALL_S
 from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
+from skillc_runtime.backends.control_process.message_socket import MessageSocket
 from skillc_runtime.backends.control_process.shared_memory import SharedRecord, SharedRing, make_memory, map_memory
 from skillc_runtime.backends.control_process.snapshot import FieldLayout, Snapshot
 from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable
@@ -26,10 +26,10 @@ START_S = 300.0
 """How long a control process may take to connect; its first one on a machine compiles the laws."""
 
 BEAT_S = 0.02
-"""How often a control process is told that this one is alive, in s."""
+"""How often this process reports to a control process that it is alive, in s."""
 
 ANSWER_S = 1.0
-"""How long the answer to a call is waited for, unless it is one to the device."""
+"""How long to wait for the answer to a call that does not concern the device, in s."""
 
 END_S = 5.0
 """How long a control process may take to stop its arm and to end."""
@@ -55,7 +55,7 @@ class ControlProcess:
         memory = map_memory(file)
         self._beat, self._record = plan.beat(memory), SharedRecord(plan.record(memory))
         self.ring = SharedRing(plan.ring(memory), plan.row.size)
-        self._channel = Channel(ours)
+        self._socket = MessageSocket(ours)
         self._broken: str | None = None
         self._closing = Event()
         self._beat[0] = monotonic()
@@ -85,9 +85,9 @@ class ControlProcess:
         with self._turn:
             if (reason := self.find_silence()) is not None:
                 raise BackendBroken(reason)
-            call = Call(next(self._numbers), part, name, arguments)
+            call = RemoteCall(next(self._numbers), part, name, arguments)
             try:
-                self._channel.send(call)
+                self._socket.send(call)
                 answer = self._receive(call, wait_s)
             except (EOFError, OSError) as error:
                 raise BackendBroken(self.find_silence() or f"{self._who} does not answer: {error}") from error
@@ -96,7 +96,7 @@ class ControlProcess:
         return answer.value
 
     def call_device(self, name: str, *arguments: Any) -> Any:
-        """Do the same for a call that may take as long as the device wants."""
+        """Call the device: as `call`, but wait as long as a device may take."""
         return self.call("device", name, *arguments, wait_s=4 * CALL_S)
 
     def find_silence(self) -> str | None:
@@ -115,7 +115,7 @@ class ControlProcess:
         """Let it stop its arm, give the device back, and end; end it if it does not."""
         self._broken = self._broken or f"{self._who} is closed"
         with suppress(OSError):
-            self._channel.close()
+            self._socket.close()
         try:
             self.process.wait(END_S)
         except subprocess.TimeoutExpired:
@@ -130,9 +130,9 @@ class ControlProcess:
 
     def _introduce(self, task: ControlTask) -> Connected:
         try:
-            self._channel.send(list(sys.path))
-            self._channel.send(task)
-            answer = self._channel.receive(START_S)
+            self._socket.send(list(sys.path))
+            self._socket.send(task)
+            answer = self._socket.receive(START_S)
         except TimeoutError as error:
             self.process.kill()
             self.close()
@@ -147,12 +147,12 @@ class ControlProcess:
         connected: Connected = answer
         return connected
 
-    def _receive(self, call: Call, wait_s: float) -> Answer:
+    def _receive(self, call: RemoteCall, wait_s: float) -> RemoteAnswer:
         """Return the answer to a call; those to earlier calls, which nobody waits for any more, are left out."""
         until = monotonic() + wait_s
         try:
             while True:
-                answer: Answer = self._channel.receive(until - monotonic())
+                answer: RemoteAnswer = self._socket.receive(until - monotonic())
                 if answer.number == call.number:
                     return answer
         except TimeoutError as error:

@@ -223,7 +223,7 @@ class RobotLink(Protocol):
         ...
 
     def set_load(self, hand: PointMass, held: PointMass) -> None:
-        """Tell the device what the flange carries: the hand by the model, and what it holds; each may be 0 kg.
+        """Send the device what the flange carries: the hand by the model, and what it holds; each may be 0 kg.
 
         A device that knows its hand by a setting of its own uses only `held`.
         """

@@ -6,10 +6,8 @@ from collections.abc import Callable
 from time import monotonic, sleep
 from typing import Any
 
-import numpy as np
-
 from skillc_runtime.backends.control_process.call_desk import CallDesk
-from skillc_runtime.backends.control_process.calls import CALLS_A_CYCLE_SHARE, Answer, Call, Mailbox
+from skillc_runtime.backends.control_process.calls import CALLS_A_CYCLE_SHARE, Mailbox, RemoteAnswer, RemoteCall
 from skillc_runtime.backends.control_process.controlled_arm import ControlledArm
 from skillc_runtime.backends.control_process.handshake import Patience
 from skillc_runtime.backends.control_process.link import (
@@ -24,7 +22,7 @@ from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
 from skillc_runtime.backends.control_process.pacing import CycleClock
 from skillc_runtime.backends.control_process.publisher import Publisher
 from skillc_runtime.backends.control_process.snapshot import Phase
-from skillc_runtime.control.measured import STILL_RAD_S
+from skillc_runtime.control.measured import is_still
 from skillc_runtime.devices.arm import ArmLoad
 from skillc_runtime.devices.backend import BackendUnavailable, DeviceStop, StopPersists
 from skillc_runtime.motion.arrays import OutVector
@@ -163,18 +161,18 @@ class ControlLoop:
             if monotonic() > until:
                 break
 
-    def _answer(self, call: Call) -> Answer:
+    def _answer(self, call: RemoteCall) -> RemoteAnswer:
         try:
             if call.part == "device":
-                return Answer(call.number, self._call_device(call))
-            return Answer(call.number, self._desk.call(call))
+                return RemoteAnswer(call.number, self._call_device(call))
+            return RemoteAnswer(call.number, self._desk.call(call))
         except LinkLost as lost:
             self._lose(str(lost))
-            return Answer(call.number, error=ControlRefused(str(lost)))
+            return RemoteAnswer(call.number, error=ControlRefused(str(lost)))
         except Exception as error:  # noqa: BLE001  the boundary to the other process, which raises it
-            return Answer(call.number, error=error)
+            return RemoteAnswer(call.number, error=error)
 
-    def _call_device(self, call: Call) -> Any:
+    def _call_device(self, call: RemoteCall) -> Any:
         match call.name, call.arguments:
             case "explain", ():
                 return self._arm.stop
@@ -221,7 +219,7 @@ class ControlLoop:
         while True:
             self._link.read(self._measured)
             self._look_at_condition()
-            if np.abs(self._measured.dq).max() < STILL_RAD_S or monotonic() > until:
+            if is_still(self._measured.dq) or monotonic() > until:
                 break
 
     def _give_back(self) -> None:

@@ -21,7 +21,7 @@ from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.real_time.device_cell import CellDevices
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
 from skillc_runtime.control.kinematics import Kinematics
-from skillc_runtime.control.measured import STILL_RAD_S
+from skillc_runtime.control.measured import is_still
 from skillc_runtime.control.virtual_arm import load_virtual_model
 from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.devices.backend import DeviceStop
@@ -52,7 +52,7 @@ class DeviceObserver:
         self._looks = [_ArmLook(facts, scene.names[facts.individual], arms[facts.individual]) for facts in scene.arms]
 
     def observe(self) -> ObservedCell:
-        """Return what the devices tell now."""
+        """Return what the devices report now."""
         scene, others = self._scene, self._others
         fault = others.find_fault()
         return ObservedCell(
@@ -129,8 +129,7 @@ class _ArmLook:
 
     def _describe_felt(self, state: ArmState, force: Array) -> str:
         most = FELT_N if self._facts.force_torque else FELT_BY_TORQUES_N
-        rests = np.abs(state.dq).max() < STILL_RAD_S
-        return describe_felt(force) if rests and np.linalg.norm(force) > most else ""
+        return describe_felt(force) if is_still(state.dq) and np.linalg.norm(force) > most else ""
 
     def _find_remarks(self, state: ArmState) -> Iterator[str]:
         names, home = self._joints, self._facts.home

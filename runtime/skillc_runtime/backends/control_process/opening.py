@@ -11,8 +11,8 @@ from time import monotonic
 from typing import TypeAlias
 
 from skillc_runtime import primitives
+from skillc_runtime.backends.control_process.cycle_feed import CycleFeed, FedArm
 from skillc_runtime.backends.control_process.facts import read_patience
-from skillc_runtime.backends.control_process.feed import FedArm, Feed
 from skillc_runtime.backends.control_process.ghost import Ghost
 from skillc_runtime.backends.control_process.handshake import ControlTask, Patience
 from skillc_runtime.backends.control_process.host import ControlProcess
@@ -32,8 +32,8 @@ DescribeLink: TypeAlias = Callable[[ArmSpec], LinkDescription]
 """Returns the device of an arm from its facts; SheetError if one is missing."""
 
 MakeDevices: TypeAlias = Callable[[SceneSpec, Mapping[str, RemoteArmDriver]], CellDevices]
-"""Returns the devices of a cell besides its arms, which it gets by IRI: a gripper tells its arm what it holds
-(`RemoteArmDriver.hold`). `find_fault`, `recover` and `close` are those of these devices alone."""
+"""Returns the devices of a cell besides its arms, which it gets by IRI: a gripper reports to its arm what
+it holds (`RemoteArmDriver.hold`). `find_fault`, `recover` and `close` are those of these devices alone."""
 
 
 def open_cell(
@@ -47,8 +47,8 @@ def open_cell(
 
     One that is only `observed` takes no control, offers none of its devices, and changes nothing in the world model.
     An arm that gives no control is reported as a stop of the cell. `patience` defaults to the facts of each arm.
-    BackendUnavailable if a device does not answer,
-    SheetError or FrameError if facts are missing or contradict each other or the device.
+    BackendUnavailable if a device does not answer; SheetError or FrameError if facts are missing or contradict each
+    other or the device.
     """
     scene = read_scene_spec(world.snapshot())
     if not scene.arms:
@@ -88,7 +88,7 @@ def load_all() -> None:
 def _make_observed(
     world: WorldModel, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver], others: CellDevices
 ) -> DeviceCell:
-    """Return a cell without devices, so that nothing can be told to move, nor to stop, that can be looked at."""
+    """Return a cell that can be observed; it offers no device, so none can be commanded or stopped."""
     ghost = Ghost(scene, arms, others.grippers, others.bases, world.snapshot)
     observer = DeviceObserver(scene, arms, others)
     return DeviceCell(world, CellDevices(drawing=ghost, observer=observer, close=lambda: _close(arms.values(), others)))
@@ -102,8 +102,8 @@ def _make_cell(
         each.individual: FedArm(arms[each.individual].process, arms[each.individual].base, each.force_torque)
         for each in scene.arms
     }
-    feed = Feed(fed, ghost.bodies)
-    together = _Together(tuple(arms.values()), others, feed)
+    feed = CycleFeed(fed, ghost.bodies)
+    all_devices = _AllDevices(tuple(arms.values()), others, feed)
     cell = DeviceCell(
         world,
         replace(
@@ -112,20 +112,20 @@ def _make_cell(
             live=feed.live,
             drawing=ghost,
             observer=DeviceObserver(scene, arms, others),
-            find_fault=together.find_fault,
-            recover=together.recover,
-            passed=together.passed,
-            close=together.close,
+            find_fault=all_devices.find_fault,
+            recover=all_devices.recover,
+            passed=all_devices.passed,
+            close=all_devices.close,
         ),
     )
     feed.begin(monotonic() - cell.now)
     return cell
 
 
-class _Together:
+class _AllDevices:
     """The arms of a cell and its other devices, as a cell watches and ends them."""
 
-    def __init__(self, arms: Sequence[RemoteArmDriver], others: CellDevices, feed: Feed) -> None:
+    def __init__(self, arms: Sequence[RemoteArmDriver], others: CellDevices, feed: CycleFeed) -> None:
         self._arms, self._others, self._feed = arms, others, feed
 
     def find_fault(self) -> DeviceStop | str | None:

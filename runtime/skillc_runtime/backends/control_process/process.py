@@ -11,11 +11,11 @@ import socket
 import sys
 
 from skillc_runtime.backends.control_process.calls import Mailbox
-from skillc_runtime.backends.control_process.channel import Channel
 from skillc_runtime.backends.control_process.controlled_arm import ControlledArm
 from skillc_runtime.backends.control_process.handshake import Connected, ControlTask
 from skillc_runtime.backends.control_process.loop import ControlLoop
 from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
+from skillc_runtime.backends.control_process.message_socket import MessageSocket
 from skillc_runtime.backends.control_process.rehearsal import rehearse
 from skillc_runtime.backends.control_process.shared_memory import map_memory
 from skillc_runtime.motion.numerics.compiled import compile_imported
@@ -25,13 +25,13 @@ START_S = 60.0
 """How long the other process may take to say what is to be done, in s."""
 
 
-def main(channel: Channel, memory_file: int) -> int:
+def main(messages: MessageSocket, memory_file: int) -> int:
     """Run a control process; return its exit code."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    sys.path[:] = channel.receive(START_S)
+    sys.path[:] = messages.receive(START_S)
     memory = map_memory(memory_file)
     try:
-        task: ControlTask = channel.receive(START_S)
+        task: ControlTask = messages.receive(START_S)
         plan = MemoryPlan(task.facts.home.size)
         compile_imported()
         link = task.description.make_link()
@@ -43,17 +43,17 @@ def main(channel: Channel, memory_file: int) -> int:
             link.close()
             raise
     except Exception as error:  # noqa: BLE001  the boundary to the other process, which raises it
-        channel.send(error)
+        messages.send(error)
         return 1
-    mailbox = Mailbox(channel)
+    mailbox = Mailbox(messages)
     loop = ControlLoop(link, arm, mailbox, plan, memory, task.patience)
     signal.signal(signal.SIGTERM, lambda *_: mailbox.close())  # The loop stops the arm between two periods.
     real_time = run_in_real_time()
     loop.begin()
-    channel.send(Connected(link.period_s, link.abilities, arm.mode, arm.arm.limits, real_time))
+    messages.send(Connected(link.period_s, link.abilities, arm.mode, arm.arm.limits, real_time))
     loop.run()
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(Channel(socket.socket(fileno=int(sys.argv[1]))), int(sys.argv[2])))
+    sys.exit(main(MessageSocket(socket.socket(fileno=int(sys.argv[1]))), int(sys.argv[2])))

@@ -117,7 +117,7 @@ class RemoteArmDriver:
         self.process.call_device("give_back")
 
     def hold(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
-        """Count a thing as held, at a pose in the frame of the empty hand's tool centre point: what a gripper tells.
+        """Count a thing as held, at a pose in the frame of the empty hand's tool centre point; grippers call this.
 
         RuntimeError if the scene had no such thing with a size when the cell was opened.
         """

@@ -22,17 +22,17 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.state.data_sheet import SheetError
 
 
-def build_arm(facts: ArmSpec, names: dict[str, str], abilities: LinkAbilities, period_s: float) -> MeasuredArm:
+def build_arm(facts: ArmSpec, names: dict[str, str], abilities: LinkAbilities, period_s: float) -> DeviceArm:
     """Return the arm with its gripper, alone in a model; SheetError if the facts do not fit each other or the device.
 
     `names` are the short names of individuals.
     """
     scene = SceneSpec(names, (replace(facts, robot=None),), (), (), (), (), {})
     model = build_model(scene, exact_variation(scene), period_s)
-    return MeasuredArm(facts, names, abilities, model, mujoco.MjData(model))
+    return DeviceArm(facts, names, abilities, model, mujoco.MjData(model))
 
 
-class MeasuredArm(ModelledArm):
+class DeviceArm(ModelledArm):
     """One arm of a control process; implements `Arm` with what a device measures. `slot` has its command."""
 
     slot: CommandSlot

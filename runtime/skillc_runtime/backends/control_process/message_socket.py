@@ -14,7 +14,7 @@ SEND_S = 2.0
 """How long the other side may take to receive a message, in s."""
 
 
-class Channel:
+class MessageSocket:
     """Sends and receives values that can be pickled; EOFError once the other side has gone."""
 
     def __init__(self, stream: socket.socket) -> None:

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from simulation.cells import cell
+from skillc_runtime.backends.control_process.device_arm import DeviceArm, build_arm
 from skillc_runtime.backends.control_process.link import LinkAbilities, StateView, make_state
-from skillc_runtime.backends.control_process.measured_arm import MeasuredArm, build_arm
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.devices.arm import ArmLoad
 from skillc_runtime.motion.pose import Array, Pose
@@ -19,7 +19,7 @@ HELD = Pose(np.array([0.0, 0.01, 0.05]), np.eye(3))
 LOAD = ArmLoad(0.4, np.array([0.01, 0.0, 0.02]), HELD, HELD)
 
 
-def build(simulated: SimulatedCell, **able: object) -> MeasuredArm:
+def build(simulated: SimulatedCell, **able: object) -> DeviceArm:
     facts = simulated.scene.arms[0]
     abilities = LinkAbilities(facts.modes, **{"wrench": "without-weight", **able})  # type: ignore[arg-type]
     return build_arm(facts, simulated.scene.names, abilities, 0.001)

@@ -27,7 +27,7 @@ class FedArm:
     feels_force: bool
 
 
-class Feed:
+class CycleFeed:
     """Hands over the cycles of all arms to the listeners of `live`; the fastest arm counts the time.
 
     `begin` says when the time of the cell is 0, in s of the machine's clock.
