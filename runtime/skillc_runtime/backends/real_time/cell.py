@@ -13,7 +13,7 @@ from threading import Event, Thread
 from time import monotonic
 from typing import Protocol, TypeVar
 
-from skillc_runtime.backends.real_time.locked import CellLock, locked
+from skillc_runtime.backends.real_time.locked import DRIVER_PARTS, CellLock, locked
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.backend import Backend, BackendBroken, DeviceStops
@@ -38,7 +38,6 @@ BRAKING_S = 2.0
 """After a stop from outside, devices are commanded until they are at rest, or for this time; then they hold still."""
 
 T = TypeVar("T")
-DRIVER_PARTS = ("measured", "motion", "compliance")
 
 
 class LockStepCell(LockStep, Backend, Cell, Protocol):
@@ -201,18 +200,22 @@ class RealTimeCell:
 
     def _run(self) -> None:
         """Run the control periods until the cell is closed or one of them fails."""
-        due = monotonic()
         try:
-            while not self._closing.wait(max(due - monotonic(), SHORTEST_WAIT_S)):
-                with self._turn:
-                    self._run_period()
-                    if self.now >= self._awaited:
-                        self._arrived.set()
-                due = max(due + self._wall_period_s, monotonic() - CATCH_UP_S)
+            self._run_periods()
         except BackendBroken as error:
             self._break(str(error))
         except Exception as error:  # noqa: BLE001  the thread's boundary: it reports why it ends
             self._break(f"the control thread has ended: {error!r}")
+
+    def _run_periods(self) -> None:
+        """Run a control period whenever one is due, until the cell is closed."""
+        due = monotonic()
+        while not self._closing.wait(max(due - monotonic(), SHORTEST_WAIT_S)):
+            with self._turn:
+                self._run_period()
+                if self.now >= self._awaited:
+                    self._arrived.set()
+            due = max(due + self._wall_period_s, monotonic() - CATCH_UP_S)
 
     def _run_period(self) -> None:
         simulated, reason = self._simulated, "all devices were stopped from outside the run"

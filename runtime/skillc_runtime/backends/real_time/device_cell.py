@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from threading import Event, Thread
 from time import monotonic
 
-from skillc_runtime.backends.real_time.locked import CellLock, locked
+from skillc_runtime.backends.real_time.locked import DRIVER_PARTS, CellLock, locked
 from skillc_runtime.control.watchdog import HEARTBEAT_TIMEOUT_S, HeartbeatWatchdog
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.backend import Backend, BackendBroken, DeviceStop, StopPersists
@@ -33,8 +33,6 @@ SHORTEST_S = 1e-4
 
 CLOSE_S = 2.0
 """How long the end of the watching thread is waited for, in s."""
-
-DRIVER_PARTS = ("measured", "motion", "compliance")
 
 
 @dataclass(frozen=True, slots=True)

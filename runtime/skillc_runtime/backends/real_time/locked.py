@@ -10,6 +10,9 @@ from skillc_runtime.devices.backend import BackendBroken
 LOCK_S = 60.0
 """How long a thread waits for the end of what another one does, in s of wall time."""
 
+DRIVER_PARTS = ("measured", "motion", "compliance")
+"""The parts of the driver of an arm."""
+
 T = TypeVar("T")
 
 
