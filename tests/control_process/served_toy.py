@@ -1,4 +1,4 @@
-"""A package with a back end for the toy robot, and a server of a cell with it: what the package of a robot is."""
+"""A package that offers the back end of the toy robot, and a server of a cell with it."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from control_process import toy_backend
 from control_process.toy_link import Toy
 from docs.installing import install, use
 from server.running import RunningServer, serving
@@ -23,19 +24,11 @@ name = "toy-backend"
 version = "0.1.0"
 
 [project.entry-points."skillc.backends"]
-toy = "toy_backend:make_backend"
+toy = "control_process.toy_backend:make_backend"
 
 [tool.setuptools]
-py-modules = ["toy_backend"]
+py-modules = []
 """
-BACKEND = '''"""Opens the cell of a toy robot that runs."""
-
-from control_process.toy_link import Toy
-
-
-def make_backend(world, start):
-    return Toy({scene!r}, running=({port}, {panel})).open_world(world)
-'''
 LIBRARY = """# Takes the eraser, and moves.
 
 use skiros, skillc
@@ -62,14 +55,6 @@ task swing {
 """
 
 
-def write_toy(folder: Path, toy: Toy) -> None:
-    """Write the project of the package."""
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "pyproject.toml").write_text(PROJECT, "utf-8")
-    text = BACKEND.format(scene=toy.scene, port=toy.port, panel=toy.panel_port)
-    (folder / "toy_backend.py").write_text(text, "utf-8")
-
-
 def write_cell(folder: Path, _takes_ms: int) -> None:
     """Write the library and the scene of the cell."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -83,8 +68,11 @@ def serving_toy(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple
     """Yield a toy robot and the server of its cell `yard`."""
     toy = Toy(SCENE)
     try:
-        write_toy(folder / "package", toy)
-        install(folder / "package", folder / "site")
+        toy_backend.choose(toy, monkeypatch)
+        package = folder / "package"
+        package.mkdir(parents=True, exist_ok=True)
+        (package / "pyproject.toml").write_text(PROJECT, "utf-8")
+        install(package, folder / "site")
         use(folder / "site", monkeypatch)
         with serving(folder / "served", options=("--backend", "toy"), write=write_cell) as server:
             yield toy, server

@@ -37,7 +37,7 @@ def toy(started: Toy, monkeypatch: pytest.MonkeyPatch) -> Iterator[Toy]:
     """A toy robot that is known as the back end `toy`; at the end it has got no command."""
     found = backends.entry_points
     monkeypatch.setattr(backends, "entry_points", lambda group: EntryPoints([*found(group=group), ENTRY]))
-    monkeypatch.setenv(toy_backend.VARIABLE, f"{SCENE} {started.port} {started.panel_port}")
+    toy_backend.choose(started, monkeypatch)
     before = started.ask("report")
     yield started
     started.ask("condition", "ready")

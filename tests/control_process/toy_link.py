@@ -217,9 +217,9 @@ class Toy:
         """Open its cell with a state of the world; by default with that of its scene."""
         return self.open_world(self.world() if state is None else WorldModel(state), patience)
 
-    def open_world(self, world: WorldModel, patience: Patience = PATIENCE) -> DeviceCell:
+    def open_world(self, world: WorldModel, patience: Patience = PATIENCE, observed: bool = False) -> DeviceCell:
         """Open its cell."""
-        return open_cell(world, self.describe, self._make_devices, patience)
+        return open_cell(world, self.describe, self._make_devices, patience, observed)
 
     def world(self) -> WorldModel:
         moved = [AddRelation(LAB + "Heron-1", AT, LAB + "Store")] if self.scene == "ur5e_whiteboard" else []
