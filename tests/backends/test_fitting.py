@@ -48,8 +48,8 @@ def test_a_law_whose_commands_the_arm_does_not_take_is_told() -> None:
 
 def test_an_arm_that_takes_positions_only_refuses_speeds() -> None:
     there = SimulatedCell(WorldModel(world(UR5E)))
-    facts = replace(there.scene.arms[0], modes=("position",), controller="forward_dynamics_velocity")
-    name, start = there.scene.names[facts.individual], there.variation.start(facts)
-    arm = SimulatedArm(facts, name, None, there.model, there.data, start, 0)
+    facts = replace(there.scene.arms[0], modes=("position",), controller="forward_dynamics_velocity", gripper=None)
+    start = there.variation.start(facts)
+    arm = SimulatedArm(facts, there.scene.names, there.model, there.data, start, 0)
     with pytest.raises(SheetError, match="the arm takes position commands, not velocity commands"):
         make_driver(facts, arm, there.period_s)

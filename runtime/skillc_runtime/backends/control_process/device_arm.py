@@ -39,10 +39,9 @@ class DeviceArm(ModelledArm):
 
     def __init__(self, facts: ArmSpec, names: dict[str, str], abilities: LinkAbilities, model: Any, data: Any) -> None:
         """Place the joints at home until something is measured."""
-        gripper = None if facts.gripper is None else names[facts.gripper.individual]
         self._abilities, self._to_tool, self._moment = abilities, np.zeros((3, 3)), np.zeros((3, 3))
         self.hand, self._mass_kg = PointMass(0.0, np.zeros(3)), 0.0
-        super().__init__(facts, names[facts.individual], gripper, model, data, facts.home, 1)
+        super().__init__(facts, names, model, data, facts.home, 1)
         if facts.force_torque and abilities.wrench == "none":
             raise SheetError(
                 f"{names[facts.individual]} has a force-torque sensor in the scene; its device measures no wrench"
@@ -54,7 +53,7 @@ class DeviceArm(ModelledArm):
             fingers, shares = find_fingers(model, names[facts.gripper.individual])
             data.qpos[fingers] = facts.gripper.first_opening_m / shares.sum()
         self._place()
-        self.hand = self._find_hand(gripper)
+        self.hand = self._find_hand(self._gripper_name)
         self._update_weight()
 
     @property

@@ -65,10 +65,9 @@ class DryCell(SimulatedCell):
 
     def _make_arm(self, facts: ArmSpec, seen: ObservedArm) -> DryArm:
         names, steps = self.scene.names, self._steps_per_command
-        name, palm = names[facts.individual], None if facts.gripper is None else names[facts.gripper.individual]
-        arm = DryArm(facts, name, palm, self.model, self.data, self._start(facts), self.variation.seed, steps)
+        arm = DryArm(facts, names, self.model, self.data, self._start(facts), self.variation.seed, steps)
         arm.keeper = CommandKeeper(facts, tuple(each.joint for each in seen.joints), self.period_s)
-        self._kept[name] = arm
+        self._kept[names[facts.individual]] = arm
         return arm
 
     def _place_fingers(self, name: str, hand: SimulatedGripper) -> None:

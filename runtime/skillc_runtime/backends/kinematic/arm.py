@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import mujoco
@@ -28,13 +29,14 @@ class KinematicArm(ModelledArm):
     measures_effort = False
 
     def __init__(
-        self, facts: ArmSpec, name: str, gripper: str | None, model: Any, data: Any, start: Array, steps: int
+        self, facts: ArmSpec, names: Mapping[str, str], model: Any, data: Any, start: Array, steps: int
     ) -> None:
         """Place the joints at `start` (nv,) in rad; commands arrive every `steps` steps."""
-        super().__init__(facts, name, gripper, model, data, start, steps)
+        super().__init__(facts, names, model, data, start, steps)
         if self._feels_force:
             self._gain[:, :6] = np.eye(6)
         self._wrench, self._measured_at, self._twist = np.zeros(6), -1.0, data.cvel[self._link]
+        gripper = self._gripper_name
         self._palm = self._link if gripper is None else int(model.body(part_name(gripper, "palm")).id)
 
     @property

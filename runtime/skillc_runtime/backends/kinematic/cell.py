@@ -72,9 +72,8 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         self._let_links_pass()
         names, things, arms, hands = self.scene.names, self.scene.graspable, {}, {}
         for facts in self.scene.arms:
-            palm = None if facts.gripper is None else names[facts.gripper.individual]
-            name, start = names[facts.individual], self._start(facts)
-            arm = KinematicArm(facts, name, palm, self.model, self.data, start, self._steps_per_command)
+            start = self._start(facts)
+            arm = KinematicArm(facts, names, self.model, self.data, start, self._steps_per_command)
             arms[facts.individual] = arm
             if facts.gripper is not None:
                 hands[facts.individual] = KinematicGripper(facts.gripper, names, things, arm, self.model, self.data)

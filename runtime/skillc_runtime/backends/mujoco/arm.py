@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from skillc_runtime.backends.mujoco.wrist import Wrist
@@ -17,8 +18,7 @@ class SimulatedArm(ModelledArm):
     def __init__(
         self,
         facts: ArmSpec,
-        name: str,
-        gripper: str | None,
+        names: Mapping[str, str],
         model: Any,
         data: Any,
         start: Array,
@@ -28,8 +28,8 @@ class SimulatedArm(ModelledArm):
         """Place the joints at `start` (nv,) in rad; the noise of the sensors follows from the seed."""
         noise = make_joint_noise(facts, seed)
         self._wrist: Wrist | None = None
-        super().__init__(facts, name, gripper, model, data, start, steps_per_command, noise)
-        if self._feels_force and gripper is not None:
+        super().__init__(facts, names, model, data, start, steps_per_command, noise)
+        if self._feels_force and (gripper := self._gripper_name) is not None:
             time_s, noise = facts.sheet.number("forceTorqueTime"), make_wrist_noise(facts, seed)
             self._wrist = Wrist(model, data, gripper, time_s, self._gain, self._readings, noise)
             self.set_load(None)

@@ -56,10 +56,8 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
     def _make_arms(self) -> tuple[dict[str, SimulatedArm], dict[str, SimulatedGripper]]:
         names, things, arms, hands = self.scene.names, self.scene.graspable, {}, {}
         for facts in self.scene.arms:
-            gripper = facts.gripper
-            palm = None if gripper is None else names[gripper.individual]
-            name, steps = names[facts.individual], self._steps_per_command
-            arm = SimulatedArm(facts, name, palm, self.model, self.data, self._start(facts), self.variation.seed, steps)
+            gripper, steps = facts.gripper, self._steps_per_command
+            arm = SimulatedArm(facts, names, self.model, self.data, self._start(facts), self.variation.seed, steps)
             arms[facts.individual] = arm
             if gripper is not None:
                 hands[facts.individual] = SimulatedGripper(

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import mujoco
 import numpy as np
 
+from skillc_runtime.backends.simulation.arm_parts import (
+    find_actuator,
+    find_live_body,
+    find_root,
+    find_site,
+    find_tool,
+    read_limits,
+)
 from skillc_runtime.backends.simulation.arm_sensing import (
     BIAS,
     CARRYING,
@@ -23,7 +32,7 @@ from skillc_runtime.backends.simulation.motors import Joints, Motors, ServoGains
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.noise import Noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
-from skillc_runtime.devices.arm import Arm, ArmLimits, ArmLoad, ArmState, Capabilities, Command, Mode, NotOffered
+from skillc_runtime.devices.arm import Arm, ArmLoad, ArmState, Capabilities, Command, Mode, NotOffered
 from skillc_runtime.motion.numerics.compiled import bind
 from skillc_runtime.motion.pose import Array, Pose
 
@@ -58,35 +67,39 @@ class ModelledArm(Arm):
     def __init__(
         self,
         facts: ArmSpec,
-        name: str,
-        gripper: str | None,
+        names: Mapping[str, str],
         model: Any,
         data: Any,
         start: Array,
         steps_per_command: int,
         noise: Noise | None = None,
     ) -> None:
-        """Place the joints at `start` (nv,) in rad; `noise` is that of the measured joint speeds."""
+        """Place the joints at `start` (nv,) in rad; `noise` is that of the measured joint speeds.
+
+        `names` are the short names of individuals.
+        """
+        name = names[facts.individual]
+        self._gripper_name = gripper = None if facts.gripper is None else names[facts.gripper.individual]
         self._model, self._data = model, data
         joints = [j for j in range(model.njnt) if model.joint(j).name.startswith(part_name(name, ""))]
         first, count = int(model.jnt_dofadr[joints[0]]), len(joints)
         q_first = int(model.jnt_qposadr[joints[0]])
-        actuator = _actuator_of(joints[0], model)
+        actuator = find_actuator(joints[0], model)
         self._dofs = slice(first, first + count)
         self._q_span = slice(q_first, q_first + count)
         self._q, self._dq = data.qpos[self._q_span], data.qvel[self._dofs]
         self._bias = data.qfrc_bias[self._dofs]
-        self._base = _root_body(model, model.jnt_bodyid[joints[0]], part_name(name, ""))
+        self._base = find_root(model, model.jnt_bodyid[joints[0]], part_name(name, ""))
         self._link = int(model.site_bodyid[model.site(part_name(name, "flange")).id])
-        self.limits = _limits(model, joints, actuator, facts)
-        self.fixed_tool = _fixed_tool(model, name, gripper)
+        self.limits = read_limits(model, joints, actuator, facts)
+        self.fixed_tool = find_tool(model, name, gripper)
         self._hand = LastLink()
         self._joints, self._velocity = np.zeros((6, count)), np.zeros(3)
         self._here = _blank(self._joints, self._hand.tool)
         self._state = _read_only(self._here)
         self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
         self._weight, self._carrying, self._quiet = np.zeros(3), self._joints[CARRYING], np.zeros(count)
-        self._flange = _in_body(model.site(part_name(name, "flange")))
+        self._flange = find_site(model.site(part_name(name, "flange")))
         self._feels_force = facts.force_torque and gripper is not None
         self._gain, self._readings = np.zeros((6, 9)), np.zeros(9)
         self._damping = np.zeros(count)
@@ -174,7 +187,7 @@ class ModelledArm(Arm):
         data.qpos[:] = self._data.qpos
         data.qpos[self._q_span] = q
         mujoco.mj_kinematics(self._model, data)
-        link, base = (_live_body(data, body) for body in (self._link, self._base))
+        link, base = (find_live_body(data, body) for body in (self._link, self._base))
         return base.inverse() @ link @ self._flange
 
     def tare(self) -> None:
@@ -220,8 +233,8 @@ class ModelledArm(Arm):
             on_link=hand.on_link,
             motion_axes=data.cdof[self._dofs],
             centre=data.subtree_com[self._model.body_rootid[self._link]],
-            link=_live_body(data, self._link),
-            base=_live_body(data, self._base),
+            link=find_live_body(data, self._link),
+            base=find_live_body(data, self._base),
             weight=self._weight,
             actuators=data.qfrc_actuator[self._dofs],
             applied=data.qfrc_applied[self._dofs],
@@ -257,11 +270,6 @@ class ModelledArm(Arm):
         self._next_mass_time = self._data.time + MASS_MATRIX_PERIOD_S - 1e-9
 
 
-def _live_body(data: Any, body: int) -> Pose:
-    """Return the pose of a body in the world; its arrays change with the simulation."""
-    return Pose(data.xpos[body], data.xmat[body].reshape(3, 3))
-
-
 def _blank(joints: Array, tool: Pose) -> ArmState:
     """Return a state whose q, dq and bias are rows of `joints`."""
     count = joints.shape[1]
@@ -282,36 +290,3 @@ def _view(array: Array) -> Array:
     view = array.view()
     view.flags.writeable = False
     return view
-
-
-def _actuator_of(joint: int, model: Any) -> int:
-    """Return the actuator of a joint; `actuator_trnid` of other actuators may be the index of a tendon."""
-    on_joints = model.actuator_trntype == mujoco.mjtTrn.mjTRN_JOINT
-    return int(np.flatnonzero(on_joints & (model.actuator_trnid[:, 0] == joint))[0])
-
-
-def _root_body(model: Any, body: int, prefix: str) -> int:
-    """Return the outermost body of the arm that `body` belongs to."""
-    while model.body(model.body_parentid[body]).name.startswith(prefix):
-        body = int(model.body_parentid[body])
-    return int(body)
-
-
-def _fixed_tool(model: Any, name: str, gripper: str | None) -> Pose:
-    """Return the gripper's tool centre point, or the flange of an arm without gripper, in the last link's frame."""
-    flange = _in_body(model.site(part_name(name, "flange")))
-    return flange if gripper is None else flange @ _in_body(model.site(part_name(gripper, "tcp")))
-
-
-def _in_body(site: Any) -> Pose:
-    return Pose.of(site.pos, site.quat)
-
-
-def _limits(model: Any, joints: list[int], actuator: int, facts: ArmSpec) -> ArmLimits:
-    span = slice(actuator, actuator + len(joints))
-    force, control = model.actuator_forcerange[span, 1], model.actuator_ctrlrange[span, 1]
-    effort = force if facts.has_servos else control
-    sheet, count = facts.sheet, len(joints)
-    stated = sheet.has("jointAccelerations")
-    fastest = sheet.limits("jointAccelerations", count) if stated else np.full(count, np.inf)
-    return ArmLimits(model.jnt_range[joints].copy(), sheet.limits("jointSpeeds", count), effort.copy(), fastest)
