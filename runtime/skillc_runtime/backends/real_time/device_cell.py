@@ -26,7 +26,7 @@ from skillc_runtime.devices.sensors import Button, Camera, IoPoint
 from skillc_runtime.world.state.model import WorldModel
 
 LOOK_S = 0.02
-"""How often it is looked whether the client of the devices is still there, and whether they are, in s."""
+"""How often the cell checks whether runs send heartbeats and whether devices have faults, in s."""
 
 SHORTEST_S = 1e-4
 """The time that passes in each call of `advance`, at least, in s."""
@@ -90,7 +90,7 @@ class DeviceCell(Backend, Cell):
         self._began = self._due = monotonic()
         self._broken: str | None = None
         self._fault: DeviceStop | None = None
-        self._is_told = True
+        self._is_raised = True
         self._heartbeats = HeartbeatWatchdog(devices.tree_timeout_s)
         self._watchdog: Watchdog = locked(self._heartbeats, self._turn)
         self._thread = Thread(target=self._watch, name="watch devices", daemon=True)
@@ -194,10 +194,10 @@ class DeviceCell(Backend, Cell):
         if self._closing.wait(self._due - monotonic()):
             raise BackendBroken(self._broken or "the cell is closed")
         with self._turn:
-            fault, is_told, self._is_told = self._fault, self._is_told, True
+            fault, is_raised, self._is_raised = self._fault, self._is_raised, True
         self._devices.passed()
         self._states.note(fault)
-        if fault is not None and not is_told:
+        if fault is not None and not is_raised:
             raise BackendBroken(fault.reason)
 
     def publish(self) -> None:
@@ -232,7 +232,7 @@ class DeviceCell(Backend, Cell):
     def _take_fault(self, fault: DeviceStop) -> None:
         """Stop all devices for the first fault; what is said of it later, or an emergency stop, is reported instead."""
         if self._fault is None:
-            self._fault, self._is_told = fault, False
+            self._fault, self._is_raised = fault, False
             self._abort(fault.reason)
         elif fault.kind == "emergency-stop" or fault.reason.startswith(self._fault.reason):
             self._fault = fault
@@ -243,7 +243,7 @@ class DeviceCell(Backend, Cell):
             self._stopper.abort(reason)
         except Exception as error:  # noqa: BLE001  the boundary to the devices
             fault = DeviceStop("protective-stop", f"{reason}; a device could not be stopped: {error!r}")
-            self._fault, self._is_told = fault, False
+            self._fault, self._is_raised = fault, False
 
     def _find_fault(self) -> DeviceStop | None:
         """Return why a device cannot go on; a look that fails is a fault as well, since nobody else would notice."""
