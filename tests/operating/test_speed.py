@@ -1,4 +1,4 @@
-"""A run with a share of the speeds takes its time, says so, and tells it as what a time-out may come from."""
+"""A run with a share of the speeds takes longer, and names that share where a failure may come from it."""
 
 from __future__ import annotations
 
@@ -38,7 +38,9 @@ def test_what_fails_for_want_of_time_says_that_the_run_was_slow() -> None:
 def test_a_speed_is_a_share_of_all(share: str) -> None:
     result = CliRunner().invoke(skillc, ["run", "contact:press_button", "--speed", share])
     assert result.exit_code == 2
-    assert f"`{share}` is no share above 0 up to all of it: write it as 10% or 0.1" in " ".join(result.stderr.split())
+    assert f"`{share}` is not a share above 0% and at most 100%; write it as 10% or 0.1" in " ".join(
+        result.stderr.split()
+    )
 
 
 def test_nobody_could_confirm_steps_without_a_terminal() -> None:

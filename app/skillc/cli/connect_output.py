@@ -1,4 +1,4 @@
-"""What the devices of a cell tell, as lines for a terminal: their condition, and the model beside what is measured."""
+"""The condition of the devices of a cell, and what they measure beside the scene, as lines for a terminal."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ CONDITIONS = {
 
 
 def format_cell(cell: ObservedCell, page: TerminalPage) -> list[str]:
-    """Return all that is known of the devices of a cell."""
+    """Return the lines about all devices of a cell."""
     lines: list[str] = []
     for arm in cell.arms:
         lines += [*_format_arm(arm, page), ""]

@@ -54,7 +54,7 @@ BACKEND = BackendType()
 
 
 class ShareType(click.ParamType[float]):
-    """A share above 0 to 1, in per cent or as a number."""
+    """A share above 0 and at most 1, in per cent or as a number."""
 
     name = "share"
 
@@ -66,7 +66,7 @@ class ShareType(click.ParamType[float]):
         except ValueError:
             share = 0.0
         if rest or not 0.0 < share <= 1.0:
-            self.fail(f"`{value}` is no share above 0 up to all of it: write it as 10% or 0.1", param, ctx)
+            self.fail(f"`{value}` is not a share above 0% and at most 100%; write it as 10% or 0.1", param, ctx)
         return share
 
 

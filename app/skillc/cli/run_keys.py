@@ -39,7 +39,7 @@ CONFIRMING_KEYS = (
     Key("s", "stop", Stop("stopped by the user")),
     Key("p", "pause", Pause()),
 )
-"""The keys of a run whose user confirms each step: the letter of a step stops it, so that nothing moves by mistake."""
+"""The keys of a run whose user confirms each step. `s` stops it there, and does not step: nothing moves by mistake."""
 FASTER, SLOWER = "+", "-"
 DETACH = "d"
 

@@ -39,5 +39,6 @@ def connected_devices(state: WorldState, backend: BackendName) -> Iterator[CellO
     with closing(cell):
         if (observer := cell.capabilities.observer) is None:
             kind = "simulates its devices" if cell.capabilities.truth is not None else "cannot look at its devices"
-            raise RequestError(f"the backend {backend} {kind}: there is nothing to connect to")
+            hint = "name a back end of real devices, such as `--backend ur`"
+            raise RequestError(f"the backend {backend} {kind}: there is nothing to connect to; {hint}")
         yield observer

@@ -1,8 +1,9 @@
-"""Dry runs: devices are looked at, and what they would be sent in a task is computed, in simulation, and kept."""
+"""Dry runs: a task is simulated from where real devices are, and the commands that they would get are kept."""
 
 from __future__ import annotations
 
 import csv
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,7 +12,7 @@ from skillc.services.connecting import connected_devices
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.backends.control_process.dry_cell import DryCell
 from skillc_runtime.devices.backend import Backend
-from skillc_runtime.devices.command_record import UNITS, CommandRecord
+from skillc_runtime.devices.command_record import UNITS, ArmCommands, CommandRecord
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
@@ -25,7 +26,7 @@ class DryRefused(Exception):
 
 
 def with_own_world(task: LoadedTask) -> LoadedTask:
-    """Return a task in a copy of its world: what a simulation does is no fact."""
+    """Return a task in a copy of its world, so that the effects of its simulation do not become facts."""
     return replace(task, world=WorldModel(task.world.snapshot()))
 
 
@@ -50,11 +51,13 @@ def write_commands(record: CommandRecord, folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with (folder / COMMANDS).open("w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file)
-            for sent in record.commands():
-                writer.writerow(("arm", "kind", "unit", "time_s", *sent.joints))
-                for time_s, values in zip(sent.times_s, sent.values, strict=True):
-                    row = (sent.arm, sent.mode, UNITS[sent.mode], f"{time_s:.4f}", *(f"{each:.6f}" for each in values))
-                    writer.writerow(row)
+            csv.writer(file).writerows(row for sent in record.commands() for row in _list_rows(sent))
     except OSError as error:
         raise ServiceError(f"{folder / COMMANDS} cannot be written: {error.strerror}") from error
+
+
+def _list_rows(sent: ArmCommands) -> Iterator[tuple[str, ...]]:
+    """Yield the names of the columns of an arm, and a row for each command."""
+    yield ("arm", "kind", "unit", "time_s", *sent.joints)
+    for time_s, values in zip(sent.times_s, sent.values, strict=True):
+        yield (sent.arm, sent.mode, UNITS[sent.mode], f"{time_s:.4f}", *(f"{each:.6f}" for each in values))

@@ -1,4 +1,4 @@
-"""Compares a scene with what ROS 2 has now; what it finds is told in sentences."""
+"""Compares a scene with the topics and services that ROS 2 has now."""
 
 from __future__ import annotations
 

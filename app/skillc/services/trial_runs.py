@@ -110,10 +110,8 @@ def _run(
         left = find_missing_seeds(request.seeds, known)
         trials = run_in_processes(partial(TrialRunner, experiment), left, request.jobs, request.limit_s)
         with watch(experiment.task, len(done)) as show:
-            for trial in _until_interrupted(trials, reporter):
+            for trial in _record(_until_interrupted(trials, reporter), journal):
                 done[trial.seed] = trial
-                if journal is not None:
-                    journal.add(trial)
                 show(trial)
     return tuple(done.values())
 
@@ -126,6 +124,14 @@ def _heading(experiment: Experiment, library: SkillLibrary) -> Heading:
         library=f"{library.name} of {library.hash[: identity.DIGITS]}",
         scene=identity.identify_file(experiment.scene),
     )
+
+
+def _record(trials: Iterator[Trial], journal: TrialJournal | None) -> Iterator[Trial]:
+    """Yield trials; those with a journal are in it when they are yielded."""
+    for trial in trials:
+        if journal is not None:
+            journal.add(trial)
+        yield trial
 
 
 def _until_interrupted(trials: Iterator[Trial], reporter: Reporter) -> Iterator[Trial]:

@@ -118,7 +118,7 @@ def _refuse_contradictions(asked: CheckOptions) -> None:
 
 
 def _check_connection(scene: Path | None) -> int:
-    """Print what contradicts between a scene and ROS 2; nothing is moved."""
+    """Print where a scene and ROS 2 contradict each other; nothing is moved."""
     from skillc.cli.console import Terminal
     from skillc.services.library_files import find_scene
     from skillc.services.ros2_graph import find_contradictions

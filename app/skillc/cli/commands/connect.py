@@ -7,6 +7,7 @@ Exit code 1 if a device is not ready or contradicts the scene, with --once and -
 
 from __future__ import annotations
 
+import re
 import sys
 import time
 from pathlib import Path
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
 LOOK_S = 0.2
 """How often the devices are looked at, in s."""
 SETTLE_S = 0.5
-"""How long the devices are looked at before something is said once, in s: what moves is seen then."""
+"""How long the devices are looked at with --once and --json, in s: long enough to see what moves."""
+NUMBER = re.compile(r"[-+]?\d+(\.\d+)?")
 EXAMPLES = """
 skillc connect cell.ttl --backend ur
 skillc connect cell.ttl --backend ros2 --once
@@ -36,10 +38,10 @@ skillc connect cell.ttl --backend ur --json
 @click.command(cls=Command, examples=EXAMPLES)
 @click.argument("scene", type=PATH, shell_complete=complete_scene)
 @click.option("--backend", type=BACKEND, required=True, help="The back end of the devices, such as `ur`.")
-@click.option("--once", is_flag=True, help="Look once, print what is there, and end.")
+@click.option("--once", is_flag=True, help="Print the devices once, and end.")
 @json_option
 def command(scene: Path, backend: str, once: bool, as_json: bool) -> int:
-    """Connect to the devices of SCENE and show what they tell, until Ctrl-C. Nothing is moved or taken under control.
+    """Connect to the devices of SCENE and show what they report, until Ctrl-C. Nothing is moved or taken under control.
 
     On a terminal the display is kept up to date; elsewhere it is printed again when a condition or a remark changes.
     """
@@ -79,7 +81,7 @@ def _watch(observer: CellObserver) -> None:
 
 
 def _show(observer: CellObserver) -> None:
-    """Show what the devices tell, in place."""
+    """Show what the devices report, in place."""
     from rich.live import Live
     from rich.text import Text
 
@@ -95,12 +97,13 @@ def _show(observer: CellObserver) -> None:
 
 
 def _print_changes(observer: CellObserver) -> None:
-    """Print what the devices tell, again whenever a condition or a remark is another one."""
-    said: tuple[list[str], int] | None = None
+    """Print what the devices report, again whenever a condition or a remark changes; new numbers are no change."""
+    printed: list[str] | None = None
     while True:  # wait ends: with Ctrl-C
         seen = observer.observe()
-        if (says := ([each.condition for each in seen.arms], len(seen.problems))) != said:
-            said = says
+        words = [*(each.condition for each in seen.arms), *(NUMBER.sub("", each) for each in seen.problems)]
+        if words != printed:
+            printed = words
             _print(seen)
         time.sleep(LOOK_S)
 
@@ -110,4 +113,8 @@ def _print(seen: ObservedCell) -> None:
 
     print_lines([*format_cell(seen, page_of(sys.stdout)), ""])
     sys.stdout.flush()
-    print_remark("the devices are ready and as the scene says" if not seen.problems else "no task can begin as it is")
+    print_remark(
+        "no task can begin before the problems are solved"
+        if seen.problems
+        else "the devices are ready and as the scene says"
+    )

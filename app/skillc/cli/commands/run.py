@@ -1,4 +1,4 @@
-"""Run a task in simulation.
+"""Run a task, in simulation or on a robot.
 
 Plans if there is a goal, chooses implementations by the facts of the world model, and executes.
 
@@ -46,7 +46,9 @@ skillc run clean_table --speed 10% --confirm-steps
 @grouped_option(EXECUTION, "--strict", is_flag=True, help="Exit with code 3 also if success rests on an assumption.")
 @json_option
 def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, strict: bool, as_json: bool) -> int:
-    """Run TASK in simulation: plan if it has a goal, choose implementations by the world model, and execute.
+    """Run TASK: plan if it has a goal, choose implementations by the world model, and execute.
+
+    It runs in simulation, or with --backend on real devices.
 
     TASK is the name of a task of the project here or of a shipped one, or LIBRARY:NAME; `skillc tasks` lists them. In a
     project, TASK may be left out if the manifest names a default one.
