@@ -1,6 +1,6 @@
 // What is written into the picture: names, what is selected with its size, how far belief is off, forces, distances.
 import * as three from "three";
-import { describeDifference, type Misbelief } from "./belief";
+import { describeOffset, type Offset } from "./offsets";
 import type { SceneBodies } from "./bodies";
 import type { DrawnForce } from "./forces";
 import type { Label } from "./labels";
@@ -12,7 +12,7 @@ export interface Annotated {
   bodies: SceneBodies;
   poses: readonly PoseNumbers[];
   selected: readonly string[];
-  misbeliefs: readonly Misbelief[];
+  offsets: readonly Offset[];
   forces: readonly DrawnForce[];
   measured: readonly three.Vector3[];
   options: SceneOptions;
@@ -20,7 +20,7 @@ export interface Annotated {
 
 /** Return the labels of a picture. */
 export function annotate(shown: Annotated): Label[] {
-  return [...nameThings(shown), ...nameBeliefs(shown), ...nameForces(shown), ...nameDistance(shown.measured)];
+  return [...nameThings(shown), ...nameOffsets(shown), ...nameForces(shown), ...nameDistance(shown.measured)];
 }
 
 const RANKS: Readonly<Record<string, number>> = { arm: 4, tool: 4, surface: 3, base: 2, fixture: 2, body: 1 };
@@ -37,13 +37,13 @@ function nameThings({ model, bodies, poses, selected, options }: Annotated): Lab
   });
 }
 
-function nameBeliefs({ model, bodies, poses, misbeliefs, options }: Annotated): Label[] {
+function nameOffsets({ model, bodies, poses, offsets, options }: Annotated): Label[] {
   if (options.reality !== "both") return [];
-  return misbeliefs.flatMap((each): Label[] => {
+  return offsets.flatMap((each): Label[] => {
     const at = topOf(bodies.boxOf(poses, each.individual));
     if (at === null) return [];
     const [x, y, z] = transform(each.shift, [at.x, at.y, at.z]);
-    const text = `${shorten(model.individuals[each.individual]?.label ?? "")} is ${each.why} ${describeDifference(each)}`;
+    const text = `${shorten(model.individuals[each.individual]?.label ?? "")} is ${each.why} ${describeOffset(each)}`;
     return [
       { key: `belief ${each.individual}`, text, at: new three.Vector3(x, y, z), kind: "believed", rank: 8 },
     ];

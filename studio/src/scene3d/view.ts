@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import * as three from "three";
 import { annotate } from "./annotations";
-import { findOffsets, shiftsOf, type Misbelief } from "./belief";
+import { findOffsets, shiftsOf, type Offset } from "./offsets";
 import { SceneBodies } from "./bodies";
 import { SceneCamera } from "./camera";
 import { CoverageLayer } from "./coverage";
@@ -49,7 +49,7 @@ export class SceneView implements SceneHandle {
   private theme: SceneTheme;
   private bodies: SceneBodies | null = null;
   private poses: PoseNumbers[] = [];
-  private misbeliefs: Misbelief[] = [];
+  private offsets: Offset[] = [];
   private forces: DrawnForce[] = [];
   private measured: three.Vector3[] = [];
   private covered: readonly Box[] = [];
@@ -229,16 +229,16 @@ export class SceneView implements SceneHandle {
     this.overlay.setHalves(options.reality === "beside");
     if (model.value === null || this.bodies === null) return;
     this.poses = placeBodies(model.value, sample.value);
-    this.misbeliefs = findOffsets(model.value, this.poses, believed.value, sample.value);
+    this.offsets = findOffsets(model.value, this.poses, believed.value, sample.value);
     this.forces = options.forces && sample.value !== null ? findForces(sample.value) : [];
-    this.bodies.placeGhosts(this.poses, options.reality === "both" ? shiftsOf(this.misbeliefs) : NO_SHIFTS);
+    this.bodies.placeGhosts(this.poses, options.reality === "both" ? shiftsOf(this.offsets) : NO_SHIFTS);
     this.bodies.outlineThese(selected.value);
     this.arrows.show(this.forces);
     this.trails.line.visible = options.trails;
     this.coverage.group.visible = options.coverage && options.reality !== "believed";
     this.coverage.update(this.sources.coverage.value, this.theme.accent, (surface) => this.poseOf(surface));
     const colour = this.tool.value === "correct" ? this.theme.believed : this.theme.disturb;
-    this.bodies.placeDragged(this.poses, this.mover.shifts(shiftsOf(this.misbeliefs)), colour);
+    this.bodies.placeDragged(this.poses, this.mover.shifts(shiftsOf(this.offsets)), colour);
     const [axes, dashes] = sketch(
       model.value,
       this.poses,
@@ -252,7 +252,7 @@ export class SceneView implements SceneHandle {
   }
 
   private place(asBelieved: boolean): void {
-    this.bodies?.place(this.poses, asBelieved ? shiftsOf(this.misbeliefs) : NO_SHIFTS);
+    this.bodies?.place(this.poses, asBelieved ? shiftsOf(this.offsets) : NO_SHIFTS);
   }
 
   private poseOf(individual: string): PoseNumbers | null {
@@ -263,14 +263,14 @@ export class SceneView implements SceneHandle {
   private showLabels(isBeside: boolean): void {
     const [model, bodies] = [this.sources.model.value, this.bodies];
     if (model === null || bodies === null) return;
-    const { poses, misbeliefs, forces, measured } = this;
+    const { poses, offsets, forces, measured } = this;
     const selected = this.sources.selected.value;
     const labels = annotate({
       model,
       bodies,
       poses,
       selected,
-      misbeliefs,
+      offsets,
       forces,
       measured,
       options: this.options.value,

@@ -1,6 +1,6 @@
 // What is elsewhere than believed or commanded is marked above a threshold, and said in words.
 import { expect, test } from "vitest";
-import { describeDifference, findOffsets } from "../../src/scene3d/belief";
+import { describeOffset, findOffsets } from "../../src/scene3d/offsets";
 import type { PoseNumbers } from "../../src/api/types";
 import type { Body, CellModel, ModelIndividual, Sample } from "../../src/scene3d/types";
 
@@ -49,7 +49,7 @@ test("a hand is marked where its arm is commanded to be elsewhere", () => {
   const [found, ...others] = lag(0.014);
   expect(others).toEqual([]);
   expect(found).toMatchObject({ individual: "hand", why: "commanded", shift: at(0.014) });
-  expect(found === undefined ? "" : describeDifference(found)).toBe("14 mm away");
+  expect(found === undefined ? "" : describeOffset(found)).toBe("14 mm away");
 });
 
 test("a small lag is not marked, and neither is an arm that nobody commands", () => {

@@ -1,4 +1,4 @@
-// Where what is believed differs from what is true, and where hands are commanded to be, if they are elsewhere.
+// Things that are not where they are believed to be, and hands that are not where they are commanded to be.
 import { poseOf } from "./kinematics";
 import { compose, difference, invert } from "./poses";
 import type { BelievedPoses, CellModel, PoseNumbers, Sample } from "./types";
@@ -10,7 +10,7 @@ const LAG_M = 0.01;
 const LAG_RAD = 0.035;
 
 /** An individual that is not where it is believed, or commanded, to be: `shift` moves it there, in the world. */
-export interface Misbelief {
+export interface Offset {
   individual: string;
   shift: PoseNumbers;
   metres: number;
@@ -24,16 +24,12 @@ export function findOffsets(
   poses: readonly PoseNumbers[],
   believed: BelievedPoses,
   sample: Sample | null,
-): Misbelief[] {
+): Offset[] {
   return [...findMisbeliefs(model, poses, believed), ...findLags(model, sample)];
 }
 
 /** Return the individuals whose believed poses differ from the true ones by more than 2 mm or 0.6 degrees. */
-function findMisbeliefs(
-  model: CellModel,
-  poses: readonly PoseNumbers[],
-  believed: BelievedPoses,
-): Misbelief[] {
+function findMisbeliefs(model: CellModel, poses: readonly PoseNumbers[], believed: BelievedPoses): Offset[] {
   return Object.entries(model.individuals).flatMap(([individual, { kind }]) => {
     const [there, truth] = [believed[individual], poseOf(model, poses, individual)];
     if (there === undefined || truth === null || kind === "arm" || kind === "gripper") return [];
@@ -44,8 +40,8 @@ function findMisbeliefs(
 }
 
 /** Return the hands, or arms without one, whose tools are measured elsewhere than they are commanded to be. */
-function findLags(model: CellModel, sample: Sample | null): Misbelief[] {
-  return Object.entries(sample?.arms ?? {}).flatMap(([arm, { tool, reference }]): Misbelief[] => {
+function findLags(model: CellModel, sample: Sample | null): Offset[] {
+  return Object.entries(sample?.arms ?? {}).flatMap(([arm, { tool, reference }]): Offset[] => {
     if (reference === null || reference === undefined) return [];
     const [metres, radians] = difference(reference, tool);
     if (metres < LAG_M && radians < LAG_RAD) return [];
@@ -68,12 +64,12 @@ function isPartOf(model: CellModel, body: number, arm: string): boolean {
 }
 
 /** Return how something is off, as text: in mm below 10 cm, in degrees if it is only turned. */
-export function describeDifference({ metres, radians }: Misbelief): string {
+export function describeOffset({ metres, radians }: Offset): string {
   if (metres < LEAST_M) return `turned by ${((radians * 180) / Math.PI).toFixed(1)}°`;
   return `${metres < 0.1 ? `${(metres * 1000).toFixed(0)} mm` : `${metres.toFixed(2)} m`} away`;
 }
 
 /** Return the poses that move individuals to where they are believed to be. */
-export function shiftsOf(misbeliefs: readonly Misbelief[]): ReadonlyMap<string, PoseNumbers> {
-  return new Map(misbeliefs.map((each) => [each.individual, each.shift]));
+export function shiftsOf(offsets: readonly Offset[]): ReadonlyMap<string, PoseNumbers> {
+  return new Map(offsets.map((each) => [each.individual, each.shift]));
 }
