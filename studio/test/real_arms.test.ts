@@ -21,7 +21,7 @@ test("a rate has the latest begin of a period beside it", () => {
   expect(describeRate({ ...REPORT, rate_hz: null, late_s: null })).toBe("");
 });
 
-test("a slider is told only if it slows the arm down", () => {
+test("a slider is shown only if it slows the arm down", () => {
   expect(describeSlider(REPORT)).toBe("");
   expect(describeSlider({ ...REPORT, speed_share: 0.3 })).toBe("speed 30 %");
 });

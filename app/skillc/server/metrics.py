@@ -75,12 +75,20 @@ class _Collector(Collector):
         yield from (states, going, ended, starts)
 
     def _collect_arms(self) -> Iterator[Metric]:
-        """Return how the processes are that control real arms."""
+        """Return what the processes that control real arms report; no lateness while there are no periods."""
         labels = ("cell", "arm")
         states = GaugeMetricFamily("skillc_arm_state", "1 for the state of a real arm", labels=(*labels, "state"))
-        rate = GaugeMetricFamily("skillc_arm_rate_hz", "Control periods a second, in the last seconds", labels=labels)
-        late = GaugeMetricFamily("skillc_arm_late_seconds", "The latest begin of a period then", labels=labels)
-        speed = GaugeMetricFamily("skillc_arm_speed_share", "Share of commanded speeds by a slider", labels=labels)
+        rate = GaugeMetricFamily(
+            "skillc_arm_rate_hz", "Control periods a second, in the last seconds; 0 while there are none", labels=labels
+        )
+        late = GaugeMetricFamily(
+            "skillc_arm_late_seconds",
+            "By how much the latest control period began late, in the last seconds",
+            labels=labels,
+        )
+        speed = GaugeMetricFamily(
+            "skillc_arm_speed_share", "Share of the commanded speeds that the speed slider lets through", labels=labels
+        )
         lost = CounterMetricFamily("skillc_arm_lost_periods", "Control periods that were lost", labels=labels)
         for cell in self._cells:
             for each in cell.alive.arms.values():
@@ -88,7 +96,8 @@ class _Collector(Collector):
                 for state in get_args(ControlState):
                     states.add_metric((*name, state), float(each.state == state))
                 rate.add_metric(name, each.rate_hz or 0.0)
-                late.add_metric(name, each.late_s or 0.0)
+                if each.late_s is not None:
+                    late.add_metric(name, each.late_s)
                 speed.add_metric(name, each.speed_share)
                 lost.add_metric(name, each.lost_periods)
         yield from (states, rate, late, speed, lost)

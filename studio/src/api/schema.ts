@@ -1303,7 +1303,7 @@ export interface components {
              */
             seed?: number;
             /**
-             * @description Simulate with physics, or with ideal motion and contact: faster, but contact is not verified then.
+             * @description Simulate with physics (`mujoco`), or with ideal motion and contact (`kinematic`): faster, but contact is not verified then. Others run on robots.
              * @default mujoco
              */
             backend?: string;
@@ -2343,7 +2343,7 @@ export interface components {
          * DeviceStatus
          * @description A device, and the operation that holds it; null if it is free.
          *
-         *         `control` is how the process is that controls a real arm, at most a second ago; null without one.
+         *         `control` is the report of the process that controls a real arm, at most a second old; null without one.
          */
         DeviceStatus: {
             device: components["schemas"]["Device"];
@@ -2576,7 +2576,7 @@ export interface components {
          *         each thing that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand
          *         or base. What only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its
          *         clock. Arms and bases had the share `speed` of their speeds. After a `dry` run `commands` are what would
-         *         have been sent, and nothing was: all else in it is simulated, and nothing `verified`.
+         *         have been sent; nothing was sent, all other results are of the simulation, and `verified` is None.
          */
         TaskResult: {
             task: string;

@@ -57,7 +57,7 @@ export type RunDiff = Schemas["RunDiff"];
 export type SignalRows = Schemas["SignalRows"];
 export type SourceText = Schemas["SourceText"];
 export type LibraryStatus = Required<Schemas["LibraryStatus"]>;
-/** How the process is that controls a real arm. */
+/** The report of the process that controls a real arm. */
 export type ControlReport = Schemas["ControlReport"];
 export type ProblemDetails = Schemas["ProblemDetails"];
 export type Role = Schemas["MadeToken"]["role"];
@@ -85,7 +85,7 @@ export interface ArmSample {
   commanded_force?: [number, number, number] | null;
   /** Where the tool of a real arm is commanded to be; null while nobody commands it. */
   reference?: PoseNumbers | null;
-  /** How the process is that controls a real arm; null for others. */
+  /** The report of the process that controls a real arm; null for others. */
   control?: ControlReport | null;
 }
 

@@ -1,4 +1,4 @@
-// The real arms of the cell that is shown: how the processes are that control them, as words and numbers.
+// The real arms of the cell that is shown: the reports of the processes that control them, as words and numbers.
 import { computed } from "@preact/signals";
 import type { ControlReport } from "../api/types";
 import { sample } from "./studio";

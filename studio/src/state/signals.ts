@@ -38,7 +38,7 @@ const plotted = computed((): Plotted => {
   return dropEmpty(stored.value === null ? own : continuePlot(stored.value, own));
 });
 
-/** Return the names of lines, by which they are told from others. */
+/** Return the names of lines as one text, which is the same for the same lines. */
 export const namesOf = (lines: readonly SignalLine[]): string => lines.map((each) => each.name).join();
 
 let linesBefore: readonly SignalLine[] = [];

@@ -125,7 +125,8 @@ def _check_connection(scene: Path | None) -> int:
 
     assert scene is not None, "it was required"
     require_ros2("--connect")
-    found = find_contradictions(find_scene(scene), Terminal())
+    with notice_if_slow("looking at ROS 2 .."):
+        found = find_contradictions(find_scene(scene), Terminal())
     for each in found:
         click.echo(each)
     print_remark("the scene and ROS 2 contradict each other" if found else "ROS 2 has what the scene names")

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 import sys
 import time
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,7 @@ from skillc.cli.command import Command
 from skillc.cli.completions import complete_scene
 from skillc.cli.console import find_display_obstacle, page_of, print_json, print_lines, print_remark
 from skillc.cli.options import BACKEND, PATH, json_option
+from skillc.cli.slow_notice import notice_if_slow
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.observed import CellObserver, ObservedCell
@@ -49,7 +51,9 @@ def command(scene: Path, backend: str, once: bool, as_json: bool) -> int:
     from skillc.services.connecting import connected_scene
     from skillc.services.library_files import find_scene
 
-    with connected_scene(find_scene(scene), backend, Terminal()) as observer:
+    with ExitStack() as stack:
+        with notice_if_slow("connecting to the devices .."):
+            observer = stack.enter_context(connected_scene(find_scene(scene), backend, Terminal()))
         if not once and not as_json:
             _watch(observer)
             return 0
@@ -116,5 +120,5 @@ def _print(seen: ObservedCell) -> None:
     print_remark(
         "no task can begin before the problems are solved"
         if seen.problems
-        else "the devices are ready and as the scene says"
+        else "the devices are ready, and nothing contradicts the scene"
     )
