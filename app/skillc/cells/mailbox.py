@@ -32,7 +32,8 @@ class Outbox:
     """Reports that a thread sends. Of those about one operation, and about the cell, only the last one waits.
 
     So no slow reader fills it: answers are at most as many as the requests that may wait. `rounds` is how often the
-    loop has gone round, `intervals` how far apart its ticks were, `arms` how real arms are controlled.
+    loop has gone round, `intervals` how far apart its ticks were, `arms` the reports of the
+    processes that control real arms, by IRI.
     """
 
     def __init__(self, connection: socket.socket) -> None:

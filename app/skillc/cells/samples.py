@@ -52,7 +52,7 @@ class Sampler:
         )
 
     def read_controls(self) -> dict[str, ControlReport]:
-        """Return how the processes are that control real arms, by IRI."""
+        """Return the reports of the processes that control real arms, by IRI."""
         if self._live is None:
             return {}
         self._live.refresh()

@@ -37,7 +37,7 @@ class Device(msgspec.Struct, frozen=True):
 class DeviceStatus(msgspec.Struct, frozen=True):
     """A device, and the operation that holds it; null if it is free.
 
-    `control` is how the process is that controls a real arm, at most a second ago; null without one.
+    `control` is the report of the process that controls a real arm, at most a second old; null without one.
     """
 
     device: Device

@@ -23,7 +23,7 @@ class ArmSample(msgspec.Struct, frozen=True):
     of the poses of two samples is neither: the tool and its reference may change from one sample to the next.
     `commanded_force` is that on the tool which a push asks for now, in N, in the world; None without a push.
     `reference` is the pose at which the tool is commanded to be, in the world; None if that is not known. `control` is
-    how the process is that controls a real arm; None without one.
+    the report of the process that controls a real arm; None without one.
     """
 
     joints: tuple[float, ...]

@@ -29,7 +29,8 @@ class WorkKeywords(TypedDict, total=False):
     seed: int
     """The seed of what differs from the world model."""
     backend: str
-    """Simulate with physics, or with ideal motion and contact: faster, but contact is not verified then."""
+    """Simulate with physics (`mujoco`), or with ideal motion and contact (`kinematic`): faster, but contact is not
+    verified then. Others run on robots."""
     dry: bool
     """Move nothing: look where the devices are, begin there in simulation, and record what would be sent."""
     out: AnyPath | None

@@ -28,7 +28,7 @@ _DECLARED = re.compile(r"\b([A-Za-z]\w*+)\s*+:\s")
 def find_mistakes(
     text: str, what: InputKind, individuals: Iterable[str], means_something: Callable[[str], bool]
 ) -> tuple[Diagnostic, ...]:
-    """Report an empty text, a call that is none, unbalanced parentheses, and individuals without their prefix.
+    """Report an empty text, a call without the form of one, unbalanced parentheses, and names without their prefix.
 
     `individuals` are the qualified names of the scene's individuals; `means_something` is true for a bare name that
     already has a meaning.

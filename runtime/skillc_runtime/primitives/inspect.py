@@ -11,7 +11,7 @@ from skillc_runtime.world.state.terms import CLEAN_THRESHOLD, COVERAGE, IS_CLEAN
 class Inspect(Primitive):
     """Measures the share of a surface that is wiped; it is clean if that reaches the surface's threshold.
 
-    The camera says how that is known: one of a simulation idealises it.
+    The camera determines the evidence: `idealised` of a simulated one, `sensed` of a real one.
     """
 
     moves = NOTHING

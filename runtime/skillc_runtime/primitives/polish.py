@@ -12,7 +12,7 @@ from skillc_runtime.world.state.terms import IS_POLISHED, POLISH_THRESHOLD, POLI
 class InspectPolish(Primitive):
     """Measures the share of a surface that was rubbed long enough; it is polished if that reaches its threshold.
 
-    The camera says how that is known: one of a simulation idealises it.
+    The camera determines the evidence: `idealised` of a simulated one, `sensed` of a real one.
     """
 
     moves = NOTHING

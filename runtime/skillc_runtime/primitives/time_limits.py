@@ -44,7 +44,7 @@ def approach_limit_s(travel_m: float, approach_m_s: float) -> float:
 
 
 def describe_slowness(share: float) -> str:
-    """Return what to add to a failure for want of time in a run with a share of the speeds; empty with all of it."""
+    """Return what to add to the message of a time-out in a run with a share of the speeds; empty at full speed."""
     return "" if share == 1.0 else f"; the run has {100.0 * share:.3g} % of the speeds, which may be why"
 
 

@@ -105,7 +105,8 @@ class RunSpec(RunRequest, frozen=True, kw_only=True):
     backend: Annotated[
         str,
         documented(
-            "Simulate with physics, or with ideal motion and contact: faster, but contact is not verified then.",
+            "Simulate with physics (`mujoco`), or with ideal motion and contact (`kinematic`): faster, but contact is "
+            "not verified then. Others run on robots.",
             EXECUTION,
         ),
     ] = "mujoco"
@@ -153,10 +154,10 @@ class RunSpec(RunRequest, frozen=True, kw_only=True):
 
 
 AS_USUAL = RunSpec()
-"""What a run is given of which nothing is said."""
+"""A run with the default of every setting."""
 
 
 def specify(request: RunRequest, scene: str, seed: int, backend: str) -> RunSpec:
-    """Return what a run is given that was requested of a cell, which was built from these."""
+    """Return the settings of a run that was requested of a cell, which was built from these."""
     given = {each: getattr(request, each) for each in RunRequest.__struct_fields__}
     return RunSpec(**given, scene=scene or None, seed=seed, backend=backend)

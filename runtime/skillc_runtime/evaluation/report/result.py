@@ -147,7 +147,7 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     each thing that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand
     or base. What only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its
     clock. Arms and bases had the share `speed` of their speeds. After a `dry` run `commands` are what would
-    have been sent, and nothing was: all else in it is simulated, and nothing `verified`.
+    have been sent; nothing was sent, all other results are of the simulation, and `verified` is None.
     """
 
     task: str

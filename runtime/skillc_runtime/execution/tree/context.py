@@ -32,8 +32,8 @@ class TreeContext:
     `state` is the snapshot of the world for this tick; `now` is the run's own time in s, which stops while paused;
     `time` is the cell's clock in s. `emit` is None without listeners; then no events are created. `gate` holds
     calls back where the run pauses; None if it never does. Primitives see the cell as `run_cell`; `active` are those
-    that a pause concerns, `computations` what they compute. `spec` is what the run is given. `broken_calls` are those
-    that did not succeed up to now.
+    that a pause concerns, `computations` what they compute. `spec` has the settings of the run. `broken_calls` are
+    those that did not succeed up to now.
     """
 
     __slots__ = (

@@ -72,8 +72,7 @@ class TreeRun:
         """Build the tree; nothing starts.
 
         Runs on the same devices share `locks`. `earlier` are the trees of the same task before this one. `gate` holds
-        calls back where the run pauses. `spec` is what the run is given: its deadline of a step, and
-        its speed.
+        calls back where the run pauses. `spec` has the settings of the run, such as its speed.
         """
         self._listeners = Listeners(listeners)
         emit = self._listeners if listeners else None
