@@ -53,7 +53,8 @@ class PeerCell(SimulatedCell):
 
     commands: dict[str, Callable[[float], Command | None]]
 
-    def _control(self, individual: str, arm: CompliantArmDriver, now: float) -> None:
+    def _control(self, arm: CompliantArmDriver, now: float) -> None:
+        individual = next(name for name, driver in self._drivers.items() if driver is arm)
         command = self.commands[individual](now)
         self.arms[individual].state()
         if command is not None:
