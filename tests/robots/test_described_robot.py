@@ -56,7 +56,7 @@ def test_a_joint_that_turns_the_other_way_is_named(arm: str) -> None:
     assert find_difference(turned, names, model_of(arm), Q[: len(names)]) is not None
 
 
-def test_other_robots_and_what_is_no_description_are_told() -> None:
+def test_other_robots_and_what_is_no_description_are_reported() -> None:
     urdf, names = described("ur5e")
     model = model_of("ur5e")
     assert find_difference("<robot", names, model, Q[:6]).startswith("the URDF cannot be read")  # type: ignore[union-attr]

@@ -130,7 +130,7 @@ class Peer:
         self._description.publish(String(data=urdf))
 
     def add_controller(self, name: str, joints: list[str], interface: str) -> None:
-        """Let a node of a name tell its parameters, as a controller of ros2_control does."""
+        """Add a node with the parameters of a controller of ros2_control."""
         node = Node(name, namespace=self.options.namespace or None, context=self._context, enable_rosout=False)
         node.declare_parameter("joints", joints)
         node.declare_parameter("interface_name", interface)

@@ -12,8 +12,8 @@ from robots.ros2.nodes import spun, wait_until
 from robots.ros2.test_link import HOME, facts
 from skillc_ontology import catalogue
 from skillc_runtime.backends.control_process.link import make_command
-from skillc_runtime.backends.ros2.actions import Action
 from skillc_runtime.backends.ros2.facts import FOLLOW
+from skillc_runtime.backends.ros2.goal_client import GoalClient
 from skillc_runtime.backends.ros2.session import Session, find_message
 from skillc_runtime.backends.ros2.tool_commands import make_commands
 
@@ -26,7 +26,7 @@ NAME, MODEL = "/scaled/follow_joint_trajectory", str(catalogue.model_path("robot
 
 
 class Server:
-    """A controller that takes the newest goal, and gives it up or refuses it if it is told so."""
+    """A controller that takes the newest goal, and gives it up or refuses it as the test sets."""
 
     def __init__(self, session: Session) -> None:
         from rclpy.action import ActionServer, GoalResponse
@@ -62,7 +62,7 @@ def test_joints_follow_goals_until_the_server_gives_up_or_refuses(other: Session
     try:
         with spun(other):
             wait_until(lambda: commands.find_obstacle() is None)
-            assert commands.fit() is None, "the controller does not tell its joints"
+            assert commands.fit() is None, "the controller has no parameters"
             wait_until(lambda: len(server.goals) > 5, send)
             assert problems == []
             goal = server.goals[-1]
@@ -76,7 +76,7 @@ def test_joints_follow_goals_until_the_server_gives_up_or_refuses(other: Session
             problems.clear()
             commands.begin(values)
             wait_until(lambda: problems and "refused" in problems[-1], send)
-            second = Action(other, NAME, FOLLOW)
+            second = GoalClient(other, NAME, FOLLOW)
             wait_until(lambda: (found := commands.find_obstacle()) and found.kind == "not-in-control")
             del second
     finally:

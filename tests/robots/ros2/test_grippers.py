@@ -56,7 +56,7 @@ class Fingers:
 
 
 class Arm:
-    """What a gripper tells its arm."""
+    """The arm of a gripper, with what it holds."""
 
     def __init__(self) -> None:
         self.held: list[str] = []

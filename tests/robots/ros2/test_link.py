@@ -18,7 +18,7 @@ from robots.ros2.running import Robot, robot
 from simulation.cells import vocabulary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.control_process.link import KINDS, ControlRefused, LinkLost, make_command, make_state
-from skillc_runtime.backends.ros2.controller import ask_controller
+from skillc_runtime.backends.ros2.controller_parameters import ask_controller
 from skillc_runtime.backends.ros2.facts import ArmInterface, Services, read_arm
 from skillc_runtime.backends.ros2.link import Ros2Description, Ros2Link
 from skillc_runtime.backends.ros2.session import Session, find_message
@@ -32,7 +32,7 @@ SCENE = Path(__file__).with_name("cell.ttl")
 MODEL_JOINTS = ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")
 IN_ROS = {name: f"{name}_joint" for name in MODEL_JOINTS}
 TELLING = {"described": True, "shuffled": True}
-"""The robot publishes its URDF, and its controller tells its joints, in another order than the model's."""
+"""The robot publishes its URDF, and its controller has its joints as a parameter, in another order than the model's."""
 HOME = [0.0, -1.9, 2.2, -1.87, -1.5708, 0.0]
 
 

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from skillc_runtime.backends.ros2.facts import BaseInterface
+from skillc_runtime.backends.ros2.pose_message import read_pose, write_pose
 from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.devices.base import MobileBase
-from skillc_runtime.motion.pose import Pose, log, quaternion_from_rotation
+from skillc_runtime.motion.pose import Pose, log
 
 STILL_M_S, STILL_RAD_S, STILL_S = 0.005, 0.01, 0.3
 """A base that has been slower than this for this time is at rest."""
@@ -31,9 +32,9 @@ class Ros2Base(MobileBase):
         publish = receiver.session.publish
         self._goals = publish(interface.goal, "geometry_msgs/msg/PoseStamped", quality.reliable_commands)
         self._speeds = publish(interface.velocity, "geometry_msgs/msg/Twist", quality.reliable_commands)
-        self._pose, self._goal = at, None if at is None else at
+        self._pose = at
+        self._goal: Pose | None = at
         self._moved_s = self._commanded_s = -np.inf
-        self._has_goal = True
 
     @property
     def pose(self) -> Pose:
@@ -44,7 +45,7 @@ class Ros2Base(MobileBase):
     @property
     def done(self) -> bool:
         """Whether the base has arrived at the last goal."""
-        return self._has_goal and self.at_rest and self._is_near()
+        return self._goal is not None and self.at_rest and self._is_near(self._goal)
 
     @property
     def at_rest(self) -> bool:
@@ -57,39 +58,36 @@ class Ros2Base(MobileBase):
         if (silence := self.feed.find_silence(self._interface.timing)) is not None:
             return silence
         waited = monotonic() - max(self._commanded_s, self._moved_s) > LEAVING_S
-        if not self._has_goal or not waited or self._is_near():
+        if self._goal is None or not waited or self._is_near(self._goal):
             return None
         away = float(np.linalg.norm((self._goal.position - self.pose.position)[:2]))
         return f"it rests {away:.2f} m from its goal on {self._interface.goal}"
 
     def drive_to(self, goal: Pose) -> None:
         """Begin to drive to a pose; returns at once."""
-        self._goal, self._has_goal, self._commanded_s = goal, True, monotonic()
+        self._goal, self._commanded_s = goal, monotonic()
         self._publish(goal)
 
     def stop(self) -> None:
         """Brake: a new goal where the base is takes the place of the last one, and the speed 0 that of the present."""
-        self._has_goal = False
+        self._goal = None
         self._publish(self.pose)
         self._speeds.publish(self._speeds.msg_type())
 
-    def _is_near(self) -> bool:
+    def _is_near(self, goal: Pose) -> bool:
         here = self.pose
-        away = math.dist(here.position[:2], self._goal.position[:2])
-        return away < self._near_m and float(np.linalg.norm(log(here.rotation @ self._goal.rotation.T))) < NEAR_RAD
+        away = math.dist(here.position[:2], goal.position[:2])
+        return away < self._near_m and float(np.linalg.norm(log(here.rotation @ goal.rotation.T))) < NEAR_RAD
 
     def _publish(self, goal: Pose) -> None:
         message = self._goals.msg_type()
         message.header.frame_id = self._interface.frame
         message.header.stamp = self._receiver.session.node.get_clock().now().to_msg()
-        at, turn = message.pose.position, message.pose.orientation
-        at.x, at.y, at.z = goal.position.tolist()
-        turn.w, turn.x, turn.y, turn.z = quaternion_from_rotation(goal.rotation).tolist()
+        write_pose(goal, message.pose)
         self._goals.publish(message)
 
     def _take(self, message: Any) -> None:
-        at, turn = message.pose.pose.position, message.pose.pose.orientation
         speed, turning = message.twist.twist.linear, message.twist.twist.angular
-        self._pose = Pose.of((at.x, at.y, at.z), (turn.w, turn.x, turn.y, turn.z))
+        self._pose = read_pose(message.pose.pose.position, message.pose.pose.orientation)
         if math.hypot(speed.x, speed.y) > STILL_M_S or abs(turning.z) > STILL_RAD_S:
             self._moved_s = monotonic()

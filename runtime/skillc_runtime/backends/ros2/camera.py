@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from skillc_runtime.backends.ros2.facts import CameraInterface
-from skillc_runtime.backends.ros2.receiver import Feed, Receiver
+from skillc_runtime.backends.ros2.receiver import Receiver, TopicFeed
 from skillc_runtime.backends.ros2.transforms import Transforms
 from skillc_runtime.backends.simulation.camera_spec import CameraSpec
 from skillc_runtime.devices.camera import PoseEstimate
@@ -24,7 +24,7 @@ class Images:
 
     def __init__(self, topic: str, reliable: bool, receiver: Receiver) -> None:
         self.newest: Any = None
-        self.feed: Feed = receiver.feed(topic, IMAGE, reliable, self._take)
+        self.feed: TopicFeed = receiver.feed(topic, IMAGE, reliable, self._take)
 
     def _take(self, message: Any) -> None:
         self.newest = message
@@ -45,7 +45,7 @@ class Ros2Camera:
             receiver.feed(interface.info, INFO, reliable, self._take_lens)
 
     @property
-    def feeds(self) -> list[Feed]:
+    def feeds(self) -> list[TopicFeed]:
         """The topics of its images, which all have to come."""
         return [each.feed for each in (self.images, self._depths) if each is not None]
 

@@ -16,7 +16,7 @@ from skillc_runtime.backends.ros2.device_facts import DeviceFacts, Timing
 from skillc_runtime.backends.ros2.facts import read_base, read_camera, read_gripper, read_inspected
 from skillc_runtime.backends.ros2.gripper import Ros2Gripper
 from skillc_runtime.backends.ros2.inspection import Ros2Inspection
-from skillc_runtime.backends.ros2.receiver import Feed, Receiver
+from skillc_runtime.backends.ros2.receiver import Receiver, TopicFeed
 from skillc_runtime.backends.ros2.transforms import Transforms
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.world.state.data_sheet import number_of, sheet_of
@@ -55,10 +55,10 @@ class _Devices:
         self, state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver], receiver: Receiver
     ) -> None:
         self._state, self._receiver = state, receiver
-        self._watched: list[tuple[Feed, Timing, str]] = []
+        self._watched: list[tuple[TopicFeed, Timing, str]] = []
         """Topics that may never be silent."""
-        self._told_once: list[tuple[Feed, Timing, str]] = []
-        """Topics that only tell changes."""
+        self._awaited: list[tuple[TopicFeed, Timing, str]] = []
+        """Topics that may be silent after their first message."""
         self.grippers = self._make_grippers(scene, arms)
         self.bases = self._make_bases(scene)
         self.cameras = self._make_cameras(scene)
@@ -69,7 +69,7 @@ class _Devices:
     def begin(self) -> None:
         """Wait for the first message of each topic; BackendUnavailable."""
         self._receiver.begin()
-        for feed, timing, who in (*self._watched, *self._told_once):
+        for feed, timing, who in (*self._watched, *self._awaited):
             self._receiver.await_first(feed, timing, who)
 
     def find_fault(self) -> str | None:
@@ -119,7 +119,7 @@ class _Devices:
             facts = DeviceFacts(self._state, each.individual)
             if facts.topic("switchedTopic"):
                 found[each.individual] = made = Ros2Button(facts, self._receiver)
-                self._told_once.append((made.feed, facts.timing(1.0), facts.name))
+                self._awaited.append((made.feed, facts.timing(1.0), facts.name))
         return found
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from threading import Thread
-from typing import Any, Protocol, TypeAlias
+from typing import Any, Protocol
 
-from skillc_runtime.backends.ros2.actions import Action
 from skillc_runtime.backends.ros2.facts import ARRAY, GRIP, GripperInterface
-from skillc_runtime.backends.ros2.session import Session
+from skillc_runtime.backends.ros2.goal_client import GoalClient
+from skillc_runtime.backends.ros2.session import Session, plain_name
 
 SERVICE_S = 5.0
 
@@ -16,7 +16,7 @@ class FingerCommands(Protocol):
     """What a gripper is moved by."""
 
     def aim(self, opening_m: float, now_m: float, widest_m: float) -> float:
-        """Return the opening in m at which the fingers end if they are told to go to one, from where they are now."""
+        """Return the opening in m that a command for `opening_m` leads to, from `now_m`."""
         ...
 
     def send(self, opening_m: float, force_n: float) -> None:
@@ -84,7 +84,7 @@ class FingerAction:
     """Moves them by goals of an action, which is reliable."""
 
     def __init__(self, facts: GripperInterface, session: Session) -> None:
-        self._facts, self._action = facts, Action(session, facts.command, facts.command_type)
+        self._facts, self._action = facts, GoalClient(session, facts.command, facts.command_type)
 
     def aim(self, opening_m: float, now_m: float, widest_m: float) -> float:
         """Return the opening itself."""
@@ -109,7 +109,7 @@ class FingerAction:
         self._action.cancel()
 
     def look(self) -> str | None:
-        """Return that the server does not want to, or has given up, without having been stopped by a thing."""
+        """Return that the server has refused the goal, or has given it up without a thing between the fingers."""
         action = self._action
         action.look()
         if action.refused:
@@ -155,17 +155,14 @@ class FingerServices:
         self._fault = None
 
     def _call(self, service: str) -> None:
-        session = Session(f"skillc_{self._facts.name.rpartition(':')[2].replace('-', '_')}")
+        session = Session(plain_name(f"skillc_{self._facts.name}"))
         try:
             self._fault = session.call(service, SERVICE_S)
         finally:
             session.close()
 
 
-AnyFingerCommands: TypeAlias = FingerTopics | FingerAction | FingerServices
-
-
-def make_finger_commands(facts: GripperInterface, session: Session) -> AnyFingerCommands:
+def make_finger_commands(facts: GripperInterface, session: Session) -> FingerCommands:
     """Return what a gripper is moved by."""
     if facts.open_service:
         return FingerServices(facts)

@@ -35,7 +35,7 @@ RATE_SHARE = 0.2
 
 
 class Listened:
-    """The messages of one topic: how many there were, in which time, and what they had."""
+    """When the messages of one topic came."""
 
     def __init__(self, subscription: Subscription) -> None:
         self.subscription, self.times = subscription, list[float]()
@@ -101,16 +101,15 @@ def _check_states(facts: ArmInterface, states: Listened, order: JointOrder, sess
     if order.seen is None:
         yield describe_topic(session.node, facts.states, states.subscription.kind, offered=True)
         return
-    if order.missing:
-        there = ", ".join(order.seen)
-        yield f"{facts.states} has no {', '.join(order.missing)}, but {there} (ros2:jointNames)"
+    if missing := order.describe_missing(facts.states):
+        yield missing
     rate = states.rate_hz
     if rate and abs(rate - facts.rate_hz) > RATE_SHARE * facts.rate_hz:
         yield f"{facts.states} has {rate:.0f} messages a second; the facts say {facts.rate_hz:.0f} (ros2:updateRate)"
 
 
 def _check_posture(arm: ArmSpec, facts: ArmInterface, rows: Array) -> Iterator[str]:
-    """Yield what joints tell of their units, order and signs; rows (n, 3, nv): positions, speeds, torques."""
+    """Yield what is wrong with units, order and signs of joints; rows (n, 3, nv): positions, speeds, torques."""
     model: Any = mujoco.MjModel.from_xml_path(str(Path(arm.model)))
     data = mujoco.MjData(model)
     q, _, effort = rows[-1]

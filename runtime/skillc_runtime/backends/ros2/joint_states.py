@@ -19,7 +19,7 @@ class JointOrder:
         self._from, self._to = np.zeros(0, dtype=int), np.zeros(0, dtype=int)
 
     def read(self, message: Any) -> bool:
-        """Take what a message has of these joints; tell whether it has any.
+        """Take what a message has of these joints; return whether it has any.
 
         A joint without a speed or an effort in the message has NaN there.
         """
@@ -36,6 +36,12 @@ class JointOrder:
     def missing(self) -> tuple[str, ...]:
         """The joints that no message has had yet."""
         return tuple(name for name, known in zip(self.names, self.known, strict=True) if not known)
+
+    def describe_missing(self, topic: str) -> str:
+        """Return which joints the messages of a topic lack; empty if they lack none, or none has come."""
+        if self.seen is None or not self.missing:
+            return ""
+        return f"{topic} has no {', '.join(self.missing)}, but {', '.join(self.seen)} (ros2:jointNames)"
 
     @property
     def positions(self) -> Array:

@@ -22,8 +22,9 @@ from skillc_runtime.backends.control_process.link import (
 )
 from skillc_runtime.backends.ros2.description import Description
 from skillc_runtime.backends.ros2.facts import ArmInterface
+from skillc_runtime.backends.ros2.flange import FlangeModel
 from skillc_runtime.backends.ros2.joint_states import JointOrder
-from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
+from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic, plain_name
 from skillc_runtime.backends.ros2.tool_commands import make_commands
 from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
 
@@ -58,7 +59,7 @@ class Ros2Link:
 
     def __init__(self, interface: ArmInterface, model: str) -> None:
         self._facts, self._model = interface, model
-        self._order = JointOrder(interface.joints)
+        self._order, self._flange = JointOrder(interface.joints), FlangeModel(model)
         self._session: Session | None = None
         self._condition, self._has_control, self._runs = READY, False, True
         self._mode: LinkMode = "tool" if interface.tool is not None else interface.mode
@@ -140,7 +141,7 @@ class Ros2Link:
         """Begin to publish commands; ControlRefused if nobody takes them, or somebody else publishes them."""
         if mode != self._mode:
             raise ControlRefused(f"{self._facts.name} takes {self._mode} commands by its facts, not {mode} commands")
-        if not self._open_session().await_all(self._is_free, FIND_S):
+        if not self._open_session().wait_until(self._is_free, FIND_S):
             raise ControlRefused(self._condition.sentence)
         if (problem := self._commands.fit()) is not None:
             raise ControlRefused(problem)
@@ -160,7 +161,7 @@ class Ros2Link:
             raise StopPersists(f"{self._condition.sentence}; start its program, at its panel or by its driver")
         if (problem := session.call(service, RECOVER_S)) is not None:
             raise StopPersists(problem)
-        if not session.await_all(self._is_running, RECOVER_S):
+        if not session.wait_until(self._is_running, RECOVER_S):
             raise StopPersists(f"{self._facts.services.running} still says that commands have no effect")
         self._look()
 
@@ -181,7 +182,7 @@ class Ros2Link:
 
     def _open(self) -> None:
         facts = self._facts
-        self._session = session = Session(f"skillc_{_node_name(facts.name)}")
+        self._session = session = Session(plain_name(f"skillc_{facts.name}"))
         reliable = facts.quality.reliable_states
         self._states = session.subscribe(facts.states, "sensor_msgs/msg/JointState", reliable)
         self._forces: Subscription | None = None
@@ -206,20 +207,19 @@ class Ros2Link:
             self._take()
             return not self._order.missing and (self._forces is None or self._force_seen > 0)
 
-        if session.await_all(is_complete, patience_s):
+        if session.wait_until(is_complete, patience_s):
             return
         problems = []
-        if self._state_seen < 0 and len(self._order.missing) == len(facts.joints) and self._order.seen is None:
-            problems.append(describe_topic(node, facts.states, "sensor_msgs/msg/JointState", offered=True))
-        elif self._order.missing:
-            there = ", ".join(self._order.seen or [])
-            problems.append(f"{facts.states} has no {', '.join(self._order.missing)}, but {there} (ros2:jointNames)")
+        if self._order.seen is None:
+            problems.append(describe_topic(node, facts.states, self._states.kind, offered=True))
+        elif missing := self._order.describe_missing(facts.states):
+            problems.append(missing)
         if self._forces is not None and self._force_seen < 0:
             problems.append(describe_topic(node, self._forces.topic, self._forces.kind, offered=True))
         raise BackendUnavailable(f"{facts.name} does not answer: {'; '.join(problems)}")
 
     def _take(self) -> bool:
-        """Take all messages that have arrived; tell whether there was a new state of the joints."""
+        """Take all messages that have arrived; return whether there was a new state of the joints."""
         if self._forces is not None:
             while (force := self._forces.take()) is not None:
                 self._take_wrench(force)
@@ -257,7 +257,7 @@ class Ros2Link:
             return
         state.wrench[:] = wrench.sign * self._wrench
         if wrench.in_base:
-            self._commands.turn_to_flange(state.wrench, q)
+            self._flange.turn(state.wrench, q)
 
     def _is_free(self) -> bool:
         self._take()
@@ -284,8 +284,3 @@ class Ros2Link:
         if self._has_control:
             self._commands.rest(self._order.positions)
         self._has_control, self._condition = False, condition
-
-
-def _node_name(name: str) -> str:
-    """Return a name that ROS 2 takes for a node."""
-    return "".join(c if c.isascii() and c.isalnum() else "_" for c in name.partition(":")[2] or name)

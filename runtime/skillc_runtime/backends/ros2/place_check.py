@@ -14,9 +14,9 @@ from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.backends.ros2.transforms import Transforms
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.motion.pose import log
+from skillc_runtime.world.space.frame_tree import WORLD_FRAME
 from skillc_runtime.world.state.world_state import WorldState
 
-WORLD = "map"
 LOOK_S = 2.0
 NEAR_M, NEAR_RAD = 0.02, 0.03
 
@@ -32,7 +32,7 @@ def check_places(state: WorldState, scene: SceneSpec) -> Iterator[str]:
         receiver.begin()
         sleep(LOOK_S)
         with receiver.lock:  # wait ends: with the messages that have arrived
-            found = {arm: transforms.find(frame, WORLD) for arm, frame in frames.items()}
+            found = {arm: transforms.find(frame, WORLD_FRAME) for arm, frame in frames.items()}
     finally:
         receiver.close()
     for arm in scene.arms:

@@ -15,12 +15,18 @@ WAIT_S = 0.05
 CLOSE_S = 2.0
 
 
-class Feed:
+class TopicFeed:
     """The messages of one topic, as a device takes them; `seen_s` is when the last one came, by the wall clock."""
 
     def __init__(self, subscription: Subscription, take: Callable[[Any], None]) -> None:
         self.subscription, self.take = subscription, take
         self.seen_s: float | None = None
+
+    def take_all(self) -> None:
+        """Let the device take the messages that have arrived."""
+        while (message := self.subscription.take()) is not None:
+            self.take(message)
+            self.seen_s = monotonic()
 
     def find_silence(self, timing: Timing) -> str | None:
         """Return why the device that publishes it counts as lost; None if it does not."""
@@ -34,7 +40,7 @@ class Receiver:
     def __init__(self, name: str) -> None:
         """Open the node; BackendUnavailable if there is no ROS 2."""
         self.session, self.lock = Session(name), Lock()
-        self._feeds: list[Feed] = []
+        self._feeds: list[TopicFeed] = []
         self._closing = Event()
         self._thread = Thread(target=self._run, name=name, daemon=True)
 
@@ -45,9 +51,9 @@ class Receiver:
 
     def feed(
         self, topic: str, kind: str, reliable: bool, take: Callable[[Any], None], *, latched: bool = False
-    ) -> Feed:
+    ) -> TopicFeed:
         """Let a device take the messages of a topic; before `begin`."""
-        found = Feed(self.session.subscribe(topic, kind, reliable, latched), take)
+        found = TopicFeed(self.session.subscribe(topic, kind, reliable, latched), take)
         self._feeds.append(found)
         return found
 
@@ -55,7 +61,7 @@ class Receiver:
         """Begin to take messages."""
         self._thread.start()
 
-    def await_first(self, feed: Feed, timing: Timing, who: str) -> None:
+    def await_first(self, feed: TopicFeed, timing: Timing, who: str) -> None:
         """Wait for the first message of a topic; BackendUnavailable, with what is on the graph instead."""
         end = monotonic() + timing.connect_s
         while feed.seen_s is None:
@@ -77,6 +83,4 @@ class Receiver:
             self.session.wait(WAIT_S)
             with self.lock:  # wait ends: with what a device copies of a message
                 for feed in self._feeds:
-                    while (message := feed.subscription.take()) is not None:
-                        feed.take(message)
-                        feed.seen_s = monotonic()
+                    feed.take_all()

@@ -104,8 +104,8 @@ class Session:
         finally:
             self.node.destroy_client(client)
 
-    def await_all(self, ready: Callable[[], bool], seconds: float) -> bool:
-        """Wait until something holds, for so long at most; tell whether it does."""
+    def wait_until(self, ready: Callable[[], bool], seconds: float) -> bool:
+        """Wait until something holds, for so long at most; return whether it does."""
         end = monotonic() + seconds
         while not ready():
             if monotonic() > end:
@@ -151,6 +151,12 @@ def find_message(kind: str) -> Any:
         return getattr(import_module(f"{package}.{folder}"), name)
     except (ImportError, AttributeError) as error:
         raise BackendUnavailable(f"the ROS 2 here has no {kind} ({error}): install its package {package}") from error
+
+
+def plain_name(text: str) -> str:
+    """Return a part of the name of a node or a topic for any text."""
+    name = "".join(c if c.isascii() and c.isalnum() else "_" for c in text)
+    return name if name[:1].isalpha() else f"_{name}"
 
 
 def describe_topic(node: Any, topic: str, kind: str, offered: bool) -> str:

@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 
 from skillc_runtime.backends.control_process.link import CommandKind, CommandView, Condition
-from skillc_runtime.backends.ros2.commands import JointCommands, Target, make_joint_commands
+from skillc_runtime.backends.ros2.arm_commands import ArmCommands, CommandTopic
 from skillc_runtime.backends.ros2.facts import ArmInterface, ToolTopics
-from skillc_runtime.backends.ros2.flange import FlangeTurn
+from skillc_runtime.backends.ros2.flange import FlangeModel
+from skillc_runtime.backends.ros2.joint_commands import make_joint_commands
+from skillc_runtime.backends.ros2.pose_message import write_pose
 from skillc_runtime.backends.ros2.session import Session
 from skillc_runtime.backends.ros2.stiffness_parameters import StiffnessParameters
 from skillc_runtime.motion.arrays import OutVector
-from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
+from skillc_runtime.motion.pose import Array, Pose, rotation_from_quaternion
 
 OBLIQUE = 0.05
 """A stiffness may have this share of its greatest part off the axes in which the controller takes it."""
@@ -22,27 +24,27 @@ POSE, WRENCH = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/WrenchStamped
 
 
 class ToolCommands:
-    """Implements `Commands` for an arm whose own law holds the tool.
+    """Implements `ArmCommands` for an arm whose own law holds the tool.
 
     A motion of the joints is commanded to `joints`, the topic of joint commands; where there is none, to the pose that
     the flange has in that posture.
     """
 
     def __init__(
-        self, facts: ArmInterface, tool: ToolTopics, joints: JointCommands | None, turn: FlangeTurn, session: Session
+        self, facts: ArmInterface, tool: ToolTopics, joints: ArmCommands | None, flange: FlangeModel, session: Session
     ) -> None:
         reliable = facts.quality.reliable_commands
-        self._tool, self._joints, self.turn_to_flange = tool, joints, turn
-        self._pose = Target(session, tool.pose, POSE, reliable)
-        self._stiffness: Target | StiffnessParameters | None = None
+        self._tool, self._joints, self._flange = tool, joints, flange
+        self._pose = CommandTopic(session, tool.pose, POSE, reliable)
+        self._stiffness: CommandTopic | StiffnessParameters | None = None
         if tool.stiffness_node:
             self._stiffness = StiffnessParameters(session, tool.stiffness_node)
         elif tool.stiffness:
-            self._stiffness = Target(session, tool.stiffness, WRENCH, reliable)
-        self._wrench = Target(session, tool.wrench, WRENCH, reliable) if tool.wrench else None
+            self._stiffness = CommandTopic(session, tool.stiffness, WRENCH, reliable)
+        self._wrench = CommandTopic(session, tool.wrench, WRENCH, reliable) if tool.wrench else None
         self._pose.message.header.frame_id = tool.frame
         for target in (self._stiffness, self._wrench):
-            if isinstance(target, Target):
+            if isinstance(target, CommandTopic):
                 target.message.header.frame_id = tool.flange if tool.along_flange else tool.frame
         self._on_flange: Pose | None = None
 
@@ -56,7 +58,7 @@ class ToolCommands:
         self._send_posture(q)
 
     def send(self, kind: CommandKind, command: CommandView) -> str | None:
-        """Publish a command; return why the controller cannot be told to yield like that, or None."""
+        """Publish a command; return why the controller cannot yield like that, or None."""
         self._on_flange = in_flange = Pose.of(command.on_flange[:3], command.on_flange[3:])
         if kind != "tool":
             self._send_six(self._wrench, np.zeros(6))
@@ -99,20 +101,17 @@ class ToolCommands:
 
     def _send_posture(self, q: Array) -> None:
         """Publish the pose that the flange has with the joints at q (nv,) in rad."""
-        position, rotation = self.turn_to_flange.flange(q)
-        flange = Pose(position, rotation)
+        flange = self._flange.find(q)
         if self._tool.of_flange:
             self._send_pose(flange)
         elif self._on_flange is not None:
             self._send_pose(flange @ self._on_flange)
 
     def _send_pose(self, pose: Pose) -> None:
-        at, turn = self._pose.message.pose.position, self._pose.message.pose.orientation
-        at.x, at.y, at.z = pose.position.tolist()
-        turn.w, turn.x, turn.y, turn.z = quaternion_from_rotation(pose.rotation).tolist()
+        write_pose(pose, self._pose.message.pose)
         self._pose.publisher.publish(self._pose.message)
 
-    def _send_six(self, target: Target | None, six: OutVector) -> None:
+    def _send_six(self, target: CommandTopic | None, six: OutVector) -> None:
         if target is None:
             return
         part: Any = target.message.wrench
@@ -120,11 +119,10 @@ class ToolCommands:
         target.publisher.publish(target.message)
 
 
-def make_commands(facts: ArmInterface, model: str, session: Session) -> ToolCommands | JointCommands:
+def make_commands(facts: ArmInterface, model: str, session: Session) -> ArmCommands:
     """Return what an arm is commanded through; `model` is the file of its model."""
-    turn = FlangeTurn(model)
-    joints = make_joint_commands(facts, session, turn) if facts.command else None
+    joints = make_joint_commands(facts, session) if facts.command else None
     if facts.tool is not None:
-        return ToolCommands(facts, facts.tool, joints, turn, session)
+        return ToolCommands(facts, facts.tool, joints, FlangeModel(model), session)
     assert joints is not None, "an arm without a Cartesian controller has a topic for its joints"
     return joints

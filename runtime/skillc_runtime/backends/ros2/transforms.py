@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from skillc_runtime.backends.ros2.pose_message import read_pose
 from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.motion.pose import Pose
 
@@ -69,6 +70,5 @@ class Transforms:
             self._keep(each, inf)
 
     def _keep(self, message: Any, stamp_s: float) -> None:
-        at, turn = message.transform.translation, message.transform.rotation
-        pose = Pose.of((at.x, at.y, at.z), (turn.w, turn.x, turn.y, turn.z))
+        pose = read_pose(message.transform.translation, message.transform.rotation)
         self._newest[message.child_frame_id] = Transform(message.header.frame_id, pose, stamp_s)

@@ -1,4 +1,4 @@
-"""What the controller that takes the commands of an arm says of itself: its joints, in its order, and what it takes."""
+"""The parameters of the controller that takes the commands of an arm: its joints, in its order, and what it takes."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ PARAMETERS = "joints", "interface_name", "command_interfaces"
 
 
 @dataclass(frozen=True, slots=True)
-class Controller:
-    """A controller of ros2_control; `joints` and `interfaces` are empty if it does not tell."""
+class ControllerParameters:
+    """A controller of ros2_control; `joints` and `interfaces` are empty if it has no such parameters."""
 
     name: str
     joints: tuple[str, ...]
@@ -39,20 +39,20 @@ class Controller:
         return [self.joints.index(name) for name in joints] if self.joints else list(range(len(joints)))
 
 
-def ask_controller(session: Session, topic: str) -> Controller:
-    """Return what the controller that takes the commands of a topic, which is below its name, says of itself."""
+def ask_controller(session: Session, topic: str) -> ControllerParameters:
+    """Return the parameters of the controller that takes the commands of a topic, which is below its name."""
     name = topic.rpartition("/")[0]
     service = f"{name}/get_parameters"
     if KIND not in dict(session.node.get_service_names_and_types()).get(service, ()):
-        return Controller(name, (), ())
+        return ControllerParameters(name, (), ())
     joints, one, several = (_read(session, service, parameter) for parameter in PARAMETERS)
-    return Controller(name, joints, one + several)
+    return ControllerParameters(name, joints, one + several)
 
 
 def _read(session: Session, service: str, parameter: str) -> tuple[str, ...]:
     """Return a text or the texts of a parameter; none if the node has no such parameter, or does not answer.
 
-    Each is asked for alone: a node that lacks one of several tells none.
+    Each is asked for alone: a node that lacks one of several returns none.
     """
     try:
         values = session.ask(service, KIND, ANSWER_S, names=[parameter]).values

@@ -4,80 +4,30 @@ from __future__ import annotations
 
 from math import inf
 from time import monotonic
-from typing import Protocol, TypeAlias
 
 import numpy as np
 
 from skillc_runtime.backends.control_process.link import CommandKind, CommandView, Condition
-from skillc_runtime.backends.ros2.actions import Action
-from skillc_runtime.backends.ros2.controller import ask_controller
+from skillc_runtime.backends.ros2.arm_commands import ArmCommands, CommandTopic
+from skillc_runtime.backends.ros2.controller_parameters import ask_controller
 from skillc_runtime.backends.ros2.facts import ARRAY, FOLLOW, TRAJECTORY, ArmInterface
-from skillc_runtime.backends.ros2.flange import FlangeTurn
-from skillc_runtime.backends.ros2.session import Session, describe_topic, find_message, name_nodes
-from skillc_runtime.motion.arrays import OutVector
+from skillc_runtime.backends.ros2.goal_client import GoalClient
+from skillc_runtime.backends.ros2.session import Session, find_message
 from skillc_runtime.motion.pose import Array
 
 SLOWEST_S = 0.2
 """The longest time that a goal of an action may take to be reached."""
 
 
-class Commands(Protocol):
-    """What an arm is commanded through."""
-
-    def fit(self) -> str | None:
-        """Ask the controller what it takes; return why these commands are not for it, or None."""
-        ...
-
-    def begin(self, q: Array) -> None:
-        """Prepare for commands, with the joints at q (nv,) in rad."""
-        ...
-
-    def send(self, kind: CommandKind, command: CommandView) -> str | None:
-        """Publish a command; return why it cannot be expressed, or None."""
-        ...
-
-    def rest(self, q: Array) -> None:
-        """Let the arm stand still, with the joints at q (nv,) in rad."""
-        ...
-
-    def find_obstacle(self) -> Condition | None:
-        """Return why commands would have no effect, or contend with those of others."""
-        ...
-
-    def turn_to_flange(self, wrench: OutVector, q: Array) -> None:
-        """Turn a wrench (6,) from the axes of the base to those of the flange, with the joints at q (nv,) in rad."""
-        ...
-
-
-class Target:
-    """A topic that takes commands, and who else is there."""
-
-    def __init__(self, session: Session, topic: str, kind: str, reliable: bool) -> None:
-        self._node, self._topic, self._kind = session.node, topic, kind
-        self.publisher = session.publish(topic, kind, reliable)
-        self.message = find_message(kind)()
-
-    def find_obstacle(self) -> Condition | None:
-        """Return why commands would have no effect, or contend with those of others."""
-        if self.publisher.get_subscription_count() == 0:
-            problem = describe_topic(self._node, self._topic, self._kind, offered=False)
-            return Condition("wrong-mode", f"{problem}: activate the controller that takes the commands")
-        if self._node.count_publishers(self._topic) > 1:
-            ends = self._node.get_publishers_info_by_topic(self._topic)
-            who = name_nodes(ends, {self._node.get_name()}) or "another node of the same name"
-            return Condition("not-in-control", f"{who} publishes commands to {self._topic} as well: end it")
-        return None
-
-
 class ArrayCommands:
-    """Commands as an array of joint values; implements `Commands` for joints.
+    """Commands as an array of joint values; implements `ArmCommands` for joints.
 
-    They are in the order of the model, unless the controller tells that it has another one.
+    They are in the order of the model, unless the controller has another one by its parameters.
     """
 
-    def __init__(self, facts: ArmInterface, session: Session, turn: FlangeTurn) -> None:
-        self._target = Target(session, facts.command, ARRAY, facts.quality.reliable_commands)
-        self._facts, self._session, self.turn_to_flange = facts, session, turn
+    def __init__(self, facts: ArmInterface, session: Session) -> None:
+        self._target = CommandTopic(session, facts.command, ARRAY, facts.quality.reliable_commands)
+        self._facts, self._session = facts, session
         self._places = list(range(len(facts.joints)))
         message = self._target.message
         message.data = np.zeros(len(facts.joints)).tolist()
@@ -112,11 +62,11 @@ class ArrayCommands:
 
 
 class TrajectoryCommands:
-    """Commands as a trajectory of one point, which is reached within a period; implements `Commands` for joints."""
+    """Commands as a trajectory of one point, which is reached within a period; implements `ArmCommands` for joints."""
 
-    def __init__(self, facts: ArmInterface, session: Session, turn: FlangeTurn) -> None:
-        self._target = Target(session, facts.command, TRAJECTORY, facts.quality.reliable_commands)
-        self._facts, self._session, self.turn_to_flange = facts, session, turn
+    def __init__(self, facts: ArmInterface, session: Session) -> None:
+        self._target = CommandTopic(session, facts.command, TRAJECTORY, facts.quality.reliable_commands)
+        self._facts, self._session = facts, session
         message, point = self._target.message, find_message("trajectory_msgs/msg/JointTrajectoryPoint")()
         message.joint_names = list(facts.joints)
         point.positions = np.zeros(len(facts.joints)).tolist()
@@ -147,10 +97,10 @@ class TrajectoryCommands:
 
 
 class ActionCommands:
-    """Commands as goals of one point each, as fast as the server accepts them; implements `Commands` for joints."""
+    """Commands as goals of one point each, as fast as the server accepts them; implements `ArmCommands` for joints."""
 
-    def __init__(self, facts: ArmInterface, session: Session, turn: FlangeTurn) -> None:
-        self._action, self._facts, self.turn_to_flange = Action(session, facts.command, FOLLOW), facts, turn
+    def __init__(self, facts: ArmInterface, session: Session) -> None:
+        self._action, self._facts = GoalClient(session, facts.command, FOLLOW), facts
         self._session = session
         self._goal, point = self._action.made_of.Goal(), find_message("trajectory_msgs/msg/JointTrajectoryPoint")()
         self._goal.trajectory.joint_names = list(facts.joints)
@@ -191,13 +141,10 @@ class ActionCommands:
         return self._action.find_obstacle()
 
 
-JointCommands: TypeAlias = ArrayCommands | TrajectoryCommands | ActionCommands
-
-
-def make_joint_commands(facts: ArmInterface, session: Session, turn: FlangeTurn) -> JointCommands:
+def make_joint_commands(facts: ArmInterface, session: Session) -> ArmCommands:
     """Return what the joints of an arm are commanded through."""
     if facts.command_type == TRAJECTORY:
-        return TrajectoryCommands(facts, session, turn)
+        return TrajectoryCommands(facts, session)
     if facts.command_type == FOLLOW:
-        return ActionCommands(facts, session, turn)
-    return ArrayCommands(facts, session, turn)
+        return ActionCommands(facts, session)
+    return ArrayCommands(facts, session)

@@ -1,4 +1,4 @@
-"""Goals of actions of ROS 2: sent one at a time, the newest next; each takes the place of the one before."""
+"""The client of an action of ROS 2: sends one goal at a time; each takes the place of the one before."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ ABORTED = 6
 """The status of a goal that its server has given up (action_msgs/msg/GoalStatus)."""
 
 
-class Action:
+class GoalClient:
     """The client of one action. `look` handles what has come; nothing is waited for.
 
     refused: whether the server has not accepted the newest goal. aborted: the result of the last goal that it has given
