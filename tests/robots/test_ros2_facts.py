@@ -9,7 +9,7 @@ import pytest
 
 from robots.ros2.test_link import MODEL_JOINTS, SCENE
 from simulation.cells import LAB, vocabulary
-from skillc_runtime.backends.ros2.facts import read_arm, read_base, read_camera, read_gripper
+from skillc_runtime.backends.ros2.facts import read_arm, read_base, read_camera, read_gripper, read_inspected
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.world_state import WorldState
@@ -76,6 +76,15 @@ def test_a_camera_has_frames_and_images_and_none_without_facts(tmp_path: Path) -
     assert found is not None
     assert (found.frame, found.frames[LAB + "Pedestal"]) == ("optical", "foot")
     assert (found.image, found.info) == ("", "/left/depth/camera_info")
+
+
+def test_the_share_of_a_surface_that_is_clean_may_be_as_old_as_its_facts_say(tmp_path: Path) -> None:
+    assert read_inspected(state("", tmp_path)) == {}
+    size = "skiros:SizeX 1.0 ; skiros:SizeY 1.0 ; skiros:SizeZ 0.1 ; skillc:friction 0.5"
+    board = f'lab:Board-1 a skillc:Surface ; skillc:on lab:Cell ; {size} ; ros2:cleanShareTopic "share"'
+    for more, fresh_s in ((" .", 5.0), (" ; ros2:stateTimeout 0.5 .", 0.5)):
+        found = read_inspected(state(board + more, tmp_path))[LAB + "Board-1"]
+        assert (found.topic, found.fresh_s) == ("/share", fresh_s)
 
 
 @pytest.mark.parametrize(

@@ -13,10 +13,11 @@ from robots.ros2.nodes import receiving, spun, wait_until
 from robots.ros2.test_link import SCENE
 from simulation.cells import LAB, vocabulary
 from skillc_runtime.backends.ros2.camera import IMAGE, INFO, Ros2Camera
-from skillc_runtime.backends.ros2.controller import ask_controller
+from skillc_runtime.backends.ros2.controller_parameters import ask_controller
 from skillc_runtime.backends.ros2.device_check import check_devices
 from skillc_runtime.backends.ros2.device_facts import Quality, Timing
-from skillc_runtime.backends.ros2.facts import ARRAY, CameraInterface
+from skillc_runtime.backends.ros2.facts import ARRAY, CameraInterface, CleanShareTopic
+from skillc_runtime.backends.ros2.inspection import SHARE, Ros2Inspection
 from skillc_runtime.backends.ros2.place_check import check_places
 from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.backends.ros2.session import Session, find_message
@@ -24,6 +25,7 @@ from skillc_runtime.backends.ros2.stiffness_parameters import NAMES, StiffnessPa
 from skillc_runtime.backends.ros2.transforms import Transforms
 from skillc_runtime.backends.simulation.camera_spec import CameraErrors, CameraSpec
 from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
+from skillc_runtime.devices.device_map import NoSuchDevice
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.field_of_view import FieldOfView
@@ -81,7 +83,7 @@ def test_a_thing_is_where_its_frame_is_seen_from_the_camera(other: Session) -> N
             assert camera._transforms.find("optical", "elsewhere") is None
 
 
-def test_what_devices_lack_on_the_graph_is_told(other: Session, tmp_path: Any) -> None:
+def test_what_devices_lack_on_the_graph_is_reported(other: Session, tmp_path: Any) -> None:
     path, asks = tmp_path / "cell.ttl", Session("asks")
     more = """lab:Camera-1 a skillc:Camera ; skillc:hasSheet skillc:depth-camera-sheet ; skillc:on lab:Cell ;
         ros2:depthTopic "/depth/image" .
@@ -112,7 +114,7 @@ def test_what_devices_lack_on_the_graph_is_told(other: Session, tmp_path: Any) -
 
 
 @needs_tf2
-def test_an_arm_that_stands_elsewhere_by_tf_is_told(other: Session, tmp_path: Any) -> None:
+def test_an_arm_that_stands_elsewhere_by_tf_is_reported(other: Session, tmp_path: Any) -> None:
     path, kind = tmp_path / "cell.ttl", "tf2_msgs/msg/TFMessage"
     path.write_text(SCENE.read_text("utf-8") + 'lab:Arm-1 skiros:LinkedToFrameId "base" .\n', "utf-8")
     state = load_scene(path, vocabulary())
@@ -166,6 +168,21 @@ def test_depths_are_those_of_the_pixel_in_which_a_point_is_seen(
         assert camera.depth_m(np.array([0.0, 0.0, -1.0])) is None, "behind the camera"
         assert wait_until(lambda: camera.images.newest, tell).encoding == encoding
         assert len(camera.feeds) == 2
+
+
+def test_a_surface_is_as_clean_as_its_topic_has_lately_said(other: Session) -> None:
+    shares = other.publish("/share", SHARE, reliable=True)
+    board, topics = LAB + "Board-1", {LAB + "Board-1": CleanShareTopic("/share", fresh_s=1.0)}
+    silent = r"/share has been silent for 1 s \(ros2:stateTimeout\)"
+    with receiving(lambda receiver: Ros2Inspection(topics, receiver)) as inspection:
+        with pytest.raises(NoSuchDevice, match=silent):
+            inspection.inspect(board)
+        wait_until(lambda: inspection._shares, lambda: shares.publish(shares.msg_type(data=0.25)))
+        assert inspection.inspect(board) == 0.25
+        with pytest.raises(NoSuchDevice, match="state ros2:cleanShareTopic"):
+            inspection.inspect(LAB + "Board-2")
+        with pytest.raises(NoSuchDevice, match=silent):
+            wait_until(lambda: inspection.inspect(board) != 0.25)
 
 
 def test_stiffness_is_set_as_parameters_of_the_controllers_node(other: Session) -> None:

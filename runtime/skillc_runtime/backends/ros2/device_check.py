@@ -16,6 +16,7 @@ from skillc_runtime.backends.ros2.facts import (
     read_gripper,
     read_inspected,
 )
+from skillc_runtime.backends.ros2.inspection import SHARE
 from skillc_runtime.backends.ros2.session import Session, describe_topic
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.world.state.world_state import WorldState
@@ -57,8 +58,8 @@ def _find_topics(state: WorldState, scene: SceneSpec) -> Iterator[tuple[str, lis
     for fixture in scene.fixtures:
         facts = DeviceFacts(state, fixture.individual)
         yield facts.name, [(facts.topic("switchedTopic"), "std_msgs/msg/Bool", True)]
-    for surface, topic in read_inspected(state).items():
-        yield state.vocabulary.short(surface), [(topic, "std_msgs/msg/Float64", True)]
+    for surface, share in read_inspected(state).items():
+        yield state.vocabulary.short(surface), [(share.topic, SHARE, True)]
 
 
 def check_topics(topics: Iterable[Topic], session: Session) -> Iterator[str]:

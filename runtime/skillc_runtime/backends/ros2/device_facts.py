@@ -48,9 +48,7 @@ class DeviceFacts:
 
     def number(self, name: str, default: float) -> float:
         """Return a number by its name in the vocabulary `ros2`, in SI units."""
-        return (
-            default if self._find(ROS2 + name) is None else number_of(self.state, self._owner(ROS2 + name), ROS2 + name)
-        )
+        return number_of(self.state, self._owner(ROS2 + name), ROS2 + name, default)
 
     def choice(self, name: str, choices: Mapping[str, T], default: T) -> T:
         """Return what a text stands for; SheetError with all choices for any other text."""
@@ -88,8 +86,9 @@ class DeviceFacts:
         """Return how its messages are delivered."""
         kinds = {"reliable": True, "best-effort": False}
         return Quality(
-            self.choice("stateReliability", kinds, False), self.choice("commandReliability", kinds, True)
-        )  # fmt: skip
+            reliable_states=self.choice("stateReliability", kinds, False),
+            reliable_commands=self.choice("commandReliability", kinds, True),
+        )
 
     def joints(self, of_model: tuple[str, ...]) -> tuple[str, ...]:
         """Return the names of the joints in ROS; SheetError if they are not as many as those of the model."""

@@ -8,6 +8,7 @@ from typing import Final
 
 from skillc_runtime.backends.ros2.device_facts import DeviceFacts, Quality, Timing
 from skillc_runtime.devices.arm import Mode
+from skillc_runtime.world.space.frame_tree import WORLD_FRAME
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.terms import FORCE_TORQUE_SENSOR, HAS_SENSOR, SKIROS, SURFACE
 from skillc_runtime.world.state.world_state import WorldState
@@ -27,7 +28,6 @@ CONTROLLERS: Final[Mapping[Mode, str]] = {
     "torque": "forward_effort_controller",
 }
 """The controllers of ros2_control that take one kind of commands, by the names that its documentation gives them."""
-
 
 FLANGES: Final = "flange", "tool0"
 LINKED: Final = SKIROS + "LinkedToFrameId"
@@ -162,6 +162,14 @@ class CameraInterface:
     quality: Quality
 
 
+@dataclass(frozen=True, slots=True)
+class CleanShareTopic:
+    """The topic with the share of a surface that is clean, and how old the newest message may be in s."""
+
+    topic: str
+    fresh_s: float
+
+
 def read_arm(state: WorldState, arm: str, joints: tuple[str, ...], mode: Mode, on_robot: bool = False) -> ArmInterface:
     """Read how ROS 2 drives an arm whose model has `joints`, and whose law gives commands of a mode; SheetError.
 
@@ -207,7 +215,7 @@ def read_gripper(state: WorldState, gripper: str, joints: tuple[str, ...]) -> Gr
     controller = "" if opens else f"gripper_controller/{ending}"
     return GripperInterface(
         name=facts.name,
-        joints=facts.joints(joints) if not facts.text("jointNames") else tuple(facts.text("jointNames").split()),
+        joints=tuple(facts.text("jointNames").split()) or joints,
         states=facts.topic("jointStateTopic", "joint_states"),
         command=facts.topic("commandTopic", controller),
         command_type=kind,
@@ -229,7 +237,7 @@ def read_base(state: WorldState, robot: str) -> BaseInterface:
         goal=facts.topic("goalTopic", "goal_pose"),
         odometry=facts.topic("odometryTopic", "odom"),
         velocity=facts.topic("velocityTopic", "cmd_vel"),
-        frame=facts.skiros("LinkedToFrameId") or "map",
+        frame=facts.skiros("LinkedToFrameId") or WORLD_FRAME,
         timing=facts.timing(1.0),
         quality=facts.quality(),
     )
@@ -252,10 +260,14 @@ def read_camera(state: WorldState, camera: str) -> CameraInterface | None:
     return found if found.frame or found.image or found.depth else None
 
 
-def read_inspected(state: WorldState) -> dict[str, str]:
-    """Return the topics that tell how clean surfaces are, by the IRI of the surface."""
-    topics = ((each, DeviceFacts(state, each).topic("cleanShareTopic")) for each in sorted(state.instances(SURFACE)))
-    return {surface: topic for surface, topic in topics if topic}
+def read_inspected(state: WorldState) -> dict[str, CleanShareTopic]:
+    """Return the topics with the shares of surfaces that are clean, by the IRI of the surface."""
+    facts = (DeviceFacts(state, each) for each in sorted(state.instances(SURFACE)))
+    return {
+        each.individual: CleanShareTopic(topic, each.timing(5.0).silence_s)
+        for each in facts
+        if (topic := each.topic("cleanShareTopic"))
+    }
 
 
 def _read_tool(facts: DeviceFacts) -> ToolTopics:
