@@ -1,4 +1,4 @@
-"""Connects a cell of a server with its topics: what the server tells is published, orders are passed on."""
+"""Connects a cell of a server with its topics: publishes what the server sends, and passes orders on."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Mapping
 from concurrent.futures import TimeoutError as Late
 from contextlib import aclosing
+from functools import partial
 from typing import Any
 
 import msgspec
@@ -16,15 +17,14 @@ from skillc.client.async_server import AsyncServer
 from skillc.contract.cell import CellStatus
 from skillc.contract.operation import ENDS, OperationStatus
 from skillc.errors import SkillcError
-from skillc.events import NodeEnded, NodeStarted
-from skillc.ros.cell_topics import CellTopics, topic_name
+from skillc.ros.cell_topics import CellTopics
 from skillc.ros.orders import CellOrder, OrderAnswer, carry_out, read_order
+from skillc.ros.started_nodes import StartedNodes
+from skillc_runtime.backends.ros2.session import plain_name
 
 RATE_HZ = 50.0
 ANSWER_S = 20.0
 """How long an order may take, in s; it is not withdrawn then."""
-TREE_S = 0.2
-"""How often a tree that changes is published, in s."""
 JOINT_NAMES = """
 PREFIX skillc: <https://w3id.org/skillc/core#>
 PREFIX ros2: <https://w3id.org/skillc/ros2#>
@@ -57,7 +57,7 @@ class CellBridge:
 
     async def show_motion(self) -> None:
         """Publish what the cell can do, and then joints, wrenches and markers until the server ends."""
-        self._topics.tell("library", msgspec.json.encode(await self._cell.library()))
+        self._topics.publish_text("library", msgspec.json.encode(await self._cell.library()))
         model, still = await self._cell.model(), await self._cell.poses()
         names = {arm: tuple(map(_plain_joint, each.joints)) for arm, each in model.arms.items()}
         names |= await self._find_names({model.individuals[arm].label: arm for arm in model.arms})
@@ -76,7 +76,7 @@ class CellBridge:
                 self._operations[status.id] = status
                 if status.id not in self._followed:
                     self._followed[status.id] = asyncio.create_task(self._follow(status))
-        self._topics.tell("status", msgspec.json.encode(self._describe(status)))
+        self._topics.publish_text("status", msgspec.json.encode(self._describe(status)))
 
     def close(self) -> None:
         """Follow no operation any more."""
@@ -106,24 +106,14 @@ class CellBridge:
     async def _follow(self, status: OperationStatus) -> None:
         """Publish the tree of an operation whenever it changes, until it ends."""
         operation = await self._server.operation(status.id)
-        nodes: dict[int, dict[str, Any]] = {}
-        due = 0.0
-        async with aclosing(operation.events()) as events:
-            async for envelope in events:
-                match envelope.event:
-                    case NodeStarted(node=node, parent=parent, kind=kind, name=name):
-                        nodes[node] = {"id": node, "parent": parent, "kind": kind, "name": name, "status": "running"}
-                    case NodeEnded(node=node, status=ended) if node in nodes:
-                        nodes[node]["status"] = ended
-                    case _:
-                        continue
-                if (now := self._loop.time()) >= due:
-                    due = now + TREE_S
-                    self._tell_tree(status.id, nodes)
-        self._tell_tree(status.id, nodes)
-
-    def _tell_tree(self, operation: str, nodes: dict[int, dict[str, Any]]) -> None:
-        self._topics.tell("tree", msgspec.json.encode({"operation": operation, "nodes": list(nodes.values())}))
+        tree = StartedNodes(status.id, partial(self._topics.publish_text, "tree"))
+        try:
+            async with aclosing(operation.events()) as events:
+                async for envelope in events:
+                    tree.take(envelope.event)
+            tree.show()
+        finally:
+            tree.close()
 
 
 def _describe_operation(status: OperationStatus) -> dict[str, Any]:
@@ -142,4 +132,4 @@ def _describe_operation(status: OperationStatus) -> dict[str, Any]:
 def _plain_joint(name: str) -> str:
     """Return the name of a joint of a cell's model as a name of ROS, such as `Ur5e_1_elbow`."""
     device, _, joint = name.rpartition("/")
-    return f"{topic_name(device.rpartition(':')[2])}_{joint}" if device else joint
+    return f"{plain_name(device.rpartition(':')[2])}_{joint}" if device else joint

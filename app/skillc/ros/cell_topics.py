@@ -11,7 +11,7 @@ from skillc.contract.geometry import CellModel
 from skillc.contract.sample import Sample
 from skillc.ros.messages import joint_state, markers, wrench
 from skillc.ros.orders import CellOrder, OrderAnswer, Word
-from skillc_runtime.backends.ros2.session import find_message
+from skillc_runtime.backends.ros2.session import find_message, plain_name
 
 SERVICES: tuple[Word, ...] = ("start", "pause", "resume", "stop", "acknowledge")
 MARKERS_EVERY = 5
@@ -23,7 +23,7 @@ class CellTopics:
 
     def __init__(self, node: Any, cell: str, order: Callable[[CellOrder | str], OrderAnswer]) -> None:
         self._node, self._order, self._count = node, order, 0
-        self._below = f"/skillc/{topic_name(cell)}/"
+        self._below = f"/skillc/{plain_name(cell)}/"
         self._publishers: dict[str, Any] = {}
         from rclpy.callback_groups import ReentrantCallbackGroup
         from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -46,13 +46,13 @@ class CellTopics:
         for individual, arm in sample.arms.items():
             if arm.wrench is not None:
                 label = individual.rpartition("#")[2]
-                topic, message = f"{topic_name(label)}/wrench", wrench(arm, f"{topic_name(label)}_base", stamp)
+                topic, message = f"{plain_name(label)}/wrench", wrench(arm, f"{plain_name(label)}_base", stamp)
                 self._publish(topic, "geometry_msgs/msg/WrenchStamped", message)
         if self._count % MARKERS_EVERY == 0:
             self._publish("markers", "visualization_msgs/msg/MarkerArray", markers(sample, model, stamp))
         self._count += 1
 
-    def tell(self, topic: str, text: bytes) -> None:
+    def publish_text(self, topic: str, text: bytes) -> None:
         """Publish a JSON text, which late subscribers get as well."""
         self._publish(topic, "std_msgs/msg/String", self._text(data=text.decode()), latched=True)
 
@@ -72,9 +72,3 @@ class CellTopics:
 
     def _take(self, message: Any) -> None:
         self._answers.publish(self._text(data=msgspec.json.encode(self._order(message.data)).decode()))
-
-
-def topic_name(text: str) -> str:
-    """Return a part of the name of a topic for any text."""
-    name = "".join(c if c.isascii() and c.isalnum() else "_" for c in text)
-    return name if name[:1].isalpha() else f"_{name}"

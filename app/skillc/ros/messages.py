@@ -1,4 +1,4 @@
-"""Messages of ROS 2 made of what a server tells: joint states, wrenches, and markers for RViz."""
+"""Messages of ROS 2 made of what a server sends: joint states, wrenches, and markers for RViz."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import numpy as np
 
 from skillc.contract.geometry import CellModel, ModelGeom
 from skillc.contract.sample import ArmSample, ForceSample, PoseNumbers, Sample
+from skillc_runtime.backends.ros2.pose_message import write_pose
 from skillc_runtime.backends.ros2.session import find_message
-from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.world.space.frame_tree import WORLD_FRAME
 
-WORLD = "map"
-"""The frame of the world, by its name in the facts too."""
 ARROW_M_N, ARROW_WIDTH_M = 0.01, 0.01
 """How long the arrow of a force is for each N, and how thick."""
 
@@ -61,7 +61,7 @@ def _shapes(individual: str, numbers: PoseNumbers, model: CellModel, stamp: Any)
         marker = _marker(drawn.label, number, stamp)
         marker.type, scale = kind
         marker.scale.x, marker.scale.y, marker.scale.z = scale
-        _place(marker.pose, body @ _pose(geom.pose))
+        write_pose(body @ _pose(geom.pose), marker.pose)
         marker.color.r, marker.color.g, marker.color.b, marker.color.a = geom.colour
         yield marker
 
@@ -97,16 +97,9 @@ def _arrow(tool: str, force: ForceSample, stamp: Any) -> Any:
 
 def _marker(namespace: str, number: int, stamp: Any) -> Any:
     marker = find_message("visualization_msgs/msg/Marker")()
-    marker.header.frame_id, marker.header.stamp, marker.ns, marker.id = WORLD, stamp, namespace, number
+    marker.header.frame_id, marker.header.stamp, marker.ns, marker.id = WORLD_FRAME, stamp, namespace, number
     marker.lifetime.sec = 1
     return marker
-
-
-def _place(message: Any, pose: Pose) -> None:
-    """Write a pose to a message; quaternions of ROS have w last."""
-    message.position.x, message.position.y, message.position.z = pose.position.tolist()
-    w, x, y, z = quaternion_from_rotation(pose.rotation).tolist()
-    message.orientation.w, message.orientation.x, message.orientation.y, message.orientation.z = w, x, y, z
 
 
 def _pose(numbers: PoseNumbers) -> Pose:

@@ -98,6 +98,8 @@ async def _find(order: CellOrder, cell: AsyncCell) -> AsyncOperation:
     found = [each for each in ongoing if order.operation in ("", each.id)]
     if len(found) == 1:
         return found[0]
-    names = ", ".join(each.id for each in ongoing) or "none"
-    which = f"no operation {order.operation} goes on" if order.operation else "name an operation"
-    raise RequestError(f"{which} in {cell.name}; there goes on: {names}")
+    if not ongoing:
+        raise RequestError(f"{cell.name} has no ongoing operation")
+    names = ", ".join(each.id for each in ongoing)
+    which = f"{cell.name} has no ongoing operation {order.operation}" if order.operation else "name an operation"
+    raise RequestError(f"{which}; ongoing in {cell.name}: {names}")

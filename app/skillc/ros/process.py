@@ -23,6 +23,8 @@ from skillc_runtime.devices.backend import BackendUnavailable
 
 THREADS = 4
 """How many orders are answered at the same time."""
+RETRY_S = 1.0
+"""How long after its end the motion of a cell is asked for again, in s."""
 
 
 async def run(node: Any) -> None:
@@ -43,16 +45,20 @@ async def run(node: Any) -> None:
         finally:
             for bridge in bridges.values():
                 bridge.close()
-            for task in motions:
-                task.cancel()
+            for motion in motions:
+                motion.cancel()
 
 
 async def _keep_showing(bridge: CellBridge) -> None:
-    """Show what moves, again after the cell was off."""
+    """Show what moves, again after the cell was off; ends, and says why, if ROS 2 lacks a type of message."""
     while True:  # wait ends: with the node, which cancels it
-        with suppress(SkillcError):
-            await bridge.show_motion()
-        await asyncio.sleep(1.0)
+        try:
+            with suppress(SkillcError):
+                await bridge.show_motion()
+        except BackendUnavailable as error:
+            print(error, file=sys.stderr)
+            return
+        await asyncio.sleep(RETRY_S)
 
 
 def main() -> int:

@@ -12,7 +12,7 @@ from skillc.client.address import TOKEN_VARIABLE, URL_VARIABLE
 from skillc.server.context import ServerContext
 
 TOKEN_NAME = "ros2"
-"""The name of the node's token, by which the history tells who has requested something."""
+"""The name of the node's token, by which the history shows who has requested something."""
 PROGRAM = "skillc.ros.process"
 END_S = 5.0
 

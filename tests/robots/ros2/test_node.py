@@ -124,7 +124,7 @@ def test_what_is_refused_is_answered_with_the_reason(seen: Watcher) -> None:
     assert "this is no order" in seen.order(command="dance")["message"]
     refusal = seen.call("pause")
     assert refusal is not None
-    assert "there goes on: none" in refusal
+    assert "ur5e_whiteboard has no ongoing operation" in refusal
     refusal = seen.call("acknowledge")
     assert refusal is not None
     assert "no fault" in refusal
