@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from threading import Thread
+from math import inf
+from threading import Lock
+from time import monotonic
 from typing import Any, Protocol
 
 from skillc_runtime.backends.ros2.facts import ARRAY, GRIP, GripperInterface
 from skillc_runtime.backends.ros2.goal_client import GoalClient
-from skillc_runtime.backends.ros2.session import Session, plain_name
+from skillc_runtime.backends.ros2.session import Session, find_message, find_refusal, no_answer, no_service
 
 SERVICE_S = 5.0
+"""How long a service may take to answer."""
 
 
 class FingerCommands(Protocol):
@@ -124,10 +127,19 @@ class FingerAction:
 
 
 class FingerServices:
-    """Opens and closes them."""
+    """Opens and closes them. The clients are there from the start: a service that does not know a client cannot answer.
 
-    def __init__(self, facts: GripperInterface) -> None:
-        self._facts, self._opens = facts, False
+    A command is sent as soon as its service is there; `look` takes the answer.
+    """
+
+    def __init__(self, facts: GripperInterface, session: Session) -> None:
+        self._session, self._opens = session, False
+        kind = find_message("std_srvs/srv/Trigger")
+        self._opening: Any = session.node.create_client(kind, facts.open_service)
+        self._closing: Any = session.node.create_client(kind, facts.close_service)
+        self._called: Any = None
+        self._answer: Any = None
+        self._late_s, self._lock = inf, Lock()
         self._fault: str | None = None
 
     def aim(self, opening_m: float, now_m: float, widest_m: float) -> float:
@@ -136,9 +148,10 @@ class FingerServices:
         return widest_m if self._opens else 0.0
 
     def send(self, opening_m: float, force_n: float) -> None:
-        """Call the service in a thread: it may take its time."""
-        service = self._facts.open_service if self._opens else self._facts.close_service
-        Thread(target=self._call, args=(service,), daemon=True).start()
+        """Call the service; returns at once."""
+        with self._lock:  # wait ends: with the answers that have come
+            self._called = self._opening if self._opens else self._closing
+            self._answer, self._fault, self._late_s = None, None, monotonic() + SERVICE_S
 
     def repeat(self) -> None:
         """Do nothing."""
@@ -148,22 +161,28 @@ class FingerServices:
 
     def look(self) -> str | None:
         """Return why the last service has not succeeded."""
-        return self._fault
+        with self._lock:  # wait ends: with the answers that have come
+            if self._called is not None:
+                self._take_answer(self._called)
+            return self._fault
 
     def forget(self) -> None:
-        """Forget the last service."""
+        """Forget why the last service has not succeeded."""
         self._fault = None
 
-    def _call(self, service: str) -> None:
-        session = Session(plain_name(f"skillc_{self._facts.name}"))
-        try:
-            self._fault = session.call(service, SERVICE_S)
-        finally:
-            session.close()
+    def _take_answer(self, called: Any) -> None:
+        if self._answer is None and called.service_is_ready():
+            self._answer = called.call_async(called.srv_type.Request())
+        self._session.take_answers()
+        if self._answer is not None and self._answer.done():
+            self._called, self._fault = None, find_refusal(called.service_name, self._answer.result())
+        elif monotonic() > self._late_s:
+            why = no_service(called.service_name) if self._answer is None else no_answer(called.service_name, SERVICE_S)
+            self._called, self._fault = None, why
 
 
 def make_finger_commands(facts: GripperInterface, session: Session) -> FingerCommands:
     """Return what a gripper is moved by."""
     if facts.open_service:
-        return FingerServices(facts)
+        return FingerServices(facts, session)
     return FingerTopics(facts, session) if facts.command_type == ARRAY else FingerAction(facts, session)

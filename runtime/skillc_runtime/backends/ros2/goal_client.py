@@ -8,8 +8,6 @@ from typing import Any
 from skillc_runtime.backends.control_process.link import Condition
 from skillc_runtime.backends.ros2.session import Session, find_message
 
-TAKEN = 3
-"""How many answers are handled at a time."""
 ABORTED = 6
 """The status of a goal that its server has given up (action_msgs/msg/GoalStatus)."""
 
@@ -24,13 +22,11 @@ class GoalClient:
     def __init__(self, session: Session, name: str, kind: str) -> None:
         """Use an action of a kind; BackendUnavailable if the package of its messages is not installed."""
         from rclpy.action import ActionClient
-        from rclpy.executors import SingleThreadedExecutor
 
         self.name, self.kind, self._session = name, kind, session
         self.made_of = find_message(kind)
         self._client: Any = ActionClient(session.node, self.made_of, name)
         session.closing.append(self._client.destroy)
-        self._executor: Any = SingleThreadedExecutor(context=session.context)
         self._sent: Any = None
         self._handle: Any = None
         self._number = 0
@@ -44,9 +40,7 @@ class GoalClient:
 
     def look(self) -> None:
         """Handle the answers that have come."""
-        self._executor.add_node(self._session.node)  # A call of a service has taken it.
-        for _ in range(TAKEN):
-            self._executor.spin_once(timeout_sec=0.0)
+        self._session.take_answers()
         if self._sent is not None and self._sent.done():
             self._handle, self._sent = self._sent.result(), None
             self.refused = not self._handle.accepted

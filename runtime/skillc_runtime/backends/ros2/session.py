@@ -17,6 +17,8 @@ WITHOUT = (
     "was built for, or install its wheels with pip install 'skillc[ros2]' (Linux on x86-64)"
 )
 DISCOVERY_S, DEPTH = 0.05, 10
+ANSWERS = 3
+"""How many answers are handled at a time."""
 UNKNOWN = {"_NODE_NAME_UNKNOWN_": "another node"}
 
 
@@ -51,6 +53,7 @@ class Session:
         self.closing: list[Callable[[], None]] = []
         """What is destroyed before the node, which does not know it."""
         self._wait_set: Any = None
+        self._executor: Any = None
 
     def subscribe(self, topic: str, kind: str, reliable: bool, latched: bool = False) -> Subscription:
         """Subscribe to a topic with messages of a kind such as `sensor_msgs/msg/JointState`."""
@@ -73,13 +76,23 @@ class Session:
             wait_set.add_subscription(each.handle)
         wait_set.wait(max(int(seconds * 1e9), 0))
 
+    def take_answers(self) -> None:
+        """Handle what services and actions have answered; nothing is waited for."""
+        from rclpy.executors import SingleThreadedExecutor
+
+        if self._executor is None:
+            self._executor = SingleThreadedExecutor(context=self.context)
+        self._executor.add_node(self.node)  # A call of a service has taken it.
+        for _ in range(ANSWERS):
+            self._executor.spin_once(timeout_sec=0.0)
+
     def call(self, service: str, seconds: float) -> str | None:
         """Call a service of std_srvs/srv/Trigger; return why it has not succeeded, or None."""
         try:
             answer = self.ask(service, "std_srvs/srv/Trigger", seconds)
         except NoAnswer as error:
             return str(error)
-        return None if answer.success else (answer.message or f"the service {service} has refused")
+        return find_refusal(service, answer)
 
     def ask(self, service: str, kind: str, seconds: float, **request: Any) -> Any:
         """Return what a service of a kind answers to a request; NoAnswer."""
@@ -89,7 +102,7 @@ class Session:
         try:
             end = monotonic() + seconds
             if not client.wait_for_service(seconds):
-                raise NoAnswer(f"nobody offers the service {service}")
+                raise NoAnswer(no_service(service))
             future = client.call_async(client.srv_type.Request(**request))
             executor = SingleThreadedExecutor(context=self.context)
             try:
@@ -99,7 +112,7 @@ class Session:
                 executor.remove_node(self.node)
                 executor.shutdown(0.0)
             if not future.done():
-                raise NoAnswer(f"the service {service} has not answered within {seconds:g} s")
+                raise NoAnswer(no_answer(service, seconds))
             return future.result()
         finally:
             self.node.destroy_client(client)
@@ -151,6 +164,21 @@ def find_message(kind: str) -> Any:
         return getattr(import_module(f"{package}.{folder}"), name)
     except (ImportError, AttributeError) as error:
         raise BackendUnavailable(f"the ROS 2 here has no {kind} ({error}): install its package {package}") from error
+
+
+def find_refusal(service: str, answer: Any) -> str | None:
+    """Return why a service of std_srvs/srv/Trigger has not succeeded, by its answer; None if it has."""
+    return None if answer.success else (answer.message or f"the service {service} has refused")
+
+
+def no_service(service: str) -> str:
+    """Return that a service is not there."""
+    return f"nobody offers the service {service}"
+
+
+def no_answer(service: str, seconds: float) -> str:
+    """Return that a service is too slow."""
+    return f"the service {service} has not answered within {seconds:g} s"
 
 
 def plain_name(text: str) -> str:
