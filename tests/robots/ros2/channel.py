@@ -19,9 +19,9 @@ class Options:
     whose terms the scene has. rate_hz: how often states are published and commands taken. control: the controllers
     that are active. loss: the share of messages that get lost, in each direction; jitter_s: the greatest delay of
     those that do not. reverse: joint states are in reverse order. described: the robot publishes its URDF. shuffled:
-    its controller of positions tells its joints, and takes them in reverse order. degrees: states are in degrees, as
-    no driver should publish them. exact: there are no differences from the facts of the scene; otherwise `seed` draws
-    them. seconds: after which the process ends.
+    its controller of positions has its joints as a parameter, and takes them in reverse order. degrees: states are in
+    degrees, as no driver should publish them. seed: draws what is lost and delayed. seconds: after which the process
+    ends.
     """
 
     scene: str
@@ -30,7 +30,6 @@ class Options:
     library: str = ""
     rate_hz: float = 250.0
     control: Literal["position", "velocity", "effort", "trajectory", "cartesian", "none"] = "position"
-    namespace: str = ""
     joint_names: dict[str, str] = field(default_factory=dict)
     described: bool = False
     shuffled: bool = False
@@ -38,22 +37,18 @@ class Options:
     jitter_s: float = 0.0
     reverse: bool = False
     degrees: bool = False
-    exact: bool = True
     seed: int = 0
-    pace: float = 1.0
     seconds: float = 600.0
 
 
 @dataclass
 class Report:
-    """What the peer has seen: commands beyond limits, with the first ones in words, and what was pressed on."""
+    """What the peer has seen: commands beyond limits, with the first ones in words, messages lost, and things held."""
 
     commands: int = 0
     beyond_limits: int = 0
     examples: list[str] = field(default_factory=list)
-    greatest_force_n: float = 0.0
-    coverage: dict[str, float] = field(default_factory=dict)
-    late_s: float = 0.0
+    lost: int = 0
     holds: dict[str, str] = field(default_factory=dict)
 
     def complain(self, problem: str) -> None:
@@ -66,14 +61,15 @@ class Report:
 class Channel:
     """Loses and delays messages."""
 
-    def __init__(self, options: Options) -> None:
-        self._options, self._random = options, random.Random(options.seed)
+    def __init__(self, options: Options, report: Report) -> None:
+        self._options, self._report, self._random = options, report, random.Random(options.seed)
         self._waiting: list[tuple[float, int, Callable[[], None]]] = []
         self._number = count()
 
     def carry(self, deliver: Callable[[], None]) -> None:
         """Deliver a message now, later or never."""
         if self._random.random() < self._options.loss:
+            self._report.lost += 1
             return
         if self._options.jitter_s == 0.0:
             deliver()

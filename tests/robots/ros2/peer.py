@@ -2,7 +2,7 @@
 
 `python peer.py OPTIONS`, a JSON object with the fields of `Options`. Joints, grippers and bases are those of a scene,
 moved by MuJoCo; nothing of the back end `ros2` is imported. What is commanded beyond the limits of the joints, and what
-the tools press on, is written to the file `report` when the process gets SIGTERM.
+the hands hold, is written to the file `report` when the process gets SIGTERM.
 """
 
 from __future__ import annotations
@@ -65,15 +65,15 @@ class Peer:
     """The process: a node, a cell, and what it publishes."""
 
     def __init__(self, options: Options) -> None:
-        self.options, self.report, self.channel = options, Report(), Channel(options)
+        self.options, self.report = options, Report()
+        self.channel = Channel(options, self.report)
         self._context = Context()
         rclpy.init(context=self._context)
-        self._node = Node("robot", namespace=options.namespace or None, context=self._context, enable_rosout=False)
+        self._node = Node("robot", context=self._context, enable_rosout=False)
         self._latched = QoSProfile(depth=1, durability=rclpy.qos.DurabilityPolicy.TRANSIENT_LOCAL)
         self._subscriptions: list[tuple[Any, Any, Callable[[Any], None]]] = []
         self._executor = rclpy.executors.SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
-        reality = {"reality": lambda scene, _: exact_variation(scene)} if options.exact else {}
         steps = round(1000.0 / options.rate_hz)
         state = load_scene(Path(options.scene), _load_vocabulary(options.library))
         remote = [each for each in state.instances(ARM_DEVICE) if state.value(each, COMPLIANT_CONTROLLER) == "on_robot"]
@@ -81,7 +81,7 @@ class Peer:
         world = WorldModel(
             state.with_changes([SetProperty(each, COMPLIANT_CONTROLLER, "impedance") for each in remote])
         )
-        self.cell = PeerCell(world, options.seed, steps_per_command=steps, **reality)
+        self.cell = PeerCell(world, 0, steps_per_command=steps, reality=lambda scene, _: exact_variation(scene))
         self.arms = {each.individual: Arm(each.individual, self) for each in self.cell.scene.arms}
         self.cell.commands = {name: arm.command for name, arm in self.arms.items()}
         hands = [each.gripper.individual for each in self.cell.scene.arms if each.gripper is not None]
@@ -131,7 +131,7 @@ class Peer:
 
     def add_controller(self, name: str, joints: list[str], interface: str) -> None:
         """Add a node with the parameters of a controller of ros2_control."""
-        node = Node(name, namespace=self.options.namespace or None, context=self._context, enable_rosout=False)
+        node = Node(name, context=self._context, enable_rosout=False)
         node.declare_parameter("joints", joints)
         node.declare_parameter("interface_name", interface)
         self._executor.add_node(node)
@@ -146,7 +146,7 @@ class Peer:
 
     def run(self) -> None:
         """Run until SIGTERM, in time with the wall clock."""
-        period, pace = self.cell.period_s, self.options.pace
+        period = self.cell.period_s
         due, end = time.monotonic(), time.monotonic() + self.options.seconds
         print("ready", flush=True)
         while not self.ended and time.monotonic() < end:
@@ -156,9 +156,8 @@ class Peer:
                 time.sleep(min(due - now, 0.001))
                 continue
             if now - due > BEHIND_S:
-                self.report.late_s += now - due
                 due = now
-            due += period / pace
+            due += period
             with self.lock:
                 self.cell.advance_period()
                 self.cell.publish()
@@ -167,8 +166,6 @@ class Peer:
     def write_report(self) -> None:
         """Write what was seen."""
         names = self.cell.scene.names
-        for surface, coverage in self.cell.coverage.items():
-            self.report.coverage[names[surface]] = coverage.wiped_share
         self.report.holds = {names[each]: hand.holds for each, hand in self.hands.items()}
         if self.options.report:
             Path(self.options.report).write_text(json.dumps(asdict(self.report), indent=1), encoding="utf-8")
@@ -202,14 +199,6 @@ class Peer:
             publisher.publish(Float64(data=float(self.cell.coverage[surface].wiped_share)))
         for button, publisher in self._buttons.items():
             publisher.publish(Bool(data=self.cell.button(button).switched))
-        for tool in self.cell.scene.tools:
-            force = self._pressing_n(tool.individual)
-            self.report.greatest_force_n = max(self.report.greatest_force_n, force)
-
-    def _pressing_n(self, tool: str) -> float:
-        live = self.cell.live.sensors
-        first = dict(live.faces)[tool]
-        return abs(float(self.cell.data.sensordata[first]))
 
 
 def _load_vocabulary(library: str) -> Vocabulary:

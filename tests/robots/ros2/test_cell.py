@@ -98,6 +98,7 @@ def test_joints_tool_and_fingers_move_with_jitter_and_loss(control: str, tmp_pat
             assert arm.take_fault() is None
         report = there.end()
     assert report["commands"] > 100
+    assert report["lost"] > 0
     assert (report["beyond_limits"], report["examples"]) == (0, [])
 
 
