@@ -11,8 +11,8 @@ from robots.ur.peer import Peer, running_peer
 
 @pytest.fixture(scope="session")
 def controller() -> Iterator[Peer]:
-    """A controller with a gripper, which both kinds of sockets move; it takes joint torques."""
-    with running_peer("--unlock", "0.1", "--version", "5.26.0.100") as running:
+    """A controller with a gripper, which both kinds of sockets move."""
+    with running_peer("--unlock", "0.1") as running:
         yield running
 
 

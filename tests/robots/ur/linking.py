@@ -28,11 +28,9 @@ def describe(host: str, **changes: Any) -> UrFacts:
     facts = UrFacts(
         arm="Ur5e-1",
         address=host,
-        modes=("position", "velocity", "torque"),
         servo=QUICK,
         silence_s=0.5,
         command_timeout_s=1.0,
-        torque_timeout_s=0.2,
         model=model_path("robots/ur5e.xml"),
         tolerance_m=0.005,
         tolerance_rad=0.02,

@@ -15,6 +15,7 @@ from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_sp
 from skillc_runtime.backends.ur.conditions import read_condition
 from skillc_runtime.backends.ur.description import UrDescription
 from skillc_runtime.backends.ur.facts import UrFacts, read_facts
+from skillc_runtime.devices.arm import Mode
 from skillc_runtime.devices.backend import BackendUnavailable
 from skillc_runtime.world.state.changes import Change, SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -38,7 +39,13 @@ def test_what_the_arm_states_comes_before_its_sheet_and_this_before_defaults() -
     found = facts(THERE, SetProperty(ARM, UR + "servoGain", 500.0))
     assert (found.address, found.name) == ("192.168.1.2", "lab:Ur5e-1 at 192.168.1.2")
     assert (found.servo.gain, found.servo.lookahead_s, found.command_timeout_s) == (500.0, 0.03, 0.1)
-    assert found.modes == ("position", "velocity")
+
+
+@pytest.mark.parametrize("beside", [(), ("position",)])
+def test_an_arm_that_takes_joint_torques_is_refused_before_anything_is_connected(beside: tuple[Mode, ...]) -> None:
+    state, arm = scene([THERE])
+    with pytest.raises(SheetError, match=r"lab:Ur5e-1 is a skillc:TorqueC.*sends no joint torques.*must be a"):
+        read_facts(state, arm.individual, arm.sheet, ("torque", *beside))
 
 
 def test_an_arm_without_address_is_refused_with_what_to_write() -> None:

@@ -40,7 +40,7 @@ def read_condition(name: str, safety_bits: int, robot_mode: int, runtime: int, *
         return Condition(
             "not-in-control",
             f"the program that moves {name} has ended: somebody has stopped it or switched the panel to local "
-            "control, or commands were missing for longer than ur:commandTimeout or ur:torqueTimeout",
+            "control, or commands were missing for longer than ur:commandTimeout",
         )
     if runtime == PLAYING:
         return Condition("not-in-control", f"{name} executes another program: stop that at its panel first")

@@ -7,7 +7,13 @@ from pathlib import Path
 
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.world.state.data_sheet import DataSheet, SheetError, number_of, text_of
-from skillc_runtime.world.state.terms import DRIVER_ADDRESS, UR
+from skillc_runtime.world.state.terms import (
+    DRIVER_ADDRESS,
+    POSITION_CONTROLLED_ARM,
+    TORQUE_CONTROLLED_ARM,
+    UR,
+    VELOCITY_CONTROLLED_ARM,
+)
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -28,20 +34,17 @@ class ServoFacts:
 class UrFacts:
     """One arm.
 
-    modes: what its sheet says that it takes. silence_s: how long it may be silent. command_timeout_s and
-    torque_timeout_s: how long the controller waits for a command of a position or speed, and of a torque, before it
-    stops the arm. model: MJCF of the arm; the flange that it gives, and the one that the controller gives, may be
+    silence_s: how long it may be silent. command_timeout_s: how long the controller waits for a command before it stops
+    the arm. model: MJCF of the arm; the flange that it gives, and the one that the controller gives, may be
     `tolerance_m` and `tolerance_rad` apart. offset_n: up to which force what a sensor measures first counts as its
     offset.
     """
 
     arm: str
     address: str
-    modes: tuple[Mode, ...]
     servo: ServoFacts
     silence_s: float
     command_timeout_s: float
-    torque_timeout_s: float
     model: Path
     tolerance_m: float
     tolerance_rad: float
@@ -54,7 +57,17 @@ class UrFacts:
 
 
 def read_facts(state: WorldState, arm: str, sheet: DataSheet, modes: tuple[Mode, ...]) -> UrFacts:
-    """Read the facts of an arm, by IRI; what it does not state its data sheet may. SheetError without address."""
+    """Read the facts of an arm, by IRI; what it does not state its data sheet may.
+
+    SheetError without address, or if the arm takes joint torques: an arm under a law of torques has run away.
+    """
+    if "torque" in modes:
+        short = state.vocabulary.short
+        raise SheetError(
+            f"{short(arm)} is a {short(TORQUE_CONTROLLED_ARM)}, and the back end `ur` sends no joint torques: an "
+            f"emulated arm ran away under them. Its class must be a {short(POSITION_CONTROLLED_ARM)} or a "
+            f"{short(VELOCITY_CONTROLLED_ARM)}"
+        )
 
     def number(name: str, default: float) -> float:
         return number_of(state, arm, UR + name, number_of(state, sheet.individual, UR + name, default))
@@ -62,7 +75,6 @@ def read_facts(state: WorldState, arm: str, sheet: DataSheet, modes: tuple[Mode,
     return UrFacts(
         arm=state.vocabulary.short(arm),
         address=read_address(state, arm),
-        modes=modes,
         servo=ServoFacts(
             gain=number("servoGain", 300.0),
             lookahead_s=number("lookaheadTime", 0.1),
@@ -71,7 +83,6 @@ def read_facts(state: WorldState, arm: str, sheet: DataSheet, modes: tuple[Mode,
         ),
         silence_s=number("stateTimeout", 0.1),
         command_timeout_s=number("commandTimeout", 0.1),
-        torque_timeout_s=number("torqueTimeout", 0.02),
         model=sheet.model,
         tolerance_m=number("flangeTolerance", 0.005),
         tolerance_rad=number("flangeAngleTolerance", 0.02),

@@ -25,15 +25,12 @@ from skillc_runtime.backends.control_process.link import (
 from skillc_runtime.backends.ur.dashboard import Dashboard
 from skillc_runtime.backends.ur.facts import UrFacts
 from skillc_runtime.backends.ur.leaving import CLOSE_S, Leaving
-from skillc_runtime.backends.ur.program import UrProgram
+from skillc_runtime.backends.ur.program import UrMode, UrProgram
 from skillc_runtime.backends.ur.states import UrStates
 from skillc_runtime.devices.backend import StopPersists
 
 RELEASE_S = 1.0
 """How long the release of a stop, and the end of a program, may take."""
-
-TORQUE_VERSION = (5, 26)
-"""Before this version of PolyScope the program of the library leaves joint torques out."""
 
 E_SERIES = 5
 """The first version of PolyScope of the e-Series, which has a force-torque sensor and 500 Hz."""
@@ -48,7 +45,7 @@ class UrLink(RobotLink):
         self._facts, self._name = facts, facts.name
         self._states: UrStates | None = None
         self._program: UrProgram | None = None
-        self._mode: LinkMode | None = None
+        self._mode: UrMode | None = None
         self._leaving = Leaving()
         self._is_tared, self._offset = False, np.zeros(6)
         self._load, self._version = NO_MASS, (0, 0)
@@ -62,9 +59,8 @@ class UrLink(RobotLink):
     @property
     def abilities(self) -> LinkAbilities:
         """What the controller can do: it subtracts weight and offset from the wrench, and carries the arm."""
-        has_torques = self._version >= TORQUE_VERSION
         return LinkAbilities(
-            modes=tuple(each for each in self._facts.modes if each != "torque" or has_torques),
+            modes=("position", "velocity"),
             wrench="without-weight" if self._version[0] >= E_SERIES else "none",
             carries_weight=True,
             tares=self._version[0] >= E_SERIES,
@@ -103,9 +99,8 @@ class UrLink(RobotLink):
 
     def take_control(self, mode: LinkMode) -> None:
         """Upload the program that obeys commands, and wait until it runs; ControlRefused, with what to do."""
-        if mode not in self.abilities.modes:
-            version = ".".join(map(str, self._version))
-            raise ControlRefused(f"{self._name} takes no {mode} commands; it has PolyScope {version}")
+        if mode != "position" and mode != "velocity":
+            raise ControlRefused(f"{self._name} takes positions and speeds of its joints, and no {mode} commands")
         self.give_back()
         self._update_condition()
         if self._condition.kind != "ready":
@@ -117,7 +112,7 @@ class UrLink(RobotLink):
                 )
         self._program = UrProgram(self._facts, self.period_s, self._connected)
         try:
-            self._program.start(mode, self._load)
+            self._program.start(self._load)
             self._tare_once(self._program)
         except ControlRefused:
             self.give_back()

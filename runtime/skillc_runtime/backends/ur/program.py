@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal, TypeAlias, assert_never
 
 import numpy as np
 
-from skillc_runtime.backends.control_process.link import ControlRefused, LinkLost, LinkMode, PointMass
+from skillc_runtime.backends.control_process.link import ControlRefused, LinkLost, PointMass
 from skillc_runtime.backends.ur.facts import UrFacts
 from skillc_runtime.backends.ur.leaving import do_within, in_one_line
 from skillc_runtime.backends.ur.library import load_library
@@ -15,6 +15,9 @@ from skillc_runtime.motion.pose import Array
 
 START_S, END_S, SETTLE_S = 1.2, 0.8, 0.2
 """How long the start and the end of the program, and what follows from new settings, may take."""
+
+UrMode: TypeAlias = Literal["position", "velocity"]
+"""The commands that the program obeys here."""
 
 TARE_STATES = 100
 """Over so many states, 0.2 s of an e-Series arm, the wrench is averaged when it is to be 0."""
@@ -39,14 +42,12 @@ class UrProgram:
             what = "another program commands it, or a fieldbus uses its registers" if in_use else in_one_line(error)
             raise ControlRefused(f"{self._name} does not give control: {what}") from error
 
-    def start(self, mode: LinkMode, load: PointMass) -> None:
+    def start(self, load: PointMass) -> None:
         """Start the program with its watchdog, tool centre point and payload; ControlRefused, with what to do."""
-        control, facts = self.connection, self._facts
-        # A position that stays is where the arm stops; a torque that stays accelerates it.
-        timeout_s = facts.torque_timeout_s if mode == "torque" else facts.command_timeout_s
+        control = self.connection
         control.reuploadScript()
         started = self._states.await_that(lambda: self._states.executes and control.isProgramRunning(), START_S)
-        if not started or not control.setWatchdog(1.0 / timeout_s):
+        if not started or not control.setWatchdog(1.0 / self._facts.command_timeout_s):
             raise ControlRefused(f"{self._name} does not start the program that obeys commands: look at its panel")
         # Moments are then about the flange, whichever of both points a version means.
         control.setTcp([0.0] * 6)
@@ -60,7 +61,7 @@ class UrProgram:
             self._contradiction = self._states.explain_flange()
         return self._contradiction
 
-    def send(self, mode: LinkMode, values: list[float]) -> bool:
+    def send(self, mode: UrMode, values: list[float]) -> bool:
         """Send a command; tell whether it was taken. LinkLost if the connection has gone."""
         control, servo = self.connection, self._facts.servo
         if not (self._states.is_connected and control.isConnected()):
@@ -71,7 +72,7 @@ class UrProgram:
             case "velocity":
                 return bool(control.speedJ(values, servo.acceleration_rad_s2, 0.0))
             case _:
-                return bool(control.directTorque(values))
+                assert_never(mode)
 
     def set_load(self, load: PointMass) -> None:
         """Set the payload of the controller, which subtracts its weight from the wrench."""
@@ -101,12 +102,12 @@ class UrProgram:
             self.connection.kickWatchdog()
         return total / TARE_STATES
 
-    def end(self, mode: LinkMode | None) -> None:
+    def end(self, mode: UrMode | None) -> None:
         """Let the controller brake and end the program; a silent controller brakes by its watchdog."""
         if self._states.is_alive() and not self.has_ended:
             do_within(END_S, lambda: self._end(mode))
 
-    def _end(self, mode: LinkMode | None) -> None:
+    def _end(self, mode: UrMode | None) -> None:
         control, brake = self.connection, self._facts.servo.stop_rad_s2
         if not control.isProgramRunning():
             return

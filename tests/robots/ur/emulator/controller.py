@@ -12,7 +12,7 @@ import numpy as np
 from robots.ur.emulator.fields import Value
 from robots.ur.emulator.kinematics import flange_pose, write_pose
 from robots.ur.emulator.limits import Limits
-from robots.ur.emulator.motion import Hold, Motion, Servo, Speed, Stop, Torque
+from robots.ur.emulator.motion import Hold, Motion, Servo, Speed, Stop
 from robots.ur.emulator.plant import STEP_S, Plant
 from robots.ur.emulator.states import SAFETY_BITS, RobotMode, Runtime, SafetyMode
 from skillc_runtime.motion.pose import Array
@@ -61,7 +61,6 @@ class Controller:
         from robots.ur.emulator.program import Program
 
         self.plant, self.settings, self.model = plant, settings, settings.model
-        self.version_text = ".".join(map(str, settings.version))
         self.remote, self.robot_mode, self.safety_mode = settings.remote, RobotMode.RUNNING, SafetyMode.NORMAL
         self.runtime, self.program = Runtime.STOPPED, Program(self)
         self.motion, self.limits, self.io = Motion(plant.q), Limits(), Io()
@@ -102,7 +101,7 @@ class Controller:
     @property
     def is_commanded(self) -> bool:
         """Whether a client moves the arm, command by command."""
-        return self.runtime == Runtime.PLAYING and isinstance(self.motion.job, Servo | Speed | Torque)
+        return self.runtime == Runtime.PLAYING and isinstance(self.motion.job, Servo | Speed)
 
     async def wait_for_command(self, seconds: float) -> None:
         """Wait until the program hears of its client again."""

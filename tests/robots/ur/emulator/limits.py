@@ -20,9 +20,6 @@ JOINT_SPEED = pi
 JOINT_ACCELERATION = 40.0
 """rad/s^2: the greatest that the client library accepts for motions; the maker states none."""
 
-JOINT_TORQUE = np.array([150.0, 150.0, 150.0, 28.0, 28.0, 28.0])
-"""N m: UniversalRobots/Universal_Robots_ROS2_Description, joint_limits.yaml of the UR5e."""
-
 TOOL_SPEED, TOOL_FORCE = 1.5, 150.0
 """m/s and N: factory settings of the robot limits of the safety system, e-Series user manual."""
 
@@ -69,13 +66,6 @@ class Limits:
         (before, q_before), (after, q) = self._targets[first], self._targets[first + WINDOW]
         past = max(after - before, WINDOW) * STEP_S
         return (after + before) / 2.0 * STEP_S, (q - q_before) / past
-
-    def check_torque(self, tau: Array) -> str | None:
-        """Check joint torques (6,) in N m."""
-        self.commands += 1
-        if not np.isfinite(tau).all():
-            return self._note("joint torque is no number")
-        return self._compare("torque share", float((np.abs(tau) / JOINT_TORQUE).max()), 1.0)
 
     def check_motion(self, dq: Array, tool_speed: float, force: float) -> str | None:
         """Check what is measured: joint speeds (6,), the speed of the tool in m/s, and the force on it in N."""

@@ -1,4 +1,4 @@
-"""How the controller moves its targets: hold, `servoj`, `speedj`, a stop, `force_mode`, `direct_torque`.
+"""How the controller moves its targets: hold, `servoj`, `speedj`, a stop, `force_mode`.
 
 Universal Robots publishes neither the filter of `servoj` nor the gains of `force_mode`: here targets follow as a
 critically damped second-order system with w = 2 / lookahead * sqrt(gain / 300), so that a gain of 300 is late by the
@@ -51,13 +51,6 @@ class Stop:
 
 
 @dataclass
-class Torque:
-    """Exert torques (6,) in N m on joints that are carried."""
-
-    tau: Array
-
-
-@dataclass
 class Force:
     """Push with a wrench (6,) in base axes along the axes that are selected (6,), at most at speeds (6,)."""
 
@@ -66,7 +59,7 @@ class Force:
     limits: Array
 
 
-Job: TypeAlias = Hold | Servo | Speed | Stop | Torque | Force
+Job: TypeAlias = Hold | Servo | Speed | Stop | Force
 
 
 @dataclass
@@ -94,10 +87,6 @@ class Motion:
                 speed = selected * np.clip(FORCE_GAIN * (goal + wrench), -limits, limits)
                 jacobian = plant.body.state().jacobian
                 self._move_at(share * np.linalg.solve(jacobian.T @ jacobian + 1e-4 * np.eye(6), jacobian.T @ speed))
-            case Torque(tau=tau):
-                plant.push_joints(tau)
-                self.q, self.dq = plant.q, plant.dq
-                return
             case _:
                 assert_never(self.job)
         plant.servo_to(self.q)

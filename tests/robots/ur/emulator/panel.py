@@ -48,7 +48,6 @@ class Panel:
             "lose": lambda: controller.lose(RobotMode[words["mode"]]),
             "program": lambda: controller.load("def polish():\nend"),
             "stop": controller.stop_program,
-            "version": lambda: setattr(controller, "version_text", words["text"]),
             "remote": lambda: setattr(controller, "remote", words["on"]),
             "slider": lambda: setattr(controller, "slider", words["share"]),
             "input": lambda: setattr(controller.io, "inputs", words["bits"]),

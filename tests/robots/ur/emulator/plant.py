@@ -1,4 +1,4 @@
-"""The arm of the emulator: the simulated cell of a scene, moved by servos or torques of the emulated controller."""
+"""The arm of the emulator: the simulated cell of a scene, moved by servos of the emulated controller."""
 
 from __future__ import annotations
 
@@ -40,11 +40,6 @@ class Plant(SimulatedCell):
         self._flange_site = self.model.site(part_name(self.scene.names[self.arm_iri], "flange")).id
         self._offered = ""
         self.wall: Wall | None = None
-        self._torque: Array | None = None
-        servos = self.body._motors
-        self._gains = servos.gains
-        self._goals = servos.joints.control
-        self._extra = servos.joints.applied
 
     @property
     def q(self) -> Array:
@@ -90,12 +85,7 @@ class Plant(SimulatedCell):
 
     def servo_to(self, q: Array) -> None:
         """Let the servos of the joints follow q (6,) in rad."""
-        self._torque = None
         self.body.command(JointPosition(q))
-
-    def push_joints(self, torque: Array) -> None:
-        """Exert torques (6,) in N m besides those that carry arm and payload."""
-        self._torque = torque
 
     def put_between_fingers(self, thing: str) -> None:
         """Let a person hold a thing, by IRI, between the fingers, or take away what is there if it is empty."""
@@ -127,13 +117,6 @@ class Plant(SimulatedCell):
         self._grip_what_is_touched()
         self._offer()
         self._move_devices(self.now)
-
-    def _move(self, now: float) -> None:
-        if self._torque is not None:
-            lead = self._gains.damping / self._gains.stiffness
-            self._goals[:] = self.q + lead * self.dq
-            self._extra[:] = self.body._bias + self.body._carrying + self._torque
-        super()._move(now)
 
     def _offer(self) -> None:
         """Keep what a person holds where the fingers close, upright along them, until they have it."""

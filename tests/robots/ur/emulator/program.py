@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from robots.ur.emulator.kinematics import write_pose
-from robots.ur.emulator.motion import Force, Servo, Speed, Stop, Torque
+from robots.ur.emulator.motion import Force, Servo, Speed, Stop
 
 if TYPE_CHECKING:
     from robots.ur.emulator.controller import Controller
 
 READY, DONE = 1, 2
-FORCE_MODE, SPEED_J, SERVO_J, TELL_FLANGE, DIRECT_TORQUE, KICK = 6, 9, 11, 58, 66, 99
+FORCE_MODE, SPEED_J, SERVO_J, TELL_FLANGE, KICK = 6, 9, 11, 58, 99
 END = 255
 
 
@@ -29,7 +29,7 @@ class Program:
         self._controller = controller
         self._busy, self._watchdog_hz, self._heard_at, self._is_of_client = False, 0.0, -1.0, False
         self._at_once: dict[int, Callable[[], None]] = {
-            FORCE_MODE: self._force_mode, SPEED_J: self._speed, SERVO_J: self._servo, DIRECT_TORQUE: self._torque,
+            FORCE_MODE: self._force_mode, SPEED_J: self._speed, SERVO_J: self._servo,
             KICK: lambda: None, TELL_FLANGE: self._tell_flange,
         }  # fmt: skip
         self._others: dict[int, Callable[[], None]] = {
@@ -92,13 +92,6 @@ class Program:
 
     def _speed(self) -> None:
         self._controller.motion.job = Speed(self._floats(0), self._float(6))
-
-    def _torque(self) -> None:
-        controller, tau = self._controller, self._floats(0)
-        problem = controller.limits.check_torque(tau)
-        controller.motion.job = Torque(tau)
-        if problem is not None:
-            controller.protect(problem)
 
     def _force_mode(self) -> None:
         ints = np.array([float(self._controller.inputs.get(f"input_int_register_{i}", 0)) for i in range(2, 8)])

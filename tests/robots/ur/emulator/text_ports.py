@@ -15,9 +15,10 @@ class Dashboard:
 
     def __init__(self, controller: Controller) -> None:
         self._controller = controller
+        version = ".".join(map(str, controller.settings.version))
         self._answers: dict[str, Callable[[], str]] = {
-            "polyscopeversion": lambda: f"URSoftware {controller.version_text} (Nov 01 2025)",
-            "version": lambda: controller.version_text,
+            "polyscopeversion": lambda: f"URSoftware {version} (Nov 01 2025)",
+            "version": lambda: version,
             "get robot model": lambda: controller.model,
             "get serial number": lambda: "20205500001",
             "is in remote control": lambda: str(controller.remote).lower(),
