@@ -73,3 +73,11 @@ class Gripper(Protocol):
 
 CLOSED_FURTHER_M = 0.003
 """How much further the fingers close, from where an object counted as held, when it is lost."""
+
+
+def has_closed_further(opening_m: float, held_at_m: float) -> bool:
+    """Return whether fingers, which held an object at an opening in m, have closed so far that it is lost.
+
+    Those of a thing thinner than twice `CLOSED_FURTHER_M` close by half of it.
+    """
+    return opening_m < held_at_m - min(CLOSED_FURTHER_M, held_at_m / 2)

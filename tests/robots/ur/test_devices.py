@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
 from robots.ur.emulator.grippers import ROBOTIQ_PORT, WSG_PORT
 from robots.ur.peer import Peer, wait_until
-from skillc_runtime.backends.devices.fingers import FingerDevice, FingerFacts, Fingers
+from skillc_runtime.backends.devices.fingers import FingerDevice, Fingers
 from skillc_runtime.backends.devices.robotiq import RobotiqFingers
 from skillc_runtime.backends.devices.wsg import WsgFingers
+from skillc_runtime.backends.simulation.scene_spec import GripperSpec
 from skillc_runtime.backends.ur.io import UrIo
 from skillc_runtime.backends.ur.wiring import TERMINALS, Wire, WiredPoint
 from skillc_runtime.devices.arm import NotOffered
@@ -19,7 +21,7 @@ from skillc_runtime.motion.pose import Pose
 
 pytestmark = [pytest.mark.robot, pytest.mark.slow]
 
-FACTS = FingerFacts(max_opening_m=0.11, max_force_n=80.0, opening_error_m=0.001)
+FACTS = GripperSpec("hand", Path("none.xml"), 0.11, 80.0, 0.05, opening_bias_m=0.001)
 THING = "http://example.org/lab#Eraser-1"
 HERE = Pose.of((0.0, 0.0, 0.0))
 KINDS = ["robotiq", "wsg"]

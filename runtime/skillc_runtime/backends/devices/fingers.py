@@ -1,4 +1,4 @@
-"""A gripper whose controller is asked and told over a network, in a thread of its own; implements `Gripper`."""
+"""A gripper whose controller is driven over a network, in a thread of its own."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from threading import Event, Lock, Thread
 from typing import Protocol
 
+from skillc_runtime.backends.devices.measured_gripper import Hold, MeasuredGripper
+from skillc_runtime.backends.simulation.scene_spec import GripperSpec
 from skillc_runtime.devices.backend import BackendUnavailable
-from skillc_runtime.devices.gripper import CLOSED_FURTHER_M, Gripper
-from skillc_runtime.motion.pose import Pose
 
 POLL_S = 0.02
 """How often a gripper is asked for its state, in s."""
@@ -64,37 +64,24 @@ class FingerDevice(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class FingerFacts:
-    """A gripper by its sheet: greatest opening in m, greatest force in N, greatest error of the opening in m."""
-
-    max_opening_m: float
-    max_force_n: float
-    opening_error_m: float
-
-
-Hold = Callable[[str, Pose, float], None]
-"""Tells an arm what its hand holds: IRI, pose in the tool centre point of the empty hand, and mass in kg."""
-
-
-class Fingers(Gripper):
-    """One gripper; `hold` and `let_go` tell the arm that carries it what it holds."""
+class Fingers(MeasuredGripper):
+    """One gripper."""
 
     def __init__(
         self,
         device: FingerDevice,
-        facts: FingerFacts,
+        facts: GripperSpec,
         hold: Hold,
         let_go: Callable[[], None],
         observed: bool = False,
     ) -> None:
         """Connect, and make it ready to move unless it is only `observed`; BackendUnavailable, with what to do."""
-        self._device, self._facts, self._hold, self._let_go = device, facts, hold, let_go
+        super().__init__(device.name, facts, hold, let_go)
+        self._device = device
         self._lock, self._wake, self._closing = Lock(), Event(), Event()
         self._order: Callable[[], None] | None = None
         self._is_new = False
         self._fault: str | None = None
-        self._held: tuple[str, float] | None = None
         device.connect()
         try:
             if not observed:
@@ -110,24 +97,9 @@ class Fingers(Gripper):
         self._thread.start()
 
     @property
-    def max_opening_m(self) -> float:
-        """The greatest distance between the fingers in m."""
-        return self._facts.max_opening_m
-
-    @property
-    def max_force_n(self) -> float:
-        """The greatest grasping force in N."""
-        return self._facts.max_force_n
-
-    @property
     def opening_m(self) -> float:
         """The measured distance between the fingers in m."""
         return self._state.opening_m
-
-    @property
-    def opening_error_m(self) -> float:
-        """The greatest error of the measured opening in m."""
-        return self._facts.opening_error_m
 
     @property
     def moving(self) -> bool:
@@ -149,27 +121,6 @@ class Fingers(Gripper):
     def stop(self) -> None:
         """Stop the fingers at their present opening."""
         self._send(self._device.stop)
-
-    def attach(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
-        """Count an object as held; RuntimeError if the fingers are not blocked, or the scene has no body of it."""
-        if not self.blocked:
-            raise RuntimeError(f"nothing keeps the fingers of {self._device.name} from closing")
-        self._hold(thing, in_tool_centre, mass_kg)
-        self._held = thing, self.opening_m
-
-    def detach(self) -> None:
-        """Count nothing as held."""
-        if self._held is not None:
-            self._held = None
-            self._let_go()
-
-    @property
-    def holding(self) -> str | None:
-        """The IRI of the object that counts as held; None as soon as the fingers close further: it was lost."""
-        if self._held is None:
-            return None
-        thing, opening = self._held
-        return None if self.opening_m < opening - min(CLOSED_FURTHER_M, opening / 2) else thing
 
     def find_fault(self) -> str | None:
         """Return why the gripper cannot go on, or that it has lost what it held; None if all is well."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Final
 
-from skillc_runtime.backends.devices.fingers import FingerDevice, FingerFacts, Fingers, Hold
+from skillc_runtime.backends.devices.fingers import FingerDevice, Fingers
+from skillc_runtime.backends.devices.measured_gripper import Hold
 from skillc_runtime.backends.devices.robotiq import STEPS, RobotiqFingers
 from skillc_runtime.backends.devices.wsg import WsgFingers
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec
@@ -31,13 +32,10 @@ def open_gripper(
 
     SheetError if its sheet names no protocol that is known; BackendUnavailable if it does not answer.
     """
-    facts = FingerFacts(
-        gripper.max_opening_m, gripper.max_force_n, gripper.opening_bias_m + 3 * gripper.opening_noise_m
-    )
-    return Fingers(_device(state, gripper, arm_address, facts), facts, hold, let_go, observed)
+    return Fingers(_device(state, gripper, arm_address), gripper, hold, let_go, observed)
 
 
-def _device(state: WorldState, gripper: GripperSpec, arm_address: str, facts: FingerFacts) -> FingerDevice:
+def _device(state: WorldState, gripper: GripperSpec, arm_address: str) -> FingerDevice:
     individual, short = gripper.individual, state.vocabulary.short
     sheet = sheet_of(state, individual)
     protocol = state.value(sheet.individual, GRIPPER_PROTOCOL)
@@ -46,9 +44,9 @@ def _device(state: WorldState, gripper: GripperSpec, arm_address: str, facts: Fi
     match protocol:
         case "robotiq-urcap":
             steps = round(number_of(state, sheet.individual, COMMAND_STEPS, STEPS))
-            return RobotiqFingers(short(individual), where, facts, steps)
+            return RobotiqFingers(short(individual), where, gripper, steps)
         case "wsg-text" if address is not None:
-            return WsgFingers(short(individual), where, facts)
+            return WsgFingers(short(individual), where, gripper)
         case "wsg-text":
             raise SheetError(
                 f"where {short(individual)} is on the network is not stated: write {short(DRIVER_ADDRESS)} with its "

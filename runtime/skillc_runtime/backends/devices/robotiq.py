@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from time import monotonic, sleep
 
-from skillc_runtime.backends.devices.fingers import FingerDevice, FingerFacts, FingersLost, FingerState
+from skillc_runtime.backends.devices.fingers import FingerDevice, FingersLost, FingerState
 from skillc_runtime.backends.devices.text_line import TextLine, split_address
+from skillc_runtime.backends.simulation.scene_spec import GripperSpec
 from skillc_runtime.devices.backend import BackendUnavailable
 
 PORT = 63352
@@ -27,7 +28,7 @@ MOVING, BLOCKED_CLOSING = 0, 2
 class RobotiqFingers(FingerDevice):
     """One gripper; `steps`: the position with closed fingers."""
 
-    def __init__(self, name: str, address: str, facts: FingerFacts, steps: int = STEPS) -> None:
+    def __init__(self, name: str, address: str, facts: GripperSpec, steps: int = STEPS) -> None:
         host, port = split_address(address, PORT)
         self._name, self._facts, self._steps = f"{name} at {host}:{port}", facts, steps
         self._line = TextLine(self._name, host, port)

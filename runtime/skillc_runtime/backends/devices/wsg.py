@@ -7,8 +7,9 @@ releasing, 6 positioning, 7 error. Text interfaces are off until they are enable
 
 from __future__ import annotations
 
-from skillc_runtime.backends.devices.fingers import FingerDevice, FingerFacts, FingersLost, FingerState
+from skillc_runtime.backends.devices.fingers import FingerDevice, FingersLost, FingerState
 from skillc_runtime.backends.devices.text_line import TextLine, split_address
+from skillc_runtime.backends.simulation.scene_spec import GripperSpec
 from skillc_runtime.devices.backend import BackendUnavailable
 
 PORT = 1000
@@ -23,7 +24,7 @@ CLOSED_M = 0.001
 class WsgFingers(FingerDevice):
     """One gripper."""
 
-    def __init__(self, name: str, address: str, facts: FingerFacts) -> None:
+    def __init__(self, name: str, address: str, facts: GripperSpec) -> None:
         host, port = split_address(address, PORT)
         self._name, self._facts = f"{name} at {host}:{port}", facts
         self._line = TextLine(self._name, host, port)

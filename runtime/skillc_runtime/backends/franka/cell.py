@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import ExitStack
 
 from skillc_runtime.backends.control_process.opening import open_cell
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
@@ -26,20 +27,14 @@ def make_backend(world: WorldModel, start: BackendStart) -> Backend:
 
 def make_devices(scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
     """Return the hands of the arms."""
-    hands: dict[str, FrankaHand] = {}
-
-    def close() -> None:
-        for hand in hands.values():
-            hand.close()
-
-    try:
+    with ExitStack() as opened:
+        hands: dict[str, FrankaHand] = {}
         for facts in scene.arms:
             if facts.gripper is not None:
-                arm, hand = arms[facts.individual], facts.gripper
-                hands[hand.individual] = FrankaHand(hand, read_address(facts), arm)
-    except BaseException:
-        close()
-        raise
+                hand = FrankaHand(facts.gripper, read_address(facts), arms[facts.individual])
+                opened.callback(hand.close)
+                hands[facts.gripper.individual] = hand
+        closing = opened.pop_all()
 
     def recover() -> None:
         for hand in hands.values():
@@ -48,4 +43,4 @@ def make_devices(scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellD
     def find_fault() -> str | None:
         return next((fault for hand in hands.values() if (fault := hand.fault) is not None), None)
 
-    return CellDevices(grippers=hands, find_fault=find_fault, recover=recover, close=close)
+    return CellDevices(grippers=hands, find_fault=find_fault, recover=recover, close=closing.close)

@@ -1,4 +1,4 @@
-"""Reads what the Franka Control Interface is told of an arm from the facts of the cell."""
+"""Reads the settings of the Franka Control Interface of an arm from the facts of the cell."""
 
 from __future__ import annotations
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.devices.measured_gripper import MeasuredGripper
 from skillc_runtime.backends.franka.hand_client import HandClient
-from skillc_runtime.backends.simulation.finger_sensor import NOISE_DEVIATIONS
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec
 from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
-from skillc_runtime.devices.gripper import CLOSED_FURTHER_M, Gripper
-from skillc_runtime.motion.pose import Pose
 
 CONNECT_S = 10.0
 """How long the hand may take to answer first, with the start of its process, in s."""
@@ -20,20 +20,20 @@ HOMED_SHARE = 0.9
 """Fingers that have not been homed do not know how far they open: they say less than this share of the data sheet's."""
 
 
-class FrankaHand(Gripper):
+class FrankaHand(MeasuredGripper):
     """The hand of one robot.
 
-    While its fingers move, the library can tell nothing of them, so `opening_m` is that from before. To stop them, the
+    While its fingers move, the library reports nothing of them, so `opening_m` is that from before. To stop them, the
     process that waits for them is ended, and another one, which is ready, connects and stops them.
     """
 
     def __init__(self, facts: GripperSpec, address: str, arm: RemoteArmDriver) -> None:
         """Connect; nothing moves. BackendUnavailable, with what to do."""
-        self._facts, self._address, self._arm = facts, address, arm
+        super().__init__(f"the hand at {address}", facts, arm.hold, partial(arm.set_load, None))
+        self._address = address
         self._client = HandClient(address)
         self._spare = HandClient(address)
-        self._goal_m = self._held_at_m = 0.0
-        self._thing: str | None = None
+        self._goal_m = 0.0
         try:
             self._connect()
         except BackendUnavailable:
@@ -41,24 +41,9 @@ class FrankaHand(Gripper):
             raise
 
     @property
-    def max_opening_m(self) -> float:
-        """The greatest distance between the fingers in m."""
-        return self._facts.max_opening_m
-
-    @property
-    def max_force_n(self) -> float:
-        """The greatest grasping force in N."""
-        return self._facts.max_force_n
-
-    @property
     def opening_m(self) -> float:
         """The distance between the fingers in m, as measured when they were at rest last."""
         return self._client.opening_m
-
-    @property
-    def opening_error_m(self) -> float:
-        """The greatest error of the measured opening in m."""
-        return self._facts.opening_bias_m + NOISE_DEVIATIONS * self._facts.opening_noise_m
 
     @property
     def moving(self) -> bool:
@@ -67,14 +52,8 @@ class FrankaHand(Gripper):
 
     @property
     def blocked(self) -> bool:
-        """Whether the fingers rest, wider than they were told to close."""
+        """Whether the fingers rest, wider than their commanded opening."""
         return not self.moving and self.opening_m > self._goal_m + self.opening_error_m
-
-    @property
-    def holding(self) -> str | None:
-        """The IRI of the object that counts as held; None as soon as the fingers close further: it was lost."""
-        closed = self.opening_m < self._held_at_m - min(CLOSED_FURTHER_M, self._held_at_m / 2)
-        return None if closed else self._thing
 
     @property
     def fault(self) -> str | None:
@@ -101,19 +80,6 @@ class FrankaHand(Gripper):
             self._client.wait(STOP_S)
             self._goal_m = self.opening_m
 
-    def attach(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
-        """Count an object as held; RuntimeError if the fingers are not blocked, or the scene has no body of it."""
-        if not self.blocked:
-            raise RuntimeError(f"nothing keeps the fingers of the hand at {self._address} from closing")
-        self._arm.hold(thing, in_tool_centre, mass_kg)
-        self._thing, self._held_at_m = thing, self.opening_m
-
-    def detach(self) -> None:
-        """Count nothing as held."""
-        if self._thing is not None:
-            self._thing = None
-            self._arm.set_load(None)
-
     def recover(self) -> None:
         """Connect again after a fault; StopPersists."""
         if self.fault is not None:
@@ -124,7 +90,7 @@ class FrankaHand(Gripper):
                 raise StopPersists(str(error)) from error
 
     def close(self) -> None:
-        """Disconnect; the fingers go on with what they were told last."""
+        """Disconnect; the fingers go on with their last command."""
         self._client.close()
         self._spare.close()
 
@@ -140,11 +106,11 @@ class FrankaHand(Gripper):
         if self._client.fault or self._client.busy:
             reason = self._client.error or f"it has not answered for {CONNECT_S:g} s"
             raise BackendUnavailable(
-                f"the hand at {self._address} cannot be used ({reason}): is a Franka Hand set as end effector in Desk?"
+                f"{self._name} cannot be used ({reason}): is a Franka Hand set as end effector in Desk?"
             )
         if self._client.widest_m < HOMED_SHARE * self._facts.max_opening_m:
             raise BackendUnavailable(
-                f"the hand at {self._address} says that it opens to {1e3 * self._client.widest_m:.0f} mm, not to "
+                f"{self._name} says that it opens to {1e3 * self._client.widest_m:.0f} mm, not to "
                 f"{1e3 * self._facts.max_opening_m:.0f} mm: home it in Desk"
             )
         self._goal_m = self.opening_m

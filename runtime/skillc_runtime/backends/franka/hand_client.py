@@ -18,7 +18,7 @@ MOVING_SILENCE_S: Final = 10.0
 
 
 class HandClient:
-    """One process; it has loaded the library at once, and connects when it is told to."""
+    """One process; it has loaded the library at once, and connects when it is ordered to."""
 
     def __init__(self, address: str) -> None:
         self.address = address
@@ -43,7 +43,7 @@ class HandClient:
     def fault(self) -> str:
         """Why the hand cannot go on; empty while it can."""
         if self.error:
-            return f"the hand at {self.address} does not do what it is told: {self.error}"
+            return f"the hand at {self.address} reports an error: {self.error}"
         silent_s = monotonic() - self._said_s
         if silent_s > (MOVING_SILENCE_S if self._done < self._ordered else IDLE_SILENCE_S):
             return f"the hand at {self.address} has not answered for {silent_s:.1f} s"

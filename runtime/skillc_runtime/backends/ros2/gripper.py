@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+from functools import partial
 from time import monotonic
 from typing import Any
 
 import numpy as np
 
 from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.devices.measured_gripper import MeasuredGripper
 from skillc_runtime.backends.ros2.facts import GripperInterface
 from skillc_runtime.backends.ros2.finger_commands import make_finger_commands
 from skillc_runtime.backends.ros2.joint_states import JointOrder
 from skillc_runtime.backends.ros2.receiver import Receiver
-from skillc_runtime.backends.simulation.finger_sensor import NOISE_DEVIATIONS
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec
-from skillc_runtime.devices.gripper import CLOSED_FURTHER_M, Gripper
-from skillc_runtime.motion.pose import Pose
 
 STILL_M, STILL_S = 0.0005, 0.25
 """Fingers that have moved no further for this time are at rest."""
@@ -26,14 +25,15 @@ MISFIT_M = 0.02
 """How far beyond their ends fingers may seem to be, by play and calibration."""
 
 
-class Ros2Gripper(Gripper):
+class Ros2Gripper(MeasuredGripper):
     """One gripper. Whether it is blocked is told by its opening: ROS has no common message for that."""
 
     def __init__(
         self, facts: GripperSpec, interface: GripperInterface, arm: RemoteArmDriver, receiver: Receiver
     ) -> None:
         """Subscribe to its joints; it can be used once the receiver has begun."""
-        self._facts, self._interface, self._arm, self._receiver = facts, interface, arm, receiver
+        super().__init__(interface.name, facts, arm.hold, partial(arm.set_load, None))
+        self._interface, self._receiver = interface, receiver
         self._order = JointOrder(interface.joints[:1])
         quality = interface.quality
         self.feed = receiver.feed(interface.states, "sensor_msgs/msg/JointState", quality.reliable_states, self._take)
@@ -41,30 +41,13 @@ class Ros2Gripper(Gripper):
         self._opening_m = self._goal_m = self._rested_at_m = facts.first_opening_m
         self._moved_s = self._commanded_s = self._sent_s = -np.inf
         self._is_idle = True
-        self._thing: str | None = None
-        self._held_at_m = 0.0
         self._fault: str | None = None
-
-    @property
-    def max_opening_m(self) -> float:
-        """The greatest distance between the fingers in m."""
-        return self._facts.max_opening_m
-
-    @property
-    def max_force_n(self) -> float:
-        """The greatest grasping force in N."""
-        return self._facts.max_force_n
 
     @property
     def opening_m(self) -> float:
         """The measured distance between the fingers in m."""
         with self._receiver.lock:  # wait ends: with the messages that have arrived
             return self._opening_m
-
-    @property
-    def opening_error_m(self) -> float:
-        """The greatest error of the measured opening in m."""
-        return self._facts.opening_bias_m + NOISE_DEVIATIONS * self._facts.opening_noise_m
 
     @property
     def moving(self) -> bool:
@@ -77,14 +60,8 @@ class Ros2Gripper(Gripper):
 
     @property
     def blocked(self) -> bool:
-        """Whether the fingers rest, wider than they were told to close."""
+        """Whether the fingers rest, wider than their commanded opening."""
         return not self.moving and self.opening_m > self._goal_m + NEAR_M + self.opening_error_m
-
-    @property
-    def holding(self) -> str | None:
-        """The IRI of the object that counts as held; None as soon as the fingers close further: it was lost."""
-        closed = self.opening_m < self._held_at_m - min(CLOSED_FURTHER_M, self._held_at_m / 2)
-        return None if closed else self._thing
 
     @property
     def fault(self) -> str | None:
@@ -109,19 +86,6 @@ class Ros2Gripper(Gripper):
         self._goal_m = self.opening_m
         self._commands.stop(self._goal_m)
         self._is_idle = True
-
-    def attach(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
-        """Count an object as held; RuntimeError if the fingers are not blocked, or the scene has no body of it."""
-        if not self.blocked:
-            raise RuntimeError(f"nothing keeps the fingers of {self._interface.name} from closing")
-        self._arm.hold(thing, in_tool_centre, mass_kg)
-        self._thing, self._held_at_m = thing, self.opening_m
-
-    def detach(self) -> None:
-        """Count nothing as held."""
-        if self._thing is not None:
-            self._thing = None
-            self._arm.set_load(None)
 
     def _take(self, message: Any) -> None:
         self._fault = self._commands.look() or self._find_misfit()

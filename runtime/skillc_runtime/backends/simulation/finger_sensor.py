@@ -10,9 +10,6 @@ from skillc_runtime.backends.simulation.imperfections import Bias, Imperfection,
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec
 from skillc_runtime.devices.rng import rng_for
 
-NOISE_DEVIATIONS = 3.0
-"""Standard deviations of noise that count as its greatest error."""
-
 
 @dataclass(slots=True)
 class FingerSensor:
@@ -45,5 +42,4 @@ def make_finger_sensor(gripper: GripperSpec, seed: int) -> FingerSensor:
     bias = np.array([gripper.opening_bias_m * rng.uniform(-1.0, 1.0)])
     noise = WhiteNoise(np.array([gripper.opening_noise_m]), rng)
     exact = gripper.opening_bias_m == gripper.opening_noise_m == 0.0
-    error = gripper.opening_bias_m + NOISE_DEVIATIONS * gripper.opening_noise_m
-    return FingerSensor(gripper.sensing_period_s, () if exact else (Bias(bias), noise), error)
+    return FingerSensor(gripper.sensing_period_s, () if exact else (Bias(bias), noise), gripper.opening_error_m)

@@ -15,7 +15,7 @@ from skillc_runtime.backends.simulation.gripper_geoms import find_handles, find_
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
 from skillc_runtime.devices.arm import ArmLoad
-from skillc_runtime.devices.gripper import CLOSED_FURTHER_M
+from skillc_runtime.devices.gripper import has_closed_further
 from skillc_runtime.devices.ground_truth import HandSample
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
@@ -225,7 +225,7 @@ class ModelledGripper(ABC):
 
     def _has_closed_further(self) -> bool:
         """Whether the fingers have closed so far since they took hold that what they held is not between them."""
-        return self.opening_m < self._held_at_m - min(CLOSED_FURTHER_M, self._held_at_m / 2)
+        return has_closed_further(self.opening_m, self._held_at_m)
 
     def move_with_base(self, motion: Pose) -> None:
         """Move a carried object with the base of the arm: new = motion @ old, in the world."""

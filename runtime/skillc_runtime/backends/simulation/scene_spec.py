@@ -56,6 +56,10 @@ MODES: Final[dict[str, Mode]] = {
 """The kinds of commands of arms by class."""
 
 
+NOISE_DEVIATIONS: Final = 3.0
+"""Standard deviations of noise that count as its greatest error."""
+
+
 @dataclass(frozen=True, slots=True)
 class GripperSpec:
     """A gripper: its model, greatest opening m, force N and finger speed m/s.
@@ -77,6 +81,11 @@ class GripperSpec:
     def first_opening_m(self) -> float:
         """The distance of the fingers in m at the start."""
         return self.max_opening_m / 2
+
+    @property
+    def opening_error_m(self) -> float:
+        """The greatest error of the measured opening in m."""
+        return self.opening_bias_m + NOISE_DEVIATIONS * self.opening_noise_m
 
 
 @dataclass(frozen=True, slots=True)
