@@ -20,7 +20,6 @@ from skillc_ontology.catalogue import ROOT
 
 WHITEBOARD = ROOT / "scenes/ur5e_whiteboard.ttl"
 TESTS = Path(__file__).parents[2]
-START_S = 60.0
 _hosts = count(1)
 
 
@@ -41,13 +40,14 @@ class Peer:
         """Return what the robot says about itself."""
         return self.do("tell")
 
-    def pause(self) -> None:
-        """Let its process stand still, as if a cable were cut."""
+    @contextmanager
+    def paused(self) -> Iterator[None]:
+        """Let its process stand still meanwhile, as if a cable were cut; it runs again whatever happens."""
         self.process.send_signal(signal.SIGSTOP)
-
-    def go_on(self) -> None:
-        """Let its process run again."""
-        self.process.send_signal(signal.SIGCONT)
+        try:
+            yield
+        finally:
+            self.process.send_signal(signal.SIGCONT)
 
     def kill(self) -> None:
         """End its process, as if its power were cut."""

@@ -188,12 +188,11 @@ def test_what_takes_the_arm_in_motion_is_named_until_it_is_over(
 
 def test_a_controller_that_stands_still_is_named_and_comes_back(cell: DeviceCell, peer: Peer) -> None:
     begin_to_move(cell, peer)
-    peer.pause()
-    found = await_fault(cell)
-    assert "has sent no state for" in found or "do not answer: timed out" in found, "whichever is noticed first"
-    with pytest.raises(StopPersists):
-        cell.stops.clear()
-    peer.go_on()
+    with peer.paused():
+        found = await_fault(cell)
+        assert "has sent no state for" in found or "do not answer: timed out" in found, "whichever is noticed first"
+        with pytest.raises(StopPersists):
+            cell.stops.clear()
     wait_until(lambda: peer.tell()["runtime"] == "STOPPED")
     wait_until(lambda: np.abs(peer.tell()["dq"]).max() < 1e-3)
     cell.stops.clear()

@@ -91,11 +91,10 @@ def test_fingers_stop(hand: tuple[Fingers, list[object]]) -> None:
 
 def test_a_gripper_that_falls_silent_is_named_and_comes_back(hand: tuple[Fingers, list[object]], peer: Peer) -> None:
     fingers, _ = hand
-    peer.pause()
-    wait_until(lambda: fingers.find_fault() is not None)
-    assert f"Hand-1 at {peer.host}" in (fingers.find_fault() or "")
-    assert not fingers.moving
-    peer.go_on()
+    with peer.paused():
+        wait_until(lambda: fingers.find_fault() is not None)
+        assert f"Hand-1 at {peer.host}" in (fingers.find_fault() or "")
+        assert not fingers.moving
     fingers.recover()
     move(fingers, 0.05)
     assert fingers.find_fault() is None
@@ -136,10 +135,9 @@ def test_inputs_and_outputs_of_the_controller(peer: Peer) -> None:
 
 def test_inputs_of_a_controller_that_falls_silent_are_a_fault_until_they_come_back(peer: Peer) -> None:
     io = UrIo("Ur5e-1", peer.host)
-    peer.pause()
-    wait_until(lambda: io.find_fault() is not None)
-    assert "the inputs and outputs of Ur5e-1 do not answer" in (io.find_fault() or "")
-    peer.go_on()
+    with peer.paused():
+        wait_until(lambda: io.find_fault() is not None)
+        assert "the inputs and outputs of Ur5e-1 do not answer" in (io.find_fault() or "")
     io.recover()
     peer.do("input", bits=1 << 3)
     wait_until(lambda: io.digital_input(3))

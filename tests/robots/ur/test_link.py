@@ -192,10 +192,8 @@ def test_silence_is_noticed_and_the_connection_comes_back(peer: Peer) -> None:
         start = loop.state.q.copy()
         wanted = swing(start, 0, 0.2, 500)
         loop.run(100, wanted)
-        peer.pause()
-        with pytest.raises(LinkLost, match=r"Ur5e-1 at .* has sent no state for 500 ms"):
+        with peer.paused(), pytest.raises(LinkLost, match=r"Ur5e-1 at .* has sent no state for 500 ms"):
             loop.run(1000, lambda cycle, state: wanted(100 + cycle, state))
-        peer.go_on()
         wait_until(lambda: peer.tell()["runtime"] == "STOPPED")
         loop.link.connect()
         loop.run(20)

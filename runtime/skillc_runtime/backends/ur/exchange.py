@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Mapping, Sequence
-from socket import create_connection, socket
+from contextlib import suppress
+from socket import SHUT_RDWR, create_connection, socket
 from threading import Event, Lock, Thread
 from typing import Final
 
@@ -66,8 +67,10 @@ class Exchange:
                 raise ExchangeLost(f"{self._name} does not take its inputs: {error}") from error
 
     def close(self) -> None:
-        """Disconnect."""
+        """Disconnect at once: a socket that is closed while a thread receives from it stays open until it has."""
         self._closing = True
+        with suppress(OSError):  # It is not connected any more.
+            self._socket.shutdown(SHUT_RDWR)
         self._socket.close()
 
     def _open(self, rate_hz: float, fields: tuple[str, ...]) -> None:
