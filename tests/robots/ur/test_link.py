@@ -284,11 +284,20 @@ def test_an_arm_that_is_not_its_model_is_found_before_it_moves(
         assert (peer.tell()["commands"], peer.tell()["runtime"]) == (before, "STOPPED")
 
 
+def bring_to_zero(peer: Peer, joint: int) -> None:
+    """Move a joint to 0, from wherever the tests before have left it."""
+    with connected(peer) as loop:
+        loop.link.take_control("position")
+        loop.run(600, swing(loop.state.q.copy(), joint, -loop.state.q[joint], 1200))
+        assert abs(loop.state.q[joint]) < 0.1
+
+
 @pytest.mark.parametrize(("joint", "axis"), [(0, PAN), (5, WRIST)])
 def test_a_joint_that_turns_the_other_way_is_found_as_soon_as_it_shows(
     peer: Peer, tmp_path: Path, joint: int, axis: str
 ) -> None:
     wrong = model_with(tmp_path, axis, axis.replace("0 0 1", "0 0 -1"))
+    bring_to_zero(peer, joint)
     # Near 0 nothing shows, and here less than what is tolerated.
     with connected(peer, model=wrong, tolerance_m=0.15, tolerance_rad=0.3) as loop:
         start = loop.state.q.copy()
