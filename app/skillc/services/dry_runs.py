@@ -47,17 +47,25 @@ def make_dry_cell(spec: RunSpec, world: WorldModel) -> Backend:
 
 
 def write_commands(record: CommandRecord, folder: Path) -> None:
-    """Write what would be sent, one row a cycle and arm; ServiceError if the folder cannot be written to."""
+    """Write what would be sent, one row a cycle and arm; ServiceError if the folder cannot be written to.
+
+    Each joint has a column, which is empty in the rows of arms that have no joint of its name.
+    """
+    sent = tuple(record.commands())
+    joints = dict.fromkeys(joint for each in sent for joint in each.joints)
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with (folder / COMMANDS).open("w", encoding="utf-8", newline="") as file:
-            csv.writer(file).writerows(row for sent in record.commands() for row in _list_rows(sent))
+            table = csv.DictWriter(file, ("arm", "kind", "unit", "time_s", *joints))
+            table.writeheader()
+            table.writerows(row for each in sent for row in _list_rows(each))
     except OSError as error:
         raise ServiceError(f"{folder / COMMANDS} cannot be written: {error.strerror}") from error
 
 
-def _list_rows(sent: ArmCommands) -> Iterator[tuple[str, ...]]:
-    """Yield the names of the columns of an arm, and a row for each command."""
-    yield ("arm", "kind", "unit", "time_s", *sent.joints)
+def _list_rows(sent: ArmCommands) -> Iterator[dict[str, str]]:
+    """Yield a row for each command of an arm."""
+    about = {"arm": sent.arm, "kind": sent.mode, "unit": UNITS[sent.mode]}
     for time_s, values in zip(sent.times_s, sent.values, strict=True):
-        yield (sent.arm, sent.mode, UNITS[sent.mode], f"{time_s:.4f}", *(f"{each:.6f}" for each in values))
+        joints = zip(sent.joints, (f"{each:.6f}" for each in values), strict=True)
+        yield {**about, "time_s": f"{time_s:.4f}", **dict(joints)}
