@@ -82,7 +82,7 @@ def test_the_share_of_a_surface_that_is_clean_may_be_as_old_as_its_facts_say(tmp
     assert read_inspected(state("", tmp_path)) == {}
     size = "skiros:SizeX 1.0 ; skiros:SizeY 1.0 ; skiros:SizeZ 0.1 ; skillc:friction 0.5"
     board = f'lab:Board-1 a skillc:Surface ; skillc:on lab:Cell ; {size} ; ros2:cleanShareTopic "share"'
-    for more, fresh_s in ((" .", 5.0), (" ; ros2:stateTimeout 0.5 .", 0.5)):
+    for more, fresh_s in ((" .", 5.0), (" ; skillc:stateTimeout 0.5 .", 0.5)):
         found = read_inspected(state(board + more, tmp_path))[LAB + "Board-1"]
         assert (found.topic, found.fresh_s) == ("/share", fresh_s)
 

@@ -72,6 +72,10 @@ def test_motions_to_the_ends_of_the_joints_keep_the_limits_of_speed_that_fall_th
         ),
         (f'{AT} franka:reflexTorques "1 1 1 1 1 1 x" ;', "must be 7 numbers above 0"),
         (f"{AT} franka:restTorque -1.0 ;", "must be a number above 0"),
+        (
+            f"{AT} skillc:stateTimeout 0.2 ;",
+            "pylibfranka waits 1 s for a state, and nothing changes that; leave it out",
+        ),
     ],
 )
 def test_what_is_missing_or_wrong_is_told(tmp_path: Path, facts: str, says: str) -> None:
@@ -86,5 +90,5 @@ def test_without_the_library_it_is_said_how_to_install_it(tmp_path: Path, monkey
     (found,) = checked(skills)
     assert (found["name"], found["line"]) == ("wrong-setting", 3)
     assert "needs what is not installed (pylibfranka): pip install 'skillc[franka]'" in found["message"]
-    with pytest.raises(BackendUnavailable, match=r"needs pylibfranka.*pip install 'skillc\[franka\]'"):
+    with pytest.raises(BackendUnavailable, match=r"pylibfranka cannot be imported.*pip install 'skillc\[franka\]'"):
         make_backend(world(tmp_path, AT), BackendStart())

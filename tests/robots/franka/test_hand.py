@@ -98,7 +98,7 @@ def test_what_is_between_the_fingers_blocks_them_and_counts_as_held_until_they_c
         wait(lambda: hand.fault is not None)
         assert hand.fault is not None
         assert simulated.address in hand.fault
-        with pytest.raises(StopPersists, match="cannot be used"):
+        with pytest.raises(StopPersists, match="there is no connection"):
             hand.recover()
         hand.close()
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from skillc_ontology import catalogue
 
 ROS2 = "@prefix ros2: <https://w3id.org/skillc/ros2#> .\n"
-SLOW = "ros2:updateRate {rate_hz} ; ros2:stateTimeout 1.0"
+SLOW = "ros2:updateRate {rate_hz} ; skillc:stateTimeout 1.0"
 """Machines that run tests beside each other are slow: a robot may be silent for longer than a real one."""
 
 
@@ -15,8 +15,8 @@ def whiteboard(folder: Path) -> Path:
     """Write the scene of the UR5e at the whiteboard, for ROS 2; return the file."""
     facts = f"""
 lab:Ur5e-1 {SLOW.format(rate_hz=125.0)} .
-lab:Wsg-1 ros2:effortTopic "gripper_controller/max_effort" ; ros2:stateTimeout 2.0 .
-lab:Heron-1 ros2:stateTimeout 2.0 .
+lab:Wsg-1 ros2:effortTopic "gripper_controller/max_effort" ; skillc:stateTimeout 2.0 .
+lab:Heron-1 skillc:stateTimeout 2.0 .
 lab:Whiteboard-1 ros2:cleanShareTopic "Whiteboard_1/clean_share" .
 """
     return _write("ur5e_whiteboard", facts, folder)
@@ -48,7 +48,7 @@ def button(folder: Path) -> Path:
     """Write the scene of the UR5e before a button, for ROS 2; return the file."""
     facts = f"""
 lab:Ur5e-1 {SLOW.format(rate_hz=125.0)} .
-lab:Wsg-1 ros2:effortTopic "gripper_controller/max_effort" ; ros2:stateTimeout 2.0 .
+lab:Wsg-1 ros2:effortTopic "gripper_controller/max_effort" ; skillc:stateTimeout 2.0 .
 lab:Button-1 ros2:switchedTopic "Button_1/switched" .
 """
     return _write("ur5e_button", facts, folder)
@@ -59,7 +59,7 @@ def parts(folder: Path) -> Path:
     path = folder / "parts.ttl"
     scene = (Path(__file__).parents[1] / "ur" / "parts.ttl").read_text("utf-8")
     path.write_text(
-        f"{ROS2}{scene}\nlab:Ur5e-1 {SLOW.format(rate_hz=125.0)} .\nlab:Wsg-1 ros2:stateTimeout 2.0 .\n", "utf-8"
+        f"{ROS2}{scene}\nlab:Ur5e-1 {SLOW.format(rate_hz=125.0)} .\nlab:Wsg-1 skillc:stateTimeout 2.0 .\n", "utf-8"
     )
     return path
 
@@ -68,7 +68,7 @@ def table(folder: Path, rate_hz: float) -> Path:
     """Write the scene of the iiwa at the table, for ROS 2; return the file."""
     facts = f"""
 lab:Iiwa-1 {SLOW.format(rate_hz=rate_hz)} ; ros2:carriesWeight false .
-lab:Robotiq-1 ros2:effortTopic "gripper_controller/max_effort" ; ros2:stateTimeout 2.0 .
+lab:Robotiq-1 ros2:effortTopic "gripper_controller/max_effort" ; skillc:stateTimeout 2.0 .
 lab:Table-1 ros2:cleanShareTopic "Table_1/clean_share" .
 """
     return _write("iiwa_table", facts, folder)

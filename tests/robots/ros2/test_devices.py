@@ -173,7 +173,7 @@ def test_depths_are_those_of_the_pixel_in_which_a_point_is_seen(
 def test_a_surface_is_as_clean_as_its_topic_has_lately_said(other: Session) -> None:
     shares = other.publish("/share", SHARE, reliable=True)
     board, topics = LAB + "Board-1", {LAB + "Board-1": CleanShareTopic("/share", fresh_s=1.0)}
-    silent = r"/share has been silent for 1 s \(ros2:stateTimeout\)"
+    silent = r"/share has been silent for 1 s \(skillc:stateTimeout\)"
     with receiving(lambda receiver: Ros2Inspection(topics, receiver)) as inspection:
         with pytest.raises(NoSuchDevice, match=silent):
             inspection.inspect(board)

@@ -23,7 +23,7 @@ from skillc_runtime.recording.events import Listener
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import Change, SetProperty
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.terms import DRIVER_ADDRESS, UR
+from skillc_runtime.world.state.terms import DRIVER_ADDRESS, STATE_TIMEOUT, UR
 from skillc_runtime.world.state.world_state import WorldState
 
 LAB = "http://example.org/lab#"
@@ -60,7 +60,7 @@ def facts_of(peer: Peer) -> list[Change]:
     """Return what a scene has to say of a peer; time-outs are long, for machines that are busy."""
     return [
         SetProperty(ARM, DRIVER_ADDRESS, peer.host),
-        SetProperty(ARM, UR + "stateTimeout", 2.5),
+        SetProperty(ARM, STATE_TIMEOUT, 2.5),
         SetProperty(ARM, UR + "commandTimeout", 1.0),
         SetProperty(HAND, DRIVER_ADDRESS, f"{peer.host}:{WSG_PORT}"),
     ]

@@ -57,7 +57,7 @@ def test_an_arm_without_address_is_refused_with_what_to_write() -> None:
 
 def test_a_missing_library_is_named_with_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "rtde_control", None)
-    with pytest.raises(BackendUnavailable, match=r"needs ur-rtde.*: pip install 'skillc\[ur\]'"):
+    with pytest.raises(BackendUnavailable, match=r"ur-rtde cannot be imported.*: pip install 'skillc\[ur\]'"):
         UrDescription(facts(THERE)).make_link()
 
 

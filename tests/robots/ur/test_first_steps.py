@@ -31,7 +31,7 @@ def peer() -> Iterator[Peer]:
 def scene(peer: Peer, tmp_path: Path) -> Path:
     """The scene with the addresses of the peer."""
     facts = (
-        f'lab:Ur5e-1 skiros:DriverAddress "{peer.host}" ; <{UR}stateTimeout> 5.0 ; <{UR}commandTimeout> 1.0 .\n'
+        f'lab:Ur5e-1 skiros:DriverAddress "{peer.host}" ; skillc:stateTimeout 5.0 ; <{UR}commandTimeout> 1.0 .\n'
         f'lab:Wsg-1 skiros:DriverAddress "{peer.host}:{WSG_PORT}" .\n'
     )
     path = tmp_path / "cell.ttl"

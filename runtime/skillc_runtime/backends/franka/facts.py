@@ -7,10 +7,10 @@ from typing import Final
 
 import numpy as np
 
-from skillc_runtime.backends.franka.link import FrankaDescription
+from skillc_runtime.backends.franka.link import SILENCE_S, FrankaDescription
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.world.state.data_sheet import SheetError
-from skillc_runtime.world.state.terms import DRIVER_ADDRESS, FRANKA
+from skillc_runtime.world.state.terms import DRIVER_ADDRESS, FRANKA, STATE_TIMEOUT
 
 REFLEX_TORQUES, REFLEX_FORCES = FRANKA + "reflexTorques", FRANKA + "reflexForces"
 REST_TORQUE = FRANKA + "restTorque"
@@ -19,12 +19,18 @@ GRAVITY: Final = np.array([0.0, 0.0, -9.81])
 
 
 def describe(facts: ArmSpec) -> FrankaDescription:
-    """Return where the robot of an arm is, and how it is set; SheetError if its address is missing."""
+    """Return where the robot of an arm is, and how it is set; SheetError for a fact that is missing or wrong."""
     torques, forces = _numbers(facts, REFLEX_TORQUES, facts.home.size), _numbers(facts, REFLEX_FORCES, AXES)
     if (torques is None) != (forces is None):
         stated, missing = (REFLEX_FORCES, REFLEX_TORQUES) if torques is None else (REFLEX_TORQUES, REFLEX_FORCES)
         short = facts.sheet.state.vocabulary.short
         raise SheetError(f"{short(facts.individual)} states {short(stated)} and not {short(missing)}; state both")
+    if _numbers(facts, STATE_TIMEOUT, 1) not in (None, (SILENCE_S,)):
+        short = facts.sheet.state.vocabulary.short
+        raise SheetError(
+            f"{short(facts.individual)} states {short(STATE_TIMEOUT)}: pylibfranka waits {SILENCE_S:g} s for a state, "
+            "and nothing changes that; leave it out"
+        )
     rest = _numbers(facts, REST_TORQUE, 1)
     gravity = tuple((facts.base.rotation.T @ GRAVITY).tolist())
     return FrankaDescription(

@@ -106,7 +106,7 @@ class FrankaHand(MeasuredGripper):
         if self._client.fault or self._client.busy:
             reason = self._client.error or f"it has not answered for {CONNECT_S:g} s"
             raise BackendUnavailable(
-                f"{self._name} cannot be used ({reason}): is a Franka Hand set as end effector in Desk?"
+                f"there is no connection to {self._name} ({reason}): is a Franka Hand set as end effector in Desk?"
             )
         if self._client.widest_m < HOMED_SHARE * self._facts.max_opening_m:
             raise BackendUnavailable(

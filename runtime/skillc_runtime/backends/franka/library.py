@@ -16,6 +16,5 @@ def load_library() -> ModuleType:
         return import_module("pylibfranka")
     except ImportError as error:
         raise BackendUnavailable(
-            f"the back end `franka` needs pylibfranka, which cannot be imported ({error}): {INSTALL}; it is made for "
-            "Linux only"
+            f"pylibfranka cannot be imported ({error}): {INSTALL}; it is made for Linux only"
         ) from error

@@ -104,8 +104,8 @@ class FrankaLink(RobotLink):
         except (RuntimeError, library.FrankaException) as error:
             self._robot = None
             raise BackendUnavailable(
-                f"{name} cannot be used ({_sentence(error)}): is the address right (skiros:DriverAddress), is the "
-                "robot on, are its joints unlocked, is FCI activated in Desk, and is no other program connected?"
+                f"there is no connection to {name} ({_sentence(error)}): is the address right (skiros:DriverAddress), "
+                "is the robot on, are its joints unlocked, is FCI activated in Desk, and is no other program connected?"
             ) from error
 
     def read(self, state: StateView) -> None:

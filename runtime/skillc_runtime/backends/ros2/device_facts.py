@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
-from skillc_runtime.world.state.terms import ROS2, SKIROS
+from skillc_runtime.world.state.terms import ROS2, SKIROS, STATE_TIMEOUT
 from skillc_runtime.world.state.world_state import WorldState
 
 T = TypeVar("T")
@@ -80,7 +80,8 @@ class DeviceFacts:
 
     def timing(self, silence_s: float) -> Timing:
         """Return how long the device is waited for."""
-        return Timing(self.number("connectTimeout", 10.0), self.number("stateTimeout", silence_s))
+        stated_s = number_of(self.state, self._owner(STATE_TIMEOUT), STATE_TIMEOUT, silence_s)
+        return Timing(self.number("connectTimeout", 10.0), stated_s)
 
     def quality(self) -> Quality:
         """Return how its messages are delivered."""

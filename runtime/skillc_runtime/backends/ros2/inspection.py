@@ -32,7 +32,7 @@ class Ros2Inspection(Camera):
             raise NoSuchDevice("no topic has the share of the surface that is clean: state ros2:cleanShareTopic")
         topic, seen_s = self._topics[surface], self._feeds[surface].seen_s
         if seen_s is None or monotonic() - seen_s > topic.fresh_s:
-            raise NoSuchDevice(f"{topic.topic} has been silent for {topic.fresh_s:g} s (ros2:stateTimeout)")
+            raise NoSuchDevice(f"{topic.topic} has been silent for {topic.fresh_s:g} s (skillc:stateTimeout)")
         return self._shares[surface]
 
     def rubbed_share(self, surface: str, seconds: float) -> float:

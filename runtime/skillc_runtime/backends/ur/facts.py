@@ -10,6 +10,7 @@ from skillc_runtime.world.state.data_sheet import DataSheet, SheetError, number_
 from skillc_runtime.world.state.terms import (
     DRIVER_ADDRESS,
     POSITION_CONTROLLED_ARM,
+    STATE_TIMEOUT,
     TORQUE_CONTROLLED_ARM,
     UR,
     VELOCITY_CONTROLLED_ARM,
@@ -70,7 +71,7 @@ def read_facts(state: WorldState, arm: str, sheet: DataSheet, modes: tuple[Mode,
         )
 
     def number(name: str, default: float) -> float:
-        return number_of(state, arm, UR + name, number_of(state, sheet.individual, UR + name, default))
+        return _number(state, arm, sheet, UR + name, default)
 
     return UrFacts(
         arm=state.vocabulary.short(arm),
@@ -81,7 +82,7 @@ def read_facts(state: WorldState, arm: str, sheet: DataSheet, modes: tuple[Mode,
             acceleration_rad_s2=number("jointAcceleration", 10.0),
             stop_rad_s2=number("stopDeceleration", 10.0),
         ),
-        silence_s=number("stateTimeout", 0.1),
+        silence_s=_number(state, arm, sheet, STATE_TIMEOUT, 0.1),
         command_timeout_s=number("commandTimeout", 0.1),
         model=sheet.model,
         tolerance_m=number("flangeTolerance", 0.005),
@@ -99,3 +100,8 @@ def read_address(state: WorldState, device: str) -> str:
             f'{short(DRIVER_ADDRESS)} "192.168.1.2", with its own address, at {short(device)} in the scene'
         )
     return text_of(state, device, DRIVER_ADDRESS)
+
+
+def _number(state: WorldState, arm: str, sheet: DataSheet, property_: str, default: float) -> float:
+    """Return a number of an arm, or else of its data sheet."""
+    return number_of(state, arm, property_, number_of(state, sheet.individual, property_, default))

@@ -15,6 +15,4 @@ def load_library(module: str) -> ModuleType:
     try:
         return import_module(module)
     except ImportError as error:
-        raise BackendUnavailable(
-            f"the back end `ur` needs ur-rtde, which cannot be imported ({error}): {INSTALL}"
-        ) from error
+        raise BackendUnavailable(f"ur-rtde cannot be imported ({error}): {INSTALL}") from error
