@@ -10,7 +10,7 @@ import pytest
 
 from simulation.cells import ARM, LAB, SURFACE, world
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
-from skillc_runtime.devices.backend import BackendBroken, DeviceStop, StopPersists
+from skillc_runtime.devices.backend import BackendBroken, DeviceStop, StopPersists, find_first_stop
 from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.primitives.inspect import Inspect
 from skillc_runtime.world.state.facts import PropertyFact
@@ -85,16 +85,19 @@ def test_an_emergency_stop_is_reported_as_such_and_told_once(make: Make) -> None
     cell.advance(0.001)
 
 
-def test_an_arm_is_faulty_in_the_world_model_from_its_stop_until_that_is_acknowledged(make: Make) -> None:
-    reports, arm = Reports(), ARM["iiwa_table"]
-    cell = make(reports, arms={arm: Device()})
-    states = [cell.world.snapshot().value(arm, DEVICE_STATE)]
-    reports.fault = DeviceStop("protective-stop", "it has bumped into something", (arm,))
+@pytest.mark.parametrize("device", [ARM["iiwa_table"], LAB + "Robotiq-1"])
+def test_a_device_is_faulty_in_the_world_model_from_its_stop_until_that_is_acknowledged(
+    make: Make, device: str
+) -> None:
+    reports = Reports()
+    cell = make(reports, arms={ARM["iiwa_table"]: Device()})
+    states = [cell.world.snapshot().value(device, DEVICE_STATE)]
+    reports.fault = find_first_stop([("other", None), (device, "it does not answer")])
     wait_until(lambda: cell.stops.report is not None)
     cell.publish()
-    states.append(cell.world.snapshot().value(arm, DEVICE_STATE))
+    states.append(cell.world.snapshot().value(device, DEVICE_STATE))
     cell.stops.clear()
-    states.append(cell.world.snapshot().value(arm, DEVICE_STATE))
+    states.append(cell.world.snapshot().value(device, DEVICE_STATE))
     assert states == ["Idle", "Fault", "Idle"]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, Protocol
 
@@ -31,6 +31,11 @@ class DeviceStop:
     kind: Literal["protective-stop", "emergency-stop"]
     reason: str
     devices: tuple[str, ...] = ()
+
+
+def find_first_stop(faults: Iterable[tuple[str, str | None]]) -> DeviceStop | None:
+    """Return the stop of the first device, by IRI, with a reason; None if none has one."""
+    return next((DeviceStop("protective-stop", why, (device,)) for device, why in faults if why is not None), None)
 
 
 class StopPersists(Exception):

@@ -1,4 +1,4 @@
-"""The states of the arms of a cell in its world model: idle, or faulty from a stop until that is acknowledged."""
+"""The states of the devices of a cell in its world model: idle, or faulty from a stop until that is acknowledged."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from skillc_runtime.world.state.terms import DEVICE_STATE
 
 
 class DeviceStates:
-    """Writes `skillc:deviceState` of arms, given by IRI; it is called where the world model may be written."""
+    """Writes `skillc:deviceState` of devices, by IRI, idle at first; called where the world model may be written."""
 
     def __init__(self, world: WorldModel, arms: Iterable[str]) -> None:
         self._world, self._arms = world, sorted(arms)

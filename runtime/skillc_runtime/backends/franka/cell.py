@@ -12,7 +12,7 @@ from skillc_runtime.backends.franka.hand import FrankaHand
 from skillc_runtime.backends.franka.library import load_library
 from skillc_runtime.backends.real_time.device_cell import CellDevices
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
-from skillc_runtime.devices.backend import Backend, BackendStart
+from skillc_runtime.devices.backend import Backend, BackendStart, DeviceStop, find_first_stop
 from skillc_runtime.world.state.model import WorldModel
 
 
@@ -40,7 +40,7 @@ def make_devices(scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellD
         for hand in hands.values():
             hand.recover()
 
-    def find_fault() -> str | None:
-        return next((fault for hand in hands.values() if (fault := hand.fault) is not None), None)
+    def find_fault() -> DeviceStop | None:
+        return find_first_stop((individual, hand.fault) for individual, hand in hands.items())
 
     return CellDevices(grippers=hands, find_fault=find_fault, recover=recover, close=closing.close)

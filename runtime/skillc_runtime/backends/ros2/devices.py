@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import ExitStack
+from dataclasses import dataclass
+from itertools import chain
 
 import mujoco
 
@@ -19,6 +21,7 @@ from skillc_runtime.backends.ros2.inspection import Ros2Inspection
 from skillc_runtime.backends.ros2.receiver import Receiver, TopicFeed
 from skillc_runtime.backends.ros2.transforms import Transforms
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.devices.backend import DeviceStop, find_first_stop
 from skillc_runtime.world.state.data_sheet import number_of, sheet_of
 from skillc_runtime.world.state.terms import ARRIVAL_TOLERANCE
 from skillc_runtime.world.state.world_state import WorldState
@@ -48,6 +51,16 @@ def make_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteA
     )
 
 
+@dataclass(frozen=True, slots=True)
+class _Topic:
+    """What a device, by IRI, publishes; `who` is its short name."""
+
+    device: str
+    who: str
+    feed: TopicFeed
+    timing: Timing
+
+
 class _Devices:
     """Those of one cell, with what each of them has to publish."""
 
@@ -55,9 +68,9 @@ class _Devices:
         self, state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver], receiver: Receiver
     ) -> None:
         self._state, self._receiver = state, receiver
-        self._watched: list[tuple[TopicFeed, Timing, str]] = []
+        self._watched: list[_Topic] = []
         """Topics that may never be silent."""
-        self._awaited: list[tuple[TopicFeed, Timing, str]] = []
+        self._awaited: list[_Topic] = []
         """Topics that may be silent after their first message."""
         self.grippers = self._make_grippers(scene, arms)
         self.bases = self._make_bases(scene)
@@ -69,14 +82,14 @@ class _Devices:
     def begin(self) -> None:
         """Wait for the first message of each topic; BackendUnavailable."""
         self._receiver.begin()
-        for feed, timing, who in (*self._watched, *self._awaited):
-            self._receiver.await_first(feed, timing, who)
+        for each in (*self._watched, *self._awaited):
+            self._receiver.await_first(each.feed, each.timing, each.who)
 
-    def find_fault(self) -> str | None:
+    def find_fault(self) -> DeviceStop | None:
         """Return why a device cannot go on; None if all can."""
-        silences = (feed.find_silence(timing) for feed, timing, _ in self._watched)
-        found = (*(hand.fault for hand in self.grippers.values()), *silences)
-        return next((why for why in found if why is not None), None)
+        faults = ((individual, hand.fault) for individual, hand in self.grippers.items())
+        silences = ((each.device, each.feed.find_silence(each.timing)) for each in self._watched)
+        return find_first_stop(chain(faults, silences))
 
     def recover(self) -> None:
         """Acknowledge what the devices have reported."""
@@ -89,7 +102,7 @@ class _Devices:
             if (hand := arm.gripper) is not None:
                 facts = read_gripper(self._state, hand.individual, joints_of(str(hand.model)))
                 found[hand.individual] = made = Ros2Gripper(hand, facts, arms[arm.individual], self._receiver)
-                self._watched.append((made.feed, facts.timing, facts.name))
+                self._watched.append(_Topic(hand.individual, facts.name, made.feed, facts.timing))
         return found
 
     def _make_bases(self, scene: SceneSpec) -> dict[str, Ros2Base]:
@@ -98,7 +111,7 @@ class _Devices:
             facts, sheet = read_base(self._state, each.individual), sheet_of(self._state, each.individual).individual
             near_m = number_of(self._state, sheet, ARRIVAL_TOLERANCE, ARRIVAL_TOLERANCE_M)
             found[each.individual] = made = Ros2Base(facts, each.pose, near_m, self._receiver)
-            self._watched.append((made.feed, facts.timing, facts.name))
+            self._watched.append(_Topic(each.individual, facts.name, made.feed, facts.timing))
         return found
 
     def _make_cameras(self, scene: SceneSpec) -> dict[str, Ros2Camera]:
@@ -110,7 +123,7 @@ class _Devices:
             if facts.frame and transforms is None:
                 transforms = Transforms(self._receiver)
             found[spec.individual] = made = Ros2Camera(spec, facts, transforms, self._receiver)
-            self._watched += [(feed, facts.timing, facts.name) for feed in made.feeds]
+            self._watched += [_Topic(spec.individual, facts.name, feed, facts.timing) for feed in made.feeds]
         return found
 
     def _make_buttons(self, scene: SceneSpec) -> dict[str, Ros2Button]:
@@ -119,7 +132,7 @@ class _Devices:
             facts = DeviceFacts(self._state, each.individual)
             if facts.topic("switchedTopic"):
                 found[each.individual] = made = Ros2Button(facts, self._receiver)
-                self._awaited.append((made.feed, facts.timing(1.0), facts.name))
+                self._awaited.append(_Topic(each.individual, facts.name, made.feed, facts.timing(1.0)))
         return found
 
 

@@ -18,7 +18,7 @@ from skillc_runtime.backends.ur.description import UrDescription
 from skillc_runtime.backends.ur.facts import read_address, read_facts
 from skillc_runtime.backends.ur.io import UrIo
 from skillc_runtime.backends.ur.wiring import WiredPoint, read_wires
-from skillc_runtime.devices.backend import BackendStart, BackendUnavailable, StopPersists
+from skillc_runtime.devices.backend import BackendStart, BackendUnavailable, DeviceStop, StopPersists, find_first_stop
 from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
@@ -70,14 +70,16 @@ def _open_devices(
         points = {} if io is None else {each: WiredPoint(io, wire) for each, wire in wires.items()}
         closing = opened.pop_all()
 
-    watched: list[Fingers | UrIo] = [*grippers.values(), *([] if io is None else [io])]
+    watched: dict[str, Fingers | UrIo] = dict(grippers)
+    if io is not None:
+        watched[scene.arms[0].individual] = io
 
-    def find_fault() -> str | None:
-        return next((fault for each in watched if (fault := each.find_fault()) is not None), None)
+    def find_fault() -> DeviceStop | None:
+        return find_first_stop((device, each.find_fault()) for device, each in watched.items())
 
     def recover() -> None:
         try:
-            for each in watched:
+            for each in watched.values():
                 each.recover()
         except BackendUnavailable as error:
             raise StopPersists(str(error)) from error
