@@ -37,6 +37,8 @@ def test_a_real_arm_is_shown_operated_and_its_stop_acknowledged(
         page.locator(".scene-menu summary").click()
         expect(page.get_by_label("Measured, command as ghost")).to_be_checked()
         expect(page.get_by_role("button", name="Move in reality")).to_be_disabled()
+        for only_simulated in (page.get_by_label("Pace"), page.get_by_role("button", name="Reset or save the cell")):
+            expect(only_simulated).to_have_count(0)
         choose(page, "swing")
         press_start(page)
         wait_for_state(page, "running", "swing")

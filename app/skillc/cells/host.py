@@ -104,6 +104,7 @@ class CellHost:
             state=state,
             reason=reason,
             pace=pace,
+            paceable=self.devices.backend.capabilities.lock_step is not None,
             resettable=self._checkpoints.possible,
             resets=self._resets,
         )

@@ -19,7 +19,8 @@ class CellStatus(msgspec.Struct, frozen=True, kw_only=True):
     """A cell as it is now; `reason` is why it is in its state.
 
     `library_hash` identifies the library that its next operation runs; `library_problem` is why that is not the one on
-    disk. `pace` is None for as fast as it computes. A `resettable` cell can be reset to its scene, saved and restored.
+    disk. `pace` is None for as fast as it computes; that of a `paceable` cell can be set. A `resettable` cell can be
+    reset to its scene, saved and restored.
     `resets` counts the resets and restores since its process was started; what was seen before the last one is past.
     """
 
@@ -32,6 +33,7 @@ class CellStatus(msgspec.Struct, frozen=True, kw_only=True):
     state: CellState = "operational"
     reason: str = ""
     pace: float | None = None
+    paceable: bool = False
     resettable: bool = False
     resets: int = 0
 

@@ -9,7 +9,8 @@ export interface components {
          * @description A cell as it is now; `reason` is why it is in its state.
          *
          *         `library_hash` identifies the library that its next operation runs; `library_problem` is why that is not the one on
-         *         disk. `pace` is None for as fast as it computes. A `resettable` cell can be reset to its scene, saved and restored.
+         *         disk. `pace` is None for as fast as it computes; that of a `paceable` cell can be set. A `resettable` cell can be
+         *         reset to its scene, saved and restored.
          *         `resets` counts the resets and restores since its process was started; what was seen before the last one is past.
          */
         CellStatus: {
@@ -29,6 +30,8 @@ export interface components {
             reason?: string;
             /** @default null */
             pace?: number | null;
+            /** @default false */
+            paceable?: boolean;
             /** @default false */
             resettable?: boolean;
             /** @default 0 */

@@ -13,8 +13,6 @@ export const checkpoints = signal<readonly Checkpoint[] | null>(null);
 export function describeObstacle(): string {
   const current = cell.value;
   if (current === null || current.state === "off") return "The cell is off.";
-  if (!current.resettable)
-    return `${current.name} is no simulation: what is in it is not made again by a click.`;
   const [first] = ongoing.value;
   if (first !== undefined)
     return `${describeRequest(first.request)} goes on or waits; stop it, or wait until it has ended.`;

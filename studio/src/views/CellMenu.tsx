@@ -15,7 +15,7 @@ import { Popover } from "./Popover";
 
 export function CellMenu() {
   const current = cell.value;
-  if (current === null || current.state === "off") return null;
+  if (current === null || current.state === "off" || !current.resettable) return null;
   return (
     <Popover
       label="Reset or save the cell"
@@ -36,7 +36,6 @@ function Menu({ close }: { close: () => void }) {
   const [name, setName] = useState("");
   useEffect(() => void readCheckpoints(), []);
   const obstacle = describeObstacle();
-  if (cell.value?.resettable === false) return <p>{obstacle}</p>;
   const isValid = NAME.test(name);
   const then = (done: Promise<boolean>): void => void done.then((isDone) => isDone && close());
   return (

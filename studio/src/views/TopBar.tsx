@@ -82,7 +82,7 @@ function CellChoice() {
         </button>
       )}
       <LeaseControl />
-      <Pace name={current.name} pace={current.pace} />
+      {current.paceable && <Pace name={current.name} pace={current.pace} />}
     </div>
   );
 }
