@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import heapq
 import json
+import os
 import random
 import select
 import socket
@@ -164,7 +165,7 @@ class Proxy:
         self.address, self.robot, self.report = address, robot, Report()
         self.checker, self.strict = Checker(self.report), False
         self.mode: int | None = None
-        self._swapped = (0, 0)
+        self._swapped, self._begun = (0, 0), b""
         self._error, self._drop, self._delay = 0, 0.0, 0.0
         self._waiting: list[tuple[float, int, socket.socket, bytes, Any]] = []
         self._sent, self._chance = 0, random.Random(1)
@@ -217,9 +218,9 @@ class Proxy:
                 sender.sendto(packet, to)
             for each in ready:
                 if each is sys.stdin:
-                    if not (line := sys.stdin.readline()):
+                    if not (orders := os.read(sys.stdin.fileno(), 1 << 16)):
                         return
-                    self._obey(*line.split())
+                    self._take(orders)
                 elif each in self._listening:
                     relay = Relay(self, self._listening[each], each.accept()[0])
                     self._relays.update(dict.fromkeys(relay.sockets, relay))
@@ -229,6 +230,12 @@ class Proxy:
                     self._waiting = [one for one in self._waiting if one[2] not in relay.sockets]
                     heapq.heapify(self._waiting)
                     relay.close()
+
+    def _take(self, orders: bytes) -> None:
+        """Obey all lines that are whole: those that a buffer of Python kept would not be told by `select`."""
+        *lines, self._begun = (self._begun + orders).split(b"\n")
+        for line in lines:
+            self._obey(*line.decode().split())
 
     def _obey(self, order: str, value: str = "", other: str = "") -> None:
         match order:
