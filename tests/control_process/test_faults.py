@@ -8,8 +8,8 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -32,23 +32,42 @@ DEADLINE_S = 60.0
 
 
 class SharedCell:
-    """A robot and its cell for several tests; both are started again if a test has left them stopped."""
+    """A robot and its cell for several tests; what a test has left stopped or ended is started again."""
 
-    def __init__(self, opened: ExitStack) -> None:
-        self._opened = opened
-        self._pair: tuple[Toy, DeviceCell] | None = None
+    def __init__(self) -> None:
+        self._toy: Toy | None = None
+        self._cell: DeviceCell | None = None
+
+    def find_toy(self) -> Toy:
+        """Return the robot, without a cell."""
+        self._close_cell()
+        if self._toy is None:
+            self._toy = Toy(SCENE)
+        return self._toy
 
     def find(self) -> tuple[Toy, DeviceCell]:
-        if self._pair is None or self._pair[1].stops.report is not None:
-            self._opened.close()
-            self._pair = self._opened.enter_context(toy_cell(SCENE))
-        return self._pair
+        """Return both."""
+        if self._cell is None or self._cell.stops.report is not None:
+            self._cell = self.find_toy().open()
+        assert self._toy is not None
+        return self._toy, self._cell
+
+    def close(self) -> None:
+        self._close_cell()
+        if self._toy is not None:
+            self._toy.close()
+
+    def _close_cell(self) -> None:
+        if self._cell is not None:
+            self._cell.close()
+        self._cell = None
 
 
 @pytest.fixture(scope="module")
 def shared() -> Iterator[SharedCell]:
-    with ExitStack() as opened:
-        yield SharedCell(opened)
+    found = SharedCell()
+    yield found
+    found.close()
 
 
 @pytest.fixture
@@ -86,13 +105,23 @@ def remote(cell: DeviceCell) -> RemoteArmDriver:
     return arm
 
 
-def report(toy: Toy) -> dict[str, object]:
-    found: dict[str, object] = toy.ask("report")
+def report(toy: Toy) -> dict[str, Any]:
+    found: dict[str, Any] = toy.ask("report")
     return found
 
 
 def is_still(toy: Toy) -> bool:
     return bool(np.abs(np.asarray(report(toy)["dq"])).max() < 0.02)
+
+
+def stays_still(toy: Toy, seconds: float) -> bool:
+    """Tell whether it is at rest for so long, by its own time."""
+    until = report(toy)["time_s"] + seconds
+    while report(toy)["time_s"] < until:
+        if not is_still(toy):
+            return False
+        time.sleep(0.01)
+    return True
 
 
 def told(cell: DeviceCell) -> str:
@@ -140,21 +169,6 @@ def test_lost_states_are_counted_and_a_motion_goes_on(both: tuple[Toy, DeviceCel
     assert report(toy)["violations"] == []
 
 
-@pytest.mark.parametrize(("what", "how_much"), [("delay", 12), ("flip_speeds", 1)])
-def test_what_makes_a_law_unstable_ends_at_rest(what: str, how_much: int) -> None:
-    """Commands that come late, and speeds with the wrong sign, let an arm shake: it is stopped, or given back."""
-    with toy_cell(SCENE) as (toy, cell):
-        swing(cell)
-        toy.ask(what, how_much)
-        wait_until(lambda: cell.stops.report is not None)
-        if what == "delay":
-            wait_until(lambda: "did not come to rest, so control was given back" in str(cell.stops.report))
-        wait_until(lambda: is_still(toy))
-        time.sleep(1.0)
-        assert is_still(toy)
-        assert report(toy)["violations"] == []
-
-
 def test_an_arm_that_settles_is_waited_for_when_control_is_taken(both: tuple[Toy, DeviceCell]) -> None:
     toy, cell = both
     swing(cell)
@@ -187,8 +201,7 @@ def test_a_control_process_that_is_paused_is_named_and_goes_on_at_rest(both: tup
     wait_until(lambda: is_still(toy))
     os.kill(process.pid, signal.SIGCONT)
     wait_until(lambda: remote(cell).process.find_silence() is None)
-    time.sleep(0.2)
-    assert is_still(toy)
+    assert stays_still(toy, 0.2)
     cell.stops.clear()
     swing(cell)
     assert report(toy)["violations"] == []
@@ -228,18 +241,66 @@ def test_somebody_else_takes_control(both: tuple[Toy, DeviceCell]) -> None:
     swing(cell)
 
 
-def test_a_control_process_that_is_killed_is_named() -> None:
+def test_a_control_process_that_is_killed_is_named(both: tuple[Toy, DeviceCell]) -> None:
+    toy, cell = both
+    swing(cell)
+    remote(cell).process.process.kill()
+    assert "the control process of lab:Iiwa-1 has ended by signal 9" in told(cell)
+    wait_until(lambda: is_still(toy))
+    assert cell.is_at_rest()
+    with pytest.raises(BackendBroken, match="has ended by signal 9"):
+        cell.arm(ARM[SCENE]).motion.stopping_pose()
+
+
+TREE = """
+import sys, time
+from control_process.test_faults import SCENE, Toy, swing
+cell = Toy(SCENE, running=(int(sys.argv[1]), int(sys.argv[2]))).open()
+while True:
+    swing(cell)
+    print("moves", flush=True)
+    while cell.stops.report is None:
+        cell.watchdog.beat("tree", cell.now)
+        time.sleep(0.01)
+    cell.stops.clear()
+"""
+
+
+def test_the_process_of_the_tree_is_paused_and_goes_on_and_is_killed(shared: SharedCell) -> None:
+    toy, tests = shared.find_toy(), Path(__file__).parent.parent
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tests), *filter(None, sys.path)])}
+    command = [sys.executable, "-c", TREE, str(toy.port), str(toy.panel_port)]
+    tree = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment, cwd=tests)
+    try:
+        assert tree.stdout is not None
+        assert tree.stdout.readline() == "moves\n"
+        tree.send_signal(signal.SIGSTOP)
+        wait_until(lambda: is_still(toy))
+        assert report(toy)["condition"] == "in-control"
+        tree.send_signal(signal.SIGCONT)
+        assert tree.stdout.readline() == "moves\n"
+        tree.kill()
+        wait_until(lambda: report(toy)["condition"] == "ready" and is_still(toy))
+        assert report(toy)["violations"] == []
+    finally:
+        tree.kill()
+        tree.wait()
+
+
+@pytest.mark.parametrize(("what", "how_much"), [("delay", 12), ("flip_speeds", 1)])
+def test_what_makes_a_law_unstable_ends_at_rest(what: str, how_much: int) -> None:
+    """Commands that come late, and speeds with the wrong sign, let an arm shake: it is stopped, or given back."""
     with toy_cell(SCENE) as (toy, cell):
         swing(cell)
-        remote(cell).process.process.kill()
-        assert "the control process of lab:Iiwa-1 has ended by signal 9" in told(cell)
-        wait_until(lambda: is_still(toy))
-        assert cell.is_at_rest()
-        with pytest.raises(BackendBroken, match="has ended by signal 9"):
-            cell.arm(ARM[SCENE]).motion.stopping_pose()
+        toy.ask(what, how_much)
+        wait_until(lambda: cell.stops.report is not None)
+        if what == "delay":
+            wait_until(lambda: "did not come to rest, so control was given back" in str(cell.stops.report))
+        wait_until(lambda: stays_still(toy, 1.0))
+        assert report(toy)["violations"] == []
 
 
-def test_a_robot_in_a_wrong_mode_opens_stopped_and_one_that_is_gone_cannot_be_acknowledged() -> None:
+def test_a_robot_in_a_wrong_mode_opens_stopped_and_one_that_is_gone_is_named_with_what_to_do() -> None:
     toy = Toy(SCENE)
     try:
         toy.ask("condition", "wrong-mode")
@@ -258,48 +319,7 @@ def test_a_robot_in_a_wrong_mode_opens_stopped_and_one_that_is_gone_cannot_be_ac
             assert cell.is_at_rest()
         finally:
             cell.close()
+        with pytest.raises(BackendUnavailable, match=r"the toy robot at port .* does not answer.*start it"):
+            toy.open()
     finally:
-        toy.close()
-
-
-def test_a_robot_that_is_not_there_is_named_with_what_to_do() -> None:
-    toy = Toy(SCENE)
-    toy.close()
-    with pytest.raises(BackendUnavailable, match=r"the toy robot at port .* does not answer.*start it"):
-        toy.open()
-
-
-TREE = """
-import sys, time
-from control_process.test_faults import SCENE, Toy, swing
-cell = Toy(SCENE, running=(int(sys.argv[1]), int(sys.argv[2]))).open()
-swing(cell)
-print("moves", flush=True)
-while True:
-    cell.watchdog.beat("tree", cell.now)
-    time.sleep(0.01)
-"""
-
-
-@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGSTOP])
-def test_the_process_of_the_tree_is_killed_or_paused(how: signal.Signals) -> None:
-    tests = Path(__file__).parent.parent
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tests), *filter(None, sys.path)])}
-    toy = Toy(SCENE)
-    command = [sys.executable, "-c", TREE, str(toy.port), str(toy.panel_port)]
-    tree = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment, cwd=tests)
-    try:
-        assert tree.stdout is not None
-        assert tree.stdout.readline() == "moves\n"
-        assert report(toy)["condition"] == "in-control"
-        tree.send_signal(how)
-        if how == signal.SIGKILL:
-            wait_until(lambda: report(toy)["condition"] == "ready" and is_still(toy))
-        else:
-            wait_until(lambda: is_still(toy))
-            assert report(toy)["condition"] == "in-control"
-        assert report(toy)["violations"] == []
-    finally:
-        tree.kill()
-        tree.wait()
         toy.close()

@@ -234,8 +234,9 @@ class ControlLoop:
                 self._link.connect()
                 self._phase = "connected"
                 self._link.read(self._measured)  # Its condition may be another one than before.
-            self._link.recover()
-            self._link.read(self._measured)
+            if self._phase == "connected":
+                self._link.recover()
+                self._link.read(self._measured)
             self._arm.recover()
             self._take_control()
         except (BackendUnavailable, ControlRefused, LinkLost) as error:
