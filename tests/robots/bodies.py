@@ -2,7 +2,7 @@
 
     PYTHONPATH=tests python -m robots.bodies [BODY ...] [--task TASK ...]
 
-A body is a back end with an emulator behind it: a module with a `BODY`, listed in `BODIES`. What is measured is true
+A body is a back end with an emulator behind it, listed in `BODIES`. What is measured is true
 behind the protocol, and measured as in the report of a simulation.
 """
 
@@ -40,12 +40,15 @@ from skillc_runtime.world.state.world_state import WorldState
 TaskName: TypeAlias = Literal["wipe", "pick and place", "press"]
 
 BODIES: Final = {
-    "toy": "control_process.body",
-    "franka": "robots.franka.body",
-    "ur": "robots.ur.body",
-    "ros2": "robots.ros2.body",
+    "toy": "control_process.body:BODY",
+    "franka": "robots.franka.body:BODY",
+    "ur": "robots.ur.body:BODY",
+    "ros2": "robots.ros2.body:BODY",
+    "ros2 without loss": "robots.ros2.body:WITHOUT_LOSS",
+    "ros2 torques": "robots.ros2.body:TORQUES",
+    "ros2 own law": "robots.ros2.body:OWN_LAW",
 }
-"""The modules of bodies besides simulation; those that are missing are left out."""
+"""Bodies besides simulation, each in a module; those whose packages are missing are left out."""
 
 COMPARE_EVERY = 25
 """After so many ticks the time behind the protocol is compared with that of the cell."""
@@ -139,10 +142,11 @@ def move_kinematically(task: Task) -> Figures:
 
 def find_bodies(names: Sequence[str] = ()) -> Iterator[tuple[str, Body]]:
     """Yield the bodies that there are, by name."""
-    for name, module in BODIES.items():
+    for name, place in BODIES.items():
         if not names or name in names:
+            module, _, body = place.partition(":")
             try:
-                yield name, import_module(module).BODY
+                yield name, getattr(import_module(module), body)
             except ModuleNotFoundError as error:
                 print(f"{name} is left out: {error}")
 

@@ -28,9 +28,9 @@ from franky_sim import SimulationServer
 from franky_sim.franka_robot_server import ControlMode
 from franky_sim.mujoco_simulator import MujocoSimulator
 
-from robots.franka.priority import run_promptly
 from robots.franka.truth import PeersTruth
 from robots.franka.wall import Wall
+from robots.priority import run_promptly
 from robots.truth import serve_truth
 
 KP, KV = (4500.0, 4500.0, 3500.0, 3500.0, 2000.0, 2000.0, 500.0), (450.0, 450.0, 350.0, 350.0, 200.0, 200.0, 50.0)

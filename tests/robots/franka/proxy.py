@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 
 from robots.franka.checker import DQ, EFFORT, Checker, Q, Report
-from robots.franka.priority import run_promptly
+from robots.priority import run_promptly
 
 ROBOT, HAND = 1337, 1338
 HEADERS = {ROBOT: struct.Struct("<III"), HAND: struct.Struct("<HII")}

@@ -1,11 +1,11 @@
-"""An arm behind topics of ROS 2, with messages lost and delayed, as one of the bodies that carry out tasks."""
+"""Arms behind topics of ROS 2, with and without messages lost and delayed, as bodies that carry out tasks."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,16 +24,16 @@ from skillc_runtime.world.state.terms import CONTAIN, SKILLC
 
 RIGID = SetProperty(SKILLC + "ur5e-sheet", SKILLC + "admittance", 0.002)
 """In m/(s N), of an arm that puts rigid things on rigid things by positions that arrive late."""
-CHANNEL = {"loss": 0.02, "jitter_s": 0.004, "seed": 1}
+LOSSY = {"loss": 0.02, "jitter_s": 0.004, "seed": 1}
 
 
-@dataclass(frozen=True, slots=True)
 class Ros2Body:
-    """Implements `Body`; `options` are those of the robot."""
+    """A UR5e, that takes positions; implements `Body`. `options` are those of the robot."""
 
-    options: Mapping[str, Any]
+    def __init__(self, options: Mapping[str, Any]) -> None:
+        self._options = options
 
-    def task(self, name: TaskName, folder: Path) -> Task:
+    def task(self, name: TaskName, folder: Path) -> Task | None:
         """Return what it does: with a whiteboard, a part and a box, or a button."""
         match name:
             case "wipe":
@@ -50,10 +50,25 @@ class Ros2Body:
         """Start a robot, and open its cell."""
         panel = folder / "panel"
         os.environ.update(LOOPBACK)
-        options = {**CHANNEL, **self.options, "library": task.library.name, "panel": str(panel)}
+        options = {**self._options, "library": task.library.name, "panel": str(panel)}
         with robot(task.scene, folder, **options), opened_state(task.state) as cell:
             truth = RemoteTruth(panel, lambda: cell.now)
             yield Opened(cell, truth, truth.violations)
 
 
-BODY = Ros2Body({"rate_hz": 125, "joint_names": IN_ROS})
+class TableBody(Ros2Body):
+    """An iiwa that wipes a table, whose scene `write` writes."""
+
+    def __init__(self, options: Mapping[str, Any], write: Callable[[Path], Path]) -> None:
+        super().__init__(options)
+        self._write = write
+
+    def task(self, name: TaskName, folder: Path) -> Task | None:
+        """Return what it does: it wipes."""
+        return replace(shipped_task("wiping", "clean_table"), scene=self._write(folder)) if name == "wipe" else None
+
+
+POSITIONS = {"rate_hz": 125, "joint_names": IN_ROS}
+BODY, WITHOUT_LOSS = Ros2Body({**POSITIONS, **LOSSY}), Ros2Body(POSITIONS)
+TORQUES = TableBody({"control": "effort", "rate_hz": 500, **LOSSY}, lambda folder: scenes.table(folder, 500.0))
+OWN_LAW = TableBody({"control": "cartesian", "rate_hz": 250, **LOSSY}, scenes.cartesian_table)

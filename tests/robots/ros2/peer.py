@@ -26,6 +26,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, Float64, String
 from std_srvs.srv import Trigger
 
+from robots.priority import run_promptly
 from robots.ros2.channel import Channel, Options, Report
 from robots.ros2.controllers import Arm, Base, Hand
 from robots.ros2.panel import Panel
@@ -213,6 +214,7 @@ def _topic_of(name: str) -> str:
 
 def main() -> None:
     """Be the robot."""
+    run_promptly()
     peer = Peer(Options(**json.loads(sys.argv[1])))
 
     def end(*_: object) -> None:

@@ -89,7 +89,7 @@ def test_joints_tool_and_fingers_move_with_jitter_and_loss(control: str, tmp_pat
             arm, hand = cell.arm(ARM), cell.gripper(HAND)
             assert cell.stops.report is None
             goal = arm.measured.q + np.array([0.2, 0.0, 0.0, 0.0, 0.0, -0.3])
-            arm.motion.move_joints(goal, 0.3)
+            arm.motion.move_joints(goal, 0.15)
             hand.move(0.08, 30.0)
             advance_until(cell, lambda: bool(np.abs(arm.measured.q - goal).max() < 0.01) and not hand.moving)
             assert hand.opening_m == pytest.approx(0.08, abs=0.003)
