@@ -104,3 +104,12 @@ def test_a_simulation_has_no_devices_to_connect_to(command: tuple[str, ...]) -> 
     result = type_in(*command, "--backend", "mujoco")
     assert result.exit_code == 2
     assert "the backend mujoco simulates its devices: there is nothing to connect to" in result.stderr
+
+
+def test_the_scene_of_a_project_has_the_terms_of_its_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert type_in("new", "cell", "--template", "pick-place").exit_code == 0
+    result = type_in("connect", "cell/cell.ttl", "--backend", "kinematic")
+    assert "the backend kinematic simulates its devices" in result.stderr
+    result = type_in("check", "--scene", "cell/cell.ttl", "--connect")
+    assert "nothing declares terms" not in result.stderr

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from skillc.errors import RequestError
 from skillc.services.backends import BackendName, make_backend
-from skillc.services.libraries import load_vocabulary
 from skillc.services.reporting import Reporter
-from skillc.services.stores import load_world
+from skillc.services.scenes import open_scene
+from skillc.services.stores import StoreChoice
 from skillc_runtime.devices.observed import CellObserver
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -20,8 +20,11 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @contextmanager
 def connected_scene(scene: Path, backend: BackendName, reporter: Reporter) -> Iterator[CellObserver]:
-    """Connect to the devices of a scene, in a `with` statement; errors as of `connected_devices`."""
-    with connected_devices(load_world(scene, load_vocabulary(), reporter), backend) as observer:
+    """Connect to the devices of a scene, in a `with` statement; errors as of `connected_devices` and `open_scene`."""
+    with (
+        open_scene(scene, None, StoreChoice(), False, reporter) as opened,
+        connected_devices(opened.state, backend) as observer,
+    ):
         yield observer
 
 

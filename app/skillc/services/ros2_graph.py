@@ -5,24 +5,24 @@ from __future__ import annotations
 from pathlib import Path
 
 from skillc.errors import RequestError, ServiceError
-from skillc.services.libraries import load_vocabulary
 from skillc.services.reporting import Reporter
-from skillc.services.stores import load_world
+from skillc.services.scenes import open_scene
+from skillc.services.stores import StoreChoice
 
 
 def find_contradictions(scene: Path, reporter: Reporter) -> tuple[str, ...]:
     """Return a sentence for each contradiction; nothing is moved.
 
-    RequestError if facts of the scene are missing, ServiceError if there is no ROS 2.
+    RequestError if facts of the scene are missing, ServiceError if there is no ROS 2; errors as of `open_scene`.
     """
     from skillc_runtime.backends.ros2.graph_check import check_graph
     from skillc_runtime.devices.backend import BackendUnavailable
     from skillc_runtime.world.space.frame_tree import FrameError
     from skillc_runtime.world.state.data_sheet import SheetError
 
-    state = load_world(scene, load_vocabulary(), reporter)
     try:
-        return tuple(check_graph(state))
+        with open_scene(scene, None, StoreChoice(), False, reporter) as opened:
+            return tuple(check_graph(opened.state))
     except (SheetError, FrameError) as error:
         raise RequestError(str(error)) from error
     except BackendUnavailable as error:
