@@ -8,6 +8,7 @@ import pytest
 
 from simulation.cells import cell
 from skillc_runtime.backends.control_process.device_arm import DeviceArm, build_arm
+from skillc_runtime.backends.control_process.fingers import find_fingers
 from skillc_runtime.backends.control_process.link import LinkAbilities, StateView, make_state
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.devices.arm import ArmLoad
@@ -39,7 +40,12 @@ def test_it_is_the_arm_of_a_simulation_in_any_posture(scene: str) -> None:
     simulated = cell(scene)
     facts, arm = simulated.scene.arms[0], build(simulated)
     other, rng = simulated.arms[facts.individual], np.random.default_rng(0)
-    for _ in range(5):
+    assert facts.gripper is not None
+    fingers, shares = find_fingers(simulated.model, simulated.scene.names[facts.gripper.individual])
+    for opening_m in (None, 0.0, 0.02, 0.05, 0.02):
+        if opening_m is not None:
+            arm.set_fingers(opening_m)
+            simulated.data.qpos[fingers] = opening_m / shares.sum()
         q, dq = facts.home + rng.uniform(-0.3, 0.3, facts.home.size), rng.uniform(-0.5, 0.5, facts.home.size)
         for each in (arm, other):
             each.set_load(LOAD)

@@ -269,8 +269,8 @@ class ToyGripper:
     def attach(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
         if not self.blocked:
             raise RuntimeError("nothing keeps the fingers from closing")
-        self._arm.hold(thing, in_tool_centre, mass_kg)
         self._thing, self._held_at_m = thing, self.opening_m
+        self._arm.hold(thing, in_tool_centre, mass_kg, self._held_at_m)
 
     def detach(self) -> None:
         if self._thing:

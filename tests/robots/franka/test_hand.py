@@ -27,7 +27,7 @@ class HoldingArm:
     def __init__(self) -> None:
         self.held: list[Any] = []
 
-    def hold(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
+    def hold(self, thing: str, in_tool_centre: Pose, mass_kg: float, opening_m: float) -> None:
         self.held.append((thing, mass_kg))
 
     def set_load(self, load: None) -> None:

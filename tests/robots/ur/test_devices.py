@@ -71,7 +71,7 @@ def test_a_grasp_holds_and_its_loss_is_told(hand: tuple[Fingers, list[object]], 
     assert fingers.blocked
     assert fingers.opening_m == pytest.approx(0.025, abs=0.003)
     fingers.attach(THING, HERE, 0.12)
-    assert (fingers.holding, told) == (THING, [(THING, HERE, 0.12)])
+    assert (fingers.holding, told) == (THING, [(THING, HERE, 0.12, fingers.opening_m)])
     assert fingers.find_fault() is None
     peer.do("block", thing="")
     wait_until(lambda: fingers.holding is None)

@@ -49,12 +49,10 @@ class DeviceArm(ModelledArm):
         self._feels_force = facts.force_torque
         self._gain[:, :6] = np.eye(6)
         self._gravity = np.zeros(model.nv)
+        self._fingers, self._shares = np.zeros(0, dtype=int), np.ones(1)
         if facts.gripper is not None:
-            fingers, shares = find_fingers(model, names[facts.gripper.individual])
-            data.qpos[fingers] = facts.gripper.first_opening_m / shares.sum()
-        self._place()
-        self.hand = self._find_hand(self._gripper_name)
-        self._update_weight()
+            self._fingers, self._shares = find_fingers(model, names[facts.gripper.individual])
+        self.set_fingers(0.0 if facts.gripper is None else facts.gripper.first_opening_m)
 
     @property
     def capabilities(self) -> Capabilities:
@@ -76,6 +74,13 @@ class DeviceArm(ModelledArm):
         """The torques (nv,) in N m that carry arm, hand and load in the measured posture, at rest."""
         torques: Array = self._gravity[self._dofs] + self._carrying
         return torques
+
+    def set_fingers(self, opening_m: float) -> None:
+        """Let the fingers be so far open: where they are shifts the weight of the hand."""
+        self._data.qpos[self._fingers] = opening_m / self._shares.sum()
+        self._place()
+        self.hand = self._find_hand(self._gripper_name)
+        self._update_weight()
 
     def measure(self, measured: StateView, now: float) -> None:
         """Put the joints where they were measured, at `now` s."""

@@ -243,7 +243,9 @@ class ControlLoop:
             self._arm.report(DeviceStop("protective-stop", str(error)))
             raise StopPersists(str(error)) from error
 
-    def _set_load(self, load: ArmLoad | None) -> None:
+    def _set_load(self, load: ArmLoad | None, opening_m: float | None = None) -> None:
+        if opening_m is not None:
+            self._arm.arm.set_fingers(opening_m)
         self._arm.arm.set_load(load)
         self._link.set_load(self._arm.arm.hand, self._arm.arm.held)
 

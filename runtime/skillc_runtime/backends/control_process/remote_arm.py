@@ -116,17 +116,18 @@ class RemoteArmDriver:
         """Give control back; somebody else may move the arm."""
         self.process.call_device("give_back")
 
-    def hold(self, thing: str, in_tool_centre: Pose, mass_kg: float) -> None:
+    def hold(self, thing: str, in_tool_centre: Pose, mass_kg: float, opening_m: float) -> None:
         """Count a thing as held, at a pose in the frame of the empty hand's tool centre point; grippers call this.
 
-        RuntimeError if the scene had no such thing with a size when the cell was opened.
+        opening_m: how far the fingers are open: where they are shifts the weight of the hand. RuntimeError if the scene
+        had no such thing with a size when the cell was opened.
         """
         if thing not in self._things:
             raise RuntimeError(
                 f"{thing.rpartition('#')[2]} cannot be held: it had no body when the cell was opened. A thing to "
                 "handle needs a pose and skiros:SizeX, SizeY and SizeZ in the scene"
             )
-        self.set_load(self._things[thing].load(in_tool_centre, mass_kg))
+        self.process.call_device("set_load", self._things[thing].load(in_tool_centre, mass_kg), opening_m)
         self.held = thing, in_tool_centre
 
     def set_load(self, load: ArmLoad | None) -> None:

@@ -9,8 +9,9 @@ from skillc_runtime.backends.simulation.scene_spec import GripperSpec
 from skillc_runtime.devices.gripper import Gripper, has_closed_further
 from skillc_runtime.motion.pose import Pose
 
-Hold: TypeAlias = Callable[[str, Pose, float], None]
-"""Reports to an arm what its hand holds: IRI, pose in the tool centre point of the empty hand, and mass in kg."""
+Hold: TypeAlias = Callable[[str, Pose, float, float], None]
+"""Reports to an arm what its hand holds: IRI, pose in the tool centre point of the empty hand, mass in kg, and how far
+the fingers are open, in m."""
 
 
 class MeasuredGripper(Gripper):
@@ -40,8 +41,9 @@ class MeasuredGripper(Gripper):
         """Count an object as held; RuntimeError if the fingers are not blocked, or the scene has no body of it."""
         if not self.blocked:
             raise RuntimeError(f"nothing keeps the fingers of {self._name} from closing")
-        self._hold(thing, in_tool_centre, mass_kg)
-        self._held = thing, self.opening_m
+        opening_m = self.opening_m
+        self._hold(thing, in_tool_centre, mass_kg, opening_m)
+        self._held = thing, opening_m
 
     def detach(self) -> None:
         """Count nothing as held."""
