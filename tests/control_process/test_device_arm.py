@@ -72,10 +72,11 @@ def test_what_carries_it_at_rest_is_its_bias_at_rest() -> None:
     np.testing.assert_allclose(arm.weight_torques, at_rest, atol=1e-9)
 
 
-def test_a_wrench_at_the_flange_is_one_at_the_tool_and_without_weight() -> None:
+@pytest.mark.parametrize("kind", ["with-weight", "with-held-weight", "without-weight"])
+def test_a_wrench_at_the_flange_is_one_at_the_tool_and_without_weight(kind: str) -> None:
     simulated = cell(UR5E)
     home, still = simulated.scene.arms[0].home, np.zeros(6)
-    arm = build(simulated, wrench="with-weight")
+    arm = build(simulated, wrench=kind)
     arm.set_load(LOAD)
     arm.measure(read(home, still), 0.0)
     flange, tool = arm.flange_at(home), arm.state().tool
@@ -84,7 +85,8 @@ def test_a_wrench_at_the_flange_is_one_at_the_tool_and_without_weight() -> None:
     felt = np.concatenate(
         [flange.rotation.T @ force, flange.rotation.T @ np.cross(tool.position - flange.position, force)]
     )
-    for mass in (arm.hand, arm.held):
+    has = {"with-weight": (arm.hand, arm.held), "with-held-weight": (arm.held,), "without-weight": ()}
+    for mass in has[kind]:
         weight = mass.mass_kg * flange.rotation.T @ down
         felt += np.concatenate([weight, np.cross(mass.centre, weight)])
     arm.measure(read(home, still, felt), 0.001)

@@ -109,7 +109,7 @@ class DeviceArm(ModelledArm):
     def _feel(self, wrench: Array) -> None:
         """Take a wrench (6,) at the flange, N and N m along its axes, and move it to the tool centre point."""
         force, moment = wrench[:3], wrench[3:]
-        if self._abilities.wrench == "with-weight":
+        if self._abilities.wrench != "without-weight":
             down = (self._sensing.link.rotation @ self._flange.rotation).T @ self._model.opt.gravity
             force, moment = force - self._mass_kg * down, moment - self._moment @ down
         self._readings[:3], self._readings[3:6] = force, moment - self._to_tool @ force
@@ -135,10 +135,10 @@ class DeviceArm(ModelledArm):
         self._update_weight()
 
     def _update_weight(self) -> None:
-        """Compute the mass that the flange carries, in kg, and its first moment (3, 3) in kg m, as a cross product."""
-        carried = (self.hand, self.held)
-        self._mass_kg = sum(each.mass_kg for each in carried)
-        self._moment = sum((each.mass_kg * make_skew(each.centre) for each in carried), np.zeros((3, 3)))
+        """Compute the mass that the wrench has, in kg, and its first moment (3, 3) in kg m, as a cross product."""
+        felt = (self.hand, self.held) if self._abilities.wrench == "with-weight" else (self.held,)
+        self._mass_kg = sum(each.mass_kg for each in felt)
+        self._moment = sum((each.mass_kg * make_skew(each.centre) for each in felt), np.zeros((3, 3)))
 
     def _update_mass_matrix(self) -> None:
         mujoco.mj_crb(self._model, self._data)

@@ -47,8 +47,8 @@ CommandKind: TypeAlias = Literal["nothing", "torque", "position", "velocity", "t
 KINDS: Final[tuple[CommandKind, ...]] = ("nothing", "torque", "position", "velocity", "tool")
 """The kinds of commands; the number of a kind is its place."""
 
-WrenchKind: TypeAlias = Literal["none", "with-weight", "without-weight"]
-"""Which wrench a device measures: none, or one with or without the weight of hand and load."""
+WrenchKind: TypeAlias = Literal["none", "with-weight", "with-held-weight", "without-weight"]
+"""Which wrench a device measures: none; with the weight of hand and load, of the load alone, or of neither."""
 
 
 class LinkLost(Exception):

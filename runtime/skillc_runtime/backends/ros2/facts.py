@@ -38,7 +38,7 @@ class WrenchTopic:
     """The topic of a force-torque sensor.
 
     in_base: along the axes of the base, not those of the flange. sign: -1 for what the robot exerts. has_weight: with
-    the weight of hand and load.
+    the weight of the hand; that of what it holds is in any wrench.
     """
 
     topic: str

@@ -90,7 +90,7 @@ class Ros2Link:
         wrench = self._facts.wrench
         if wrench is None:
             return "none"
-        return "with-weight" if wrench.has_weight else "without-weight"
+        return "with-weight" if wrench.has_weight else "with-held-weight"
 
     @property
     def condition(self) -> Condition:
