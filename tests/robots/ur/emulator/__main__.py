@@ -33,7 +33,8 @@ async def run(host: str, controller: Controller, patience_s: float) -> None:
     """Serve all ports, and let the cycles of the controller pass by the wall clock.
 
     While a client moves the arm, each cycle waits up to `patience_s` for its next command, which no real controller
-    does: so that a busy machine is late for nothing.
+    does: so that a busy machine is late for nothing. After a client was silent for that long, time passes again, so
+    that the watchdog of its program expires.
     """
     rtde = RtdePort(controller.settings.version, controller.take)
     await rtde.serve(host)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from contextlib import suppress
 from dataclasses import dataclass, field
 from math import inf
 
@@ -71,7 +70,7 @@ class Controller:
         self.zero, self.cycles, self.why, self.stopped_at = np.zeros(6), 0, "", -1e9
         self.loaded: list[str] = []
         self._starting_at = inf
-        self.wrench, self._heard = np.zeros(6), asyncio.Event()
+        self.wrench, self._heard, self._is_client_silent = np.zeros(6), asyncio.Event(), False
 
     @property
     def now(self) -> float:
@@ -100,13 +99,16 @@ class Controller:
 
     @property
     def is_commanded(self) -> bool:
-        """Whether a client moves the arm, command by command."""
-        return self.runtime == Runtime.PLAYING and isinstance(self.motion.job, Servo | Speed)
+        """Whether a client moves the arm, command by command, and has not been silent since it was waited for."""
+        moves = self.runtime == Runtime.PLAYING and isinstance(self.motion.job, Servo | Speed)
+        return moves and not self._is_client_silent
 
     async def wait_for_command(self, seconds: float) -> None:
-        """Wait until the program hears of its client again."""
-        with suppress(TimeoutError):
+        """Wait until the program hears of its client again; one that stays silent is not waited for once more."""
+        try:
             await asyncio.wait_for(self._heard.wait(), seconds)
+        except TimeoutError:
+            self._is_client_silent = True
 
     def take(self, fields: dict[str, Value]) -> None:
         """Take the fields of a package of inputs."""
@@ -114,6 +116,7 @@ class Controller:
         self.heard_at |= dict.fromkeys(fields, self.now)
         if "input_int_register_0" in fields:
             self._heard.set()
+            self._is_client_silent = False
         if fields.get("speed_slider_mask"):
             self.slider = min(max(float(fields["speed_slider_fraction"]), 0.0), 1.0)
         for name, first in (("standard", 0), ("configurable", 8), ("tool", 16)):
