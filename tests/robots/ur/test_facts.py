@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 
 import pytest
 
@@ -12,14 +13,16 @@ from skillc.world import load_scene, load_vocabulary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.devices.gripper_facts import open_gripper
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
+from skillc_runtime.backends.ur.cell import open_arms
 from skillc_runtime.backends.ur.conditions import read_condition
 from skillc_runtime.backends.ur.description import UrDescription
 from skillc_runtime.backends.ur.facts import UrFacts, read_facts
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.devices.backend import BackendUnavailable
-from skillc_runtime.world.state.changes import Change, SetProperty
+from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError
-from skillc_runtime.world.state.terms import DRIVER_ADDRESS, GRIPPER_PROTOCOL, SKILLC, UR
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import DRIVER_ADDRESS, GRIPPER_PROTOCOL, HAS_SHEET, SKILLC, UR
 from skillc_runtime.world.state.world_state import WorldState
 
 THERE = SetProperty(ARM, DRIVER_ADDRESS, "192.168.1.2")
@@ -31,8 +34,7 @@ def scene(changes: Sequence[Change]) -> tuple[WorldState, ArmSpec]:
 
 
 def facts(*changes: Change) -> UrFacts:
-    state, arm = scene(changes)
-    return read_facts(state, arm.individual, arm.sheet, arm.modes)
+    return read_facts(*scene(changes))
 
 
 def test_what_the_arm_states_comes_before_its_sheet_and_this_before_defaults() -> None:
@@ -45,7 +47,19 @@ def test_what_the_arm_states_comes_before_its_sheet_and_this_before_defaults() -
 def test_an_arm_that_takes_joint_torques_is_refused_before_anything_is_connected(beside: tuple[Mode, ...]) -> None:
     state, arm = scene([THERE])
     with pytest.raises(SheetError, match=r"lab:Ur5e-1 is a skillc:TorqueC.*sends no joint torques.*must be a"):
-        read_facts(state, arm.individual, arm.sheet, ("torque", *beside))
+        read_facts(state, replace(arm, modes=("torque", *beside)))
+
+
+def test_an_arm_with_the_sheet_of_another_one_is_refused_before_anything_is_connected() -> None:
+    """Its servos are stated, as on the sheet of an arm of one's own; nobody is at the address."""
+    ours, other = SKILLC + "ur5e-sheet", SKILLC + "iiwa14-sheet"
+    changes = [RemoveRelation(ARM, HAS_SHEET, ours), AddRelation(ARM, HAS_SHEET, other)]
+    servos = [SetProperty(other, SKILLC + name, 1e3) for name in ("servoStiffness", "servoDamping")]
+    state, _ = scene([THERE, *changes, *servos, SetProperty(other, SKILLC + "admittance", 0.01)])
+    with pytest.raises(
+        SheetError, match=r"lab:Ur5e-1 has 7 joints by skillc:iiwa14-sheet, an arm of .* has 6: is that"
+    ):
+        open_arms(WorldModel(state))
 
 
 def test_an_arm_without_address_is_refused_with_what_to_write() -> None:

@@ -43,7 +43,7 @@ def open_arms(
     state = world.snapshot()
 
     def describe(facts: ArmSpec) -> UrDescription:
-        return UrDescription(read_facts(state, facts.individual, facts.sheet, facts.modes))
+        return UrDescription(read_facts(state, facts))
 
     def make_devices(scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
         return replace(_open_devices(state, scene, arms, observed), inspection=inspection)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Final
 
-from skillc_runtime.devices.arm import Mode
-from skillc_runtime.world.state.data_sheet import DataSheet, SheetError, number_of, text_of
+from skillc_rdf.vocabulary.types import Vocabulary
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
+from skillc_runtime.world.state.data_sheet import SheetError, number_of, text_of
 from skillc_runtime.world.state.terms import (
     DRIVER_ADDRESS,
     POSITION_CONTROLLED_ARM,
@@ -16,6 +18,9 @@ from skillc_runtime.world.state.terms import (
     VELOCITY_CONTROLLED_ARM,
 )
 from skillc_runtime.world.state.world_state import WorldState
+
+JOINTS: Final = 6
+"""Of every arm of Universal Robots."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,38 +62,49 @@ class UrFacts:
         return f"{self.arm} at {self.address}"
 
 
-def read_facts(state: WorldState, arm: str, sheet: DataSheet, modes: tuple[Mode, ...]) -> UrFacts:
-    """Read the facts of an arm, by IRI; what it does not state its data sheet may.
+def read_facts(state: WorldState, arm: ArmSpec) -> UrFacts:
+    """Read the facts of an arm; what it does not state its data sheet may.
 
-    SheetError without address, or if the arm takes joint torques: an arm under a law of torques has run away.
+    SheetError without address, if it has another number of joints, or if it takes joint torques.
     """
-    if "torque" in modes:
-        short = state.vocabulary.short
-        raise SheetError(
-            f"{short(arm)} is a {short(TORQUE_CONTROLLED_ARM)}, and the back end `ur` sends no joint torques: an "
-            f"emulated arm ran away under them. Its class must be a {short(POSITION_CONTROLLED_ARM)} or a "
-            f"{short(VELOCITY_CONTROLLED_ARM)}"
-        )
+    _check_kind(arm, state.vocabulary)
+    individual, sheet = arm.individual, arm.sheet
 
     def number(name: str, default: float) -> float:
-        return _number(state, arm, sheet, UR + name, default)
+        return number_of(state, individual, name, number_of(state, sheet.individual, name, default))
 
     return UrFacts(
-        arm=state.vocabulary.short(arm),
-        address=read_address(state, arm),
+        arm=state.vocabulary.short(individual),
+        address=read_address(state, individual),
         servo=ServoFacts(
-            gain=number("servoGain", 300.0),
-            lookahead_s=number("lookaheadTime", 0.1),
-            acceleration_rad_s2=number("jointAcceleration", 10.0),
-            stop_rad_s2=number("stopDeceleration", 10.0),
+            gain=number(UR + "servoGain", 300.0),
+            lookahead_s=number(UR + "lookaheadTime", 0.1),
+            acceleration_rad_s2=number(UR + "jointAcceleration", 10.0),
+            stop_rad_s2=number(UR + "stopDeceleration", 10.0),
         ),
-        silence_s=_number(state, arm, sheet, STATE_TIMEOUT, 0.1),
-        command_timeout_s=number("commandTimeout", 0.1),
+        silence_s=number(STATE_TIMEOUT, 0.1),
+        command_timeout_s=number(UR + "commandTimeout", 0.1),
         model=sheet.model,
-        tolerance_m=number("flangeTolerance", 0.005),
-        tolerance_rad=number("flangeAngleTolerance", 0.02),
-        offset_n=number("offsetForce", 8.0),
+        tolerance_m=number(UR + "flangeTolerance", 0.005),
+        tolerance_rad=number(UR + "flangeAngleTolerance", 0.02),
+        offset_n=number(UR + "offsetForce", 8.0),
     )
+
+
+def _check_kind(arm: ArmSpec, vocabulary: Vocabulary) -> None:
+    """Raise SheetError for an arm that no controller of Universal Robots moves, or not as it is to be moved."""
+    short = vocabulary.short
+    if arm.home.size != JOINTS:
+        raise SheetError(
+            f"{short(arm.individual)} has {arm.home.size} joints by {short(arm.sheet.individual)}, an arm of Universal "
+            f"Robots has {JOINTS}: is that the data sheet of another arm?"
+        )
+    if "torque" in arm.modes:
+        raise SheetError(
+            f"{short(arm.individual)} is a {short(TORQUE_CONTROLLED_ARM)}, and the back end `ur` sends no joint "
+            f"torques: an emulated arm ran away under them. Its class must be a {short(POSITION_CONTROLLED_ARM)} or a "
+            f"{short(VELOCITY_CONTROLLED_ARM)}"
+        )
 
 
 def read_address(state: WorldState, device: str) -> str:
@@ -100,8 +116,3 @@ def read_address(state: WorldState, device: str) -> str:
             f'{short(DRIVER_ADDRESS)} "192.168.1.2", with its own address, at {short(device)} in the scene'
         )
     return text_of(state, device, DRIVER_ADDRESS)
-
-
-def _number(state: WorldState, arm: str, sheet: DataSheet, property_: str, default: float) -> float:
-    """Return a number of an arm, or else of its data sheet."""
-    return number_of(state, arm, property_, number_of(state, sheet.individual, property_, default))

@@ -9,25 +9,19 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.motion.arrays import OutVector, Vector
-from skillc_runtime.world.state.data_sheet import SheetError
 
 TURN = np.array([-1.0, -1.0, 1.0])
 """The controller's base is turned by pi about z beside `base_link`: x and y change their signs."""
 
-JOINTS, TINY = 6, 1e-12
+TINY = 1e-12
 
 
 class FlangeModel:
     """The kinematics of one arm; q (nv,) in rad in the order of its joints."""
 
     def __init__(self, model: Path) -> None:
-        """Load an MJCF file with a site `flange`; SheetError if it has another number of joints."""
+        """Load an MJCF file with a site `flange`."""
         self._model = mujoco.MjModel.from_xml_path(str(model))
-        if self._model.nv != JOINTS:
-            raise SheetError(
-                f"{model.name} has {self._model.nv} joints, an arm of Universal Robots has {JOINTS}: is the data "
-                "sheet of the arm that of another one?"
-            )
         self._data = mujoco.MjData(self._model)
         self._site = self._model.site("flange").id
         self._rotation = self._data.site_xmat[self._site].reshape(3, 3)
