@@ -172,8 +172,6 @@ def test_what_takes_the_arm_in_motion_is_named_until_it_is_over(
     peer.do(what, **words)
     assert says in await_fault(cell)
     wait_until(lambda: np.abs(peer.tell()["dq"]).max() < 1e-3)
-    if what == "program":
-        wait_until(lambda: peer.tell()["runtime"] == "PLAYING")
     with pytest.raises(StopPersists, match=persists):
         cell.stops.clear()
     assert (peer.tell()["runtime"] == "PLAYING") == (what == "program"), "the program of somebody else goes on"

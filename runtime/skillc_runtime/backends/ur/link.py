@@ -32,6 +32,10 @@ from skillc_runtime.devices.backend import StopPersists
 RELEASE_S = 1.0
 """How long the release of a stop, and the end of a program, may take."""
 
+LOOK_S = 0.2
+"""So long it is watched, before control is taken, whether somebody else has just started a program: a controller says
+that it executes one only once it has prepared it. Nobody has published how long that takes."""
+
 E_SERIES = 5
 """The first version of PolyScope of the e-Series, which has a force-torque sensor and 500 Hz."""
 
@@ -102,6 +106,7 @@ class UrLink(RobotLink):
         if mode != "position" and mode != "velocity":
             raise ControlRefused(f"{self._name} takes positions and speeds of its joints, and no {mode} commands")
         self.give_back()
+        self._connected.await_program(LOOK_S)
         self._update_condition()
         if self._condition.kind != "ready":
             raise ControlRefused(self._condition.sentence)
@@ -128,7 +133,8 @@ class UrLink(RobotLink):
         program.end(mode)
         self._leaving.leave(program.connection)
         states = self._connected
-        states.await_that(lambda: not states.executes, RELEASE_S)
+        if not program.has_ended:
+            states.await_that(lambda: not states.executes, RELEASE_S)
         self._update_condition()
 
     def recover(self) -> None:

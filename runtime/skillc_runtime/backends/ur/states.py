@@ -100,6 +100,11 @@ class UrStates:
             sleep(SLOW_LOOK_S)
         return held
 
+    def await_program(self, seconds: float) -> None:
+        """Wait until the controller executes a program, or until so many s of its own time have passed."""
+        until = self.connection.getTimestamp() + seconds
+        self.await_that(lambda: self.executes or self.connection.getTimestamp() > until, 2.0 * seconds)
+
     def await_next(self) -> None:
         """Wait for the next state; LinkLost if none comes."""
         receive, silence_s = self.connection, self._facts.silence_s
