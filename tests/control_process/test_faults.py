@@ -29,6 +29,7 @@ pytestmark = pytest.mark.robot
 SCENE = "iiwa_table"
 DEADLINE_S = 60.0
 """Wall time after which a test gives up."""
+SWING_M_S = 0.03
 
 
 class SharedCell:
@@ -93,10 +94,16 @@ def swing(cell: DeviceCell) -> ArmDriver:
     start = arm.motion.stopping_pose()
     way = -0.2 if start.position[1] > 0.0 else 0.2
     goal = Pose(start.position + np.array([0.0, way, 0.0]), start.rotation)
-    arm.motion.move_along(path_through([start, goal], MotionLimits(speed=0.03, acceleration=0.5)))
+    arm.motion.move_along(path_through([start, goal], MotionLimits(speed=SWING_M_S, acceleration=0.5)))
     wait_until(lambda: float(np.linalg.norm(arm.measured.velocity[:3])) > 0.02 or cell.stops.report is not None)
     assert cell.stops.report is None
     return arm
+
+
+def how_fast(arm: ArmDriver) -> float:
+    """Return how fast the tool is commanded to move, in m/s, once that is steady."""
+    time.sleep(0.3)
+    return float(np.linalg.norm(arm.motion.reference.twist[:3]))
 
 
 def remote(cell: DeviceCell) -> RemoteArmDriver:
@@ -230,7 +237,7 @@ def test_a_stop_of_the_robot_is_one_of_the_cell(both: tuple[Toy, DeviceCell], ki
 
 def test_somebody_else_takes_control(both: tuple[Toy, DeviceCell]) -> None:
     toy, cell = both
-    swing(cell)
+    swing(cell).set_speed(0.8)
     toy.ask("condition", "not-in-control")
     assert "the panel of the toy has control" in told(cell)
     with pytest.raises(StopPersists, match="press Release"):
@@ -238,7 +245,9 @@ def test_somebody_else_takes_control(both: tuple[Toy, DeviceCell]) -> None:
     toy.ask("condition", "ready")
     wait_until(lambda: is_still(toy))
     cell.stops.clear()
-    swing(cell)
+    arm = swing(cell)
+    assert how_fast(arm) == pytest.approx(0.8 * SWING_M_S, rel=0.02), "it has its share of the speeds still"
+    arm.set_speed(1.0)
 
 
 def test_a_control_process_that_is_killed_is_named(both: tuple[Toy, DeviceCell]) -> None:

@@ -157,6 +157,25 @@ def test_a_skill_switches_an_output_and_waits_for_an_input(
     assert cell.world.snapshot().value(BARRIER, LEVEL) == 1.0
 
 
+def test_a_speed_slider_slows_a_motion_and_lets_it_go_on(cell: DeviceCell, peer: Peer) -> None:
+    """At 0 the arm all but stands still, and what is commanded does not run away from it."""
+    begin_to_move(cell, peer)
+    arm = cell.arm(ARM)
+
+    def speed() -> float:
+        cell.watchdog.beat("test", cell.now)
+        return float(np.linalg.norm(arm.motion.reference.twist[:3]))
+
+    wait_until(lambda: speed() > 0.045)
+    for share in (0.2, 0.0):
+        peer.do("slider", share=share)
+        wait_until(lambda most=0.055 * share + 0.001: speed() < most)  # type: ignore[misc]
+    peer.do("slider", share=1.0)
+    wait_until(lambda: speed() > 0.045)
+    assert arm.motion.tracking_error_message is None
+    assert peer.tell()["violations"] == []
+
+
 @pytest.mark.parametrize(
     ("what", "words", "says", "persists", "cure"),
     [

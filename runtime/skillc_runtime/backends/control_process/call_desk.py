@@ -28,6 +28,8 @@ class CallDesk:
                 return self._start_push(*call.arguments)
             case "end_push" | "withdraw":
                 return self._call_part(call, (self._arm.pushes[call.arguments[0]],))
+            case "set_speed":
+                return self._arm.set_speed(*call.arguments)
             case "push_force":
                 return self._find_force(*call.arguments)
             case _:

@@ -29,6 +29,9 @@ from skillc_runtime.control.measured import is_still
 from skillc_runtime.devices.backend import DeviceStop
 from skillc_runtime.motion.pose import Pose
 
+LEAST_SPEED = 1e-3
+"""The share of their speeds that motions have at least: a speed slider may stand at 0."""
+
 AT_BASE = Pose(np.zeros(3), np.eye(3))
 
 
@@ -48,6 +51,7 @@ class ControlledArm:
         self._limits = CommandLimits(self.arm.limits, read_rate_limits(facts), period_s, read_margins(facts))
         self._out = make_command(facts.home.size)
         self.driver = CompliantArmDriver(self._setup)
+        self._speed = self._slider = 1.0
         self.stop: DeviceStop | None = None
         self.pushes: dict[int, ActivePush] = {}
 
@@ -70,12 +74,16 @@ class ControlledArm:
             raise ControlRefused(f"the tool is {outside_mm:.0f} mm outside the arm's workspace; move the arm by hand")
         fault, self.driver = self.driver.fault, driver
         self.driver.fault = fault
+        self.set_speed(self._speed)
         self._limits.begin(self.mode, measured.target, state.bias)
 
     def step(self, measured: StateView, now: float) -> CommandView:
         """Run a control period; return the command, in an array that is used again."""
         self.arm.measure(measured, now)
         self._check_joints(measured)
+        if self._slider != measured.speed_share[0]:
+            self._slider = float(measured.speed_share[0])
+            self.set_speed(self._speed)
         with suppress(ControlError):  # The driver has commanded the arm to hold then, and `broken` says why.
             self.driver.step(now)
         self._report_driver()
@@ -97,6 +105,14 @@ class ControlledArm:
         if self._carries_weight and self.mode == "torque":
             out.values[:] -= self.arm.weight_torques
         return out
+
+    def set_speed(self, share: float) -> None:
+        """Let motions have this share of their speeds, now and after control is taken again.
+
+        The share that a speed slider of the device lets pass is taken of that, so that what is commanded stays near.
+        """
+        self._speed = share
+        self.driver.set_speed(max(share * self._slider, LEAST_SPEED))
 
     def look(self, measured: StateView, now: float) -> None:
         """Take a measurement without control."""

@@ -101,7 +101,8 @@ class StateView:
     Written by `RobotLink.read`; all entries are NaN before the first one.
 
     stamp_s (1,): when it was measured, in s of the device's clock; unchanged where no new state has arrived.
-    speed_share (1,): at which share of the commanded speeds the device moves, by a speed slider; 1 without.
+    speed_share (1,): at which share of the commanded speeds the device moves, by a speed slider; 1 without. Motions are
+    commanded with that share.
     q, dq (nv,): rad and rad/s. target (nv,): where the device's own servos want the joints, rad; q if it has none.
     effort (nv,): torques of the motors, with weight, in N m; zeros if it measures none.
     wrench (6,): of the environment on the hand, at the origin and along the axes of the flange, [N; N m]; zeros
