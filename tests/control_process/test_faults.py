@@ -250,8 +250,11 @@ def test_somebody_else_takes_control(both: tuple[Toy, DeviceCell]) -> None:
     arm.set_speed(1.0)
 
 
-def test_a_control_process_that_is_killed_is_named(both: tuple[Toy, DeviceCell]) -> None:
+def test_a_control_process_that_is_killed_is_named_and_another_one_goes_on_once_that_is_acknowledged(
+    both: tuple[Toy, DeviceCell],
+) -> None:
     toy, cell = both
+    cell.arm(ARM[SCENE]).set_speed(0.8)
     swing(cell)
     remote(cell).process.process.kill()
     assert "the control process of lab:Iiwa-1 has ended by signal 9" in told(cell)
@@ -259,6 +262,9 @@ def test_a_control_process_that_is_killed_is_named(both: tuple[Toy, DeviceCell])
     assert cell.is_at_rest()
     with pytest.raises(BackendBroken, match="has ended by signal 9"):
         cell.arm(ARM[SCENE]).motion.stopping_pose()
+    cell.stops.clear()
+    assert how_fast(swing(cell)) == pytest.approx(0.8 * SWING_M_S, rel=0.02), "it has its share of the speeds"
+    cell.arm(ARM[SCENE]).set_speed(1.0)
 
 
 TREE = """

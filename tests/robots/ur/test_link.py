@@ -186,7 +186,7 @@ def test_a_slow_speed_slider_is_told(peer: Peer) -> None:
         peer.do("slider", share=1.0)
 
 
-def test_silence_is_noticed_and_the_connection_comes_back(peer: Peer) -> None:
+def test_silence_is_noticed_and_the_program_ends(peer: Peer) -> None:
     with connected(peer) as loop:
         loop.link.take_control("position")
         start = loop.state.q.copy()
@@ -195,9 +195,6 @@ def test_silence_is_noticed_and_the_connection_comes_back(peer: Peer) -> None:
         with peer.paused(), pytest.raises(LinkLost, match=r"Ur5e-1 at .* has sent no state for 500 ms"):
             loop.run(1000, lambda cycle, state: wanted(100 + cycle, state))
         wait_until(lambda: peer.tell()["runtime"] == "STOPPED")
-        loop.link.connect()
-        loop.run(20)
-        assert loop.link.condition.kind == "ready"
 
 
 @contextmanager

@@ -12,6 +12,8 @@ from threading import Event, RLock, Thread
 from time import monotonic
 from typing import Any
 
+import numpy as np
+
 from skillc_runtime.backends.control_process.calls import Part, RemoteAnswer, RemoteCall
 from skillc_runtime.backends.control_process.handshake import Connected, ControlTask
 from skillc_runtime.backends.control_process.link import CALL_S
@@ -20,6 +22,7 @@ from skillc_runtime.backends.control_process.message_socket import MessageSocket
 from skillc_runtime.backends.control_process.shared_memory import SharedRecord, SharedRing, make_memory, map_memory
 from skillc_runtime.backends.control_process.snapshot import FieldLayout, Snapshot
 from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable
+from skillc_runtime.motion.arrays import OutVector
 from skillc_runtime.platforms.processes import INHERITS_SOCKETS
 
 START_S = 300.0
@@ -46,23 +49,17 @@ class ControlProcess:
         if not INHERITS_SOCKETS:
             raise BackendUnavailable("robots are controlled by processes that share memory, on Linux and macOS only")
         self.name, self._numbers, self._turn = task.names[task.facts.individual], count(1), RLock()
-        plan = MemoryPlan(task.facts.home.size)
-        self._plan, file = plan, make_memory(plan.size)
-        ours, theirs = socket.socketpair()
-        with theirs:
-            os.set_inheritable(theirs.fileno(), True)
-            self.process = _start(theirs.fileno(), file)
-        memory = map_memory(file)
-        self._beat, self._record = plan.beat(memory), SharedRecord(plan.record(memory))
-        self.ring = SharedRing(plan.ring(memory), plan.row.size)
-        self._socket = MessageSocket(ours)
+        self._task, self._plan = task, MemoryPlan(task.facts.home.size)
         self._broken: str | None = None
         self._closing = Event()
-        self._beat[0] = monotonic()
         self._thread = Thread(target=self._keep_beating, name=f"beat {self.name}", daemon=True)
+        self._beat: OutVector = np.zeros(1)
         self._thread.start()
-        self.connected = self._introduce(task)
-        self._patience_s = max(task.patience.process_s, self.connected.abilities.silence_s + BEAT_S)
+        try:
+            self._begin()
+        except BaseException:
+            self.close()
+            raise
 
     @property
     def row(self) -> FieldLayout:
@@ -111,6 +108,29 @@ class ControlProcess:
         silent_s = monotonic() - max(snapshot.number("time_s"), snapshot.number("busy_until_s"))
         return f"{self._who} has not run for {silent_s:.2f} s" if silent_s > self._patience_s else None
 
+    @property
+    def needs_restart(self) -> bool:
+        """Whether only another process can go on: this one has ended, or its link cannot connect to a lost device."""
+        if self._closing.is_set():
+            return False
+        return self.process.poll() is not None or (
+            self.read().phase == "lost" and not self.connected.abilities.reconnects
+        )
+
+    def restart(self) -> None:
+        """Put another process in the place of this one, which knows no load; it has no control yet. As `__init__`."""
+        with self._turn:
+            self._broken = f"{self._who} is being started again"
+            self._socket.close()
+            self.process.kill()
+            self.process.wait()  # wait ends: it is killed
+            try:
+                self._begin()
+            except Exception as error:
+                self._broken = str(error)
+                raise
+            self._broken = None
+
     def close(self) -> None:
         """Let it stop its arm, give the device back, and end; end it if it does not."""
         self._broken = self._broken or f"{self._who} is closed"
@@ -128,21 +148,32 @@ class ControlProcess:
     def _who(self) -> str:
         return f"the control process of {self.name}"
 
-    def _introduce(self, task: ControlTask) -> Connected:
+    def _begin(self) -> None:
+        """Start a process with a memory of its own, and wait until it is connected to its device."""
+        plan, file = self._plan, make_memory(self._plan.size)
+        ours, theirs = socket.socketpair()
+        with theirs:
+            os.set_inheritable(theirs.fileno(), True)
+            self.process = _start(theirs.fileno(), file)
+        memory = map_memory(file)
+        self._socket, self._beat = MessageSocket(ours), plan.beat(memory)
+        self._beat[0] = monotonic()
+        self.connected = self._introduce()
+        self._record, self.ring = SharedRecord(plan.record(memory)), SharedRing(plan.ring(memory), plan.row.size)
+        self._patience_s = max(self._task.patience.process_s, self.connected.abilities.silence_s + BEAT_S)
+
+    def _introduce(self) -> Connected:
+        device = self._task.description.name
         try:
             self._socket.send(list(sys.path))
-            self._socket.send(task)
+            self._socket.send(self._task)
             answer = self._socket.receive(START_S)
         except TimeoutError as error:
             self.process.kill()
-            self.close()
-            late = f"{self._who} has not connected to {task.description.name} in {START_S:g} s"
-            raise BackendUnavailable(late) from error
+            raise BackendUnavailable(f"{self._who} has not connected to {device} in {START_S:g} s") from error
         except (EOFError, OSError) as error:
-            self.close()
-            raise BackendUnavailable(f"{self._who} has ended while it connected to {task.description.name}") from error
+            raise BackendUnavailable(f"{self._who} has ended while it connected to {device}") from error
         if isinstance(answer, Exception):
-            self.close()
             raise answer
         connected: Connected = answer
         return connected

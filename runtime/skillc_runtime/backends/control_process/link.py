@@ -75,7 +75,8 @@ class LinkAbilities:
     is measured. carries_weight: whether the device adds the torques against gravity of arm, hand and load itself, so
     that torque commands are without them; Coriolis torques are always commanded. tares: whether `tare` of the link is
     to be called; otherwise the control process subtracts the offset. silence_s: after which time without a new state
-    `read` raises LinkLost.
+    `read` raises LinkLost. reconnects: whether `connect` may be called again after that; otherwise the connection is
+    made anew by another process.
     """
 
     modes: tuple[LinkMode, ...]
@@ -84,6 +85,7 @@ class LinkAbilities:
     carries_weight: bool = False
     tares: bool = False
     silence_s: float = 0.1
+    reconnects: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,7 +177,7 @@ class RobotLink(Protocol):
         ...
 
     def connect(self) -> None:
-        """Connect, or connect again after LinkLost, without taking control; nothing moves.
+        """Connect, or connect again after LinkLost if the link `reconnects`, without taking control; nothing moves.
 
         BackendUnavailable, with what does not answer and what to do: the address, the port, the mode of the device.
         """

@@ -17,7 +17,7 @@ from skillc_runtime.control.gains import read_gains
 from skillc_runtime.control.kinematics import Kinematics
 from skillc_runtime.control.virtual_arm import load_virtual_model
 from skillc_runtime.devices.arm import ArmLimits, ArmLoad
-from skillc_runtime.devices.backend import BackendBroken, DeviceStop, StopPersists
+from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable, DeviceStop, StopPersists
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.terms import JERK_LIMIT
@@ -44,6 +44,7 @@ class RemoteArmDriver:
         self.compliance = RemoteCompliance(process, base)
         self._individual, self._speed = facts.individual, 1.0
         self._reason: str | None = None
+        self._load: ArmLoad | None = None
         self.held: tuple[str, Pose] | None = None
 
     @property
@@ -104,8 +105,10 @@ class RemoteArmDriver:
     def recover(self) -> None:
         """Acknowledge a stop and take control again; StopPersists, with what somebody has to do."""
         try:
+            if self.process.needs_restart:
+                self._start_again()
             self.process.call_device("recover")
-        except BackendBroken as error:
+        except (BackendBroken, BackendUnavailable) as error:
             raise StopPersists(str(error)) from error
 
     def take_control(self) -> None:
@@ -133,7 +136,7 @@ class RemoteArmDriver:
     def set_load(self, load: ArmLoad | None) -> None:
         """Count this as held from now on, for the arm's model and for the device; None for the empty hand."""
         self.process.call_device("set_load", load)
-        self.held = None
+        self._load, self.held = load, None
 
     def tare(self) -> None:
         """Let the wrench that is measured now be 0, while nothing touches the tool; NotOffered."""
@@ -142,3 +145,9 @@ class RemoteArmDriver:
     def close(self) -> None:
         """Stop the arm, give it back, and end the process."""
         self.process.close()
+
+    def _start_again(self) -> None:
+        """Put another process in the place of the one that has ended, and tell it what this one knew."""
+        self.process.restart()
+        self.process.call_device("set_load", self._load)
+        self.process.call("driver", "set_speed", self._speed)

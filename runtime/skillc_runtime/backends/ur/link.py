@@ -1,8 +1,8 @@
 """The link to one arm of Universal Robots: its controller clocks the loop at 500 Hz, or at 125 Hz before the e-Series.
 
-The client library connects again by itself, inside its calls and in its own threads, and may crash meanwhile. Therefore
-no command is sent to a controller that is silent or gone, connections that were lost are left to a thread that nobody
-waits for, and the program that obeys commands is uploaded by `take_control` alone: the library would upload it again.
+The client library connects again by itself after 2.5 s of silence, in a thread of its own; then in two threads, again
+and again, until it crashes. Therefore no command is sent to a controller that is silent or gone, and a connection that
+was lost is made anew in another process. The program that obeys commands is uploaded by `take_control` alone.
 """
 
 from __future__ import annotations
@@ -69,16 +69,14 @@ class UrLink(RobotLink):
             carries_weight=True,
             tares=self._version[0] >= E_SERIES,
             silence_s=self._facts.silence_s,
+            reconnects=False,
         )
 
     def connect(self) -> None:
         """Connect to the dashboard server and to the exchange; BackendUnavailable, with what to do."""
-        self._drop()
         with Dashboard(self._name, self._facts.address) as dashboard:
             self._version = dashboard.version
         self._states = UrStates(self._facts, self.period_s)
-        self._is_tared = False
-        self._offset[:] = 0.0
         self._update_condition()
 
     def read(self, state: StateView) -> None:
@@ -171,7 +169,10 @@ class UrLink(RobotLink):
         """Give control back and disconnect."""
         with suppress(Exception):
             self.give_back()
-        self._drop()
+        for each in (self._program, self._states):
+            if each is not None:
+                self._leaving.leave(each.connection)
+        self._program = self._states = self._mode = None
         self._leaving.wait(CLOSE_S)
         self._condition = Condition("wrong-mode", f"{self._name} is not connected")
 
@@ -200,13 +201,6 @@ class UrLink(RobotLink):
             raise ControlRefused(problem)
         self._offset[:] = program.tare()
         self._is_tared = True
-
-    def _drop(self) -> None:
-        """Leave all connections."""
-        for each in (self._program, self._states):
-            if each is not None:
-                self._leaving.leave(each.connection)
-        self._program = self._states = self._mode = None
 
 
 def _together(one: PointMass, other: PointMass) -> PointMass:
