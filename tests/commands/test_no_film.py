@@ -12,6 +12,7 @@ from skillc.cli.main import skillc
 
 WANTED = (
     (("--gif",), "--gif writes a film"),
+    (("--film-quality", "fine"), "--film-quality applies to the film"),
     (("--looks", "menagerie"), "--looks menagerie applies to films and stills"),
 )
 

@@ -21,7 +21,7 @@ from operating.monitors import Monitor
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import load_task
-from skillc_runtime.film.film import FILM
+from skillc_runtime.film.footage import FILM
 from skillc_runtime.film.picture_files import LOOP_EVERY, LoopPictures
 from skillc_runtime.film.rendering import Picture
 from skillc_runtime.recording.run_spec import RunSpec

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,14 +17,16 @@ from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.model_builder import build_model
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
 from skillc_runtime.backends.simulation.variation import Variation, exact_variation
+from skillc_runtime.film.annotations import Annotations
 from skillc_runtime.film.camera import CameraView, Projection, frame_points
 from skillc_runtime.film.captions import STRIP_PIXELS, Caption, StripText, caption_at, draw_strip, shorten
 from skillc_runtime.film.frames import FULL_DOSE_S, FULL_SHADE, LEAST_SHADE, shade
 from skillc_runtime.film.framing import find_shots, posed
 from skillc_runtime.film.labels import load_font
 from skillc_runtime.film.picture_files import FilmError, LoopPictures
-from skillc_runtime.film.rendering import Renderer, RenderingError, check_rendering
+from skillc_runtime.film.rendering import FILM_QUALITIES, Renderer, RenderingError, check_rendering
 from skillc_runtime.film.surface_colours import CLEAN, DUSTY, colour_surface
+from skillc_runtime.film.windows import Spheres, Window, find_window, join_spheres
 from skillc_runtime.film.workshop import find_texture, workshop_model
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.scene.load import load_scene
@@ -143,6 +146,50 @@ def test_the_cell_that_was_worked_is_lighter_in_the_picture_where_it_is_in_the_w
     expected = Projection(view, 45.0, 640, 360).pixel(surface.pose.apply(np.array([x, y, 0.0])))
     assert rows.size > 50
     assert (columns.mean(), rows.mean()) == pytest.approx(expected, abs=6.0)
+
+
+@pytest.mark.slow
+def test_the_rest_of_a_picture_need_not_be_drawn_again() -> None:
+    """A picture after another one is that of a renderer that draws it first, but for roundings at edges."""
+    try:
+        check_rendering()
+    except RenderingError as error:
+        pytest.skip(str(error))
+    scene = read_scene_spec(load_scene(catalogue.scene_path("iiwa_table"), vocabulary()))
+    reality = exact_variation(scene)
+    model, data = _model_and_data(scene, reality)
+    drawing = ModelDrawing(scene, reality, model, data)
+    drawn, (surface,) = workshop_model(drawing), scene.surfaces
+    view = CameraView(surface.pose.position, 3.0, 30.0, -30.0)
+    start = drawing.posture()
+    moved = [replace(start, joints=start.joints + turn * (np.arange(model.nq) < 7)) for turn in (0.0, 0.02, 0.4)]
+    trails = [Annotations(trails=(np.linspace([0.5, 0.0, 0.9], [0.5 + x, 0.1, 0.9], 5),)) for x in (0.1, 0.2, 0.3)]
+    going_on, pixels = Renderer(drawn, 320, 180, quality=FILM_QUALITIES["standard"]), []
+    shown = [going_on.picture(posed(drawn, at), view, trail) for at, trail in zip(moved, trails, strict=True)]
+    going_on.close()
+    for at, trail, picture in zip(moved, trails, shown, strict=True):
+        first = Renderer(drawn, 320, 180, quality=FILM_QUALITIES["standard"])
+        alone = first.picture(posed(drawn, at), view, trail)
+        first.close()
+        pixels.append(int((np.abs(alone.astype(int) - picture) > 8).any(axis=2).sum()))
+    assert pixels[0] == 0 and max(pixels) < 10, "a few of 57600 pixels"
+    assert (np.abs(shown[0].astype(int) - shown[1]) > 8).any(axis=2).sum() > 100, "it has moved"
+
+
+def test_a_window_has_what_moves_and_its_shadow_and_nothing_if_nothing_moves() -> None:
+    view, whole = CameraView(np.zeros(3), 4.0, 0.0, -30.0), Window(0, 0, 640, 360)
+    projection = Projection(view, 45.0, 640, 360)
+    ball = Spheres(np.array([[0.0, 0.0, 0.5]]), np.array([0.1]))
+    shadow = ball.on_floor(np.array([0.6, 0.0, -0.8]))
+    assert shadow.centres[0] == pytest.approx([0.375, 0.0, 0.0])
+    found = find_window(join_spheres([ball, shadow]), view, projection)
+    assert found is not None and found != whole
+    for each in (ball, shadow):
+        column, row = projection.pixel(each.centres[0]) or (0.0, 0.0)
+        assert found.left < column < found.right and found.bottom < 360 - row < found.top
+    at_camera = Spheres(view.position[np.newaxis], np.array([0.1]))
+    assert find_window(at_camera, view, projection) == whole
+    assert find_window(Spheres(np.zeros((0, 3)), np.zeros(0)), view, projection) is None
 
 
 def _model_and_data(scene: SceneSpec, reality: Variation) -> tuple[Any, Any]:

@@ -9,7 +9,7 @@ from msgspec import structs
 
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.moments import find_moments
-from skillc_runtime.film.film import Moment
+from skillc_runtime.film.footage import Moment
 from skillc_runtime.recording.history import Attempt, RecordedCall, RunHistory
 from skillc_runtime.recording.reasons import Highlight
 from skillc_runtime.world.state.labelled import LabelledIri

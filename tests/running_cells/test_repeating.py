@@ -25,6 +25,7 @@ from skillc.services.reporting import SilentReporter
 from skillc_runtime.devices.disturbances import Move, Push
 from skillc_runtime.recording.mcap.contents import START
 from skillc_runtime.recording.mcap.reader import read_recording
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.run_start import StartError, decode_start
 from skillc_runtime.store.change_json import decode_changes
 
@@ -86,7 +87,9 @@ def test_later_operations_are_repeated_and_get_a_report(
     assert ended.state == "succeeded" and began_s > 0.00625 * sum(ticks)
     assert_repeated(settings, "op-0", "op-1", "last")
     recording = recording_file(Path(settings.folder), "last")
-    result = report_recorded(recording, tmp_path / "report", None, SilentReporter(), film=False).result
+    result = report_recorded(
+        recording, None, RunSpec(out=str(tmp_path / "report"), film=False), SilentReporter()
+    ).result
     assert (result.status, result.verified) == ("succeeded", ended.verified)
     assert result.sim_time_s == pytest.approx(took_s) and (tmp_path / "report" / "report.html").exists()
 
@@ -151,7 +154,7 @@ def test_who_is_not_alone_is_not_repeated_and_why_is_said(tmp_path: Path) -> Non
     assert_repeated(settings, "three")
     recording = recording_file(tmp_path / "state", "one")
     with pytest.raises(ServiceError, match="the operation two went on in the same cell, so it cannot be repeated"):
-        report_recorded(recording, tmp_path / "report", None, SilentReporter(), film=False)
+        report_recorded(recording, None, RunSpec(out=str(tmp_path / "report"), film=False), SilentReporter())
     assert not (tmp_path / "report").exists()
 
 

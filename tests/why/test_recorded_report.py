@@ -9,7 +9,6 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
-from skillc_runtime.film import film
 from skillc_runtime.recording.run_spec import RunSpec
 from why.test_replay_check import edit, record, recorded, run
 
@@ -61,12 +60,10 @@ def test_a_file_needs_a_folder_for_its_report(run: Path) -> None:
 
 
 @pytest.mark.sim
-def test_figures_are_those_of_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(film, "WIDTH", 640)
-    monkeypatch.setattr(film, "HEIGHT", 360)
+def test_figures_are_those_of_the_run(tmp_path: Path) -> None:
     record(RunSpec(task="clean_desk"), tmp_path / "run", 26.0, "mujoco")
     again = tmp_path / "again"
-    assert report(tmp_path / "run/recording.mcap", "--out", again).exit_code == 0
+    assert report(tmp_path / "run/recording.mcap", "--film-quality", "draft", "--out", again).exit_code == 0
     assert read_result(again) == read_result(tmp_path / "run")
     figures = sorted(path.name for path in (tmp_path / "run").glob("*.svg"))
     assert figures == sorted(path.name for path in again.glob("*.svg")) and "wiping.svg" in figures

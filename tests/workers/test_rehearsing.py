@@ -16,7 +16,6 @@ from skillc.services.backends import BackendName
 from skillc.services.reporting import SilentReporter
 from skillc.workers.rehearsing import rehearse
 from skillc_runtime.backends.simulation.checkpoint import decode_checkpoint
-from skillc_runtime.film import film
 
 MAX_TICKS = 20_000
 
@@ -35,11 +34,7 @@ def run_until_held(host: CellHost) -> None:
 @pytest.mark.parametrize(
     ("backend", "filmed"), [("kinematic", False), pytest.param("mujoco", True, marks=pytest.mark.sim)]
 )
-def test_a_twin_holds_what_the_gripper_reports(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, backend: BackendName, filmed: bool
-) -> None:
-    monkeypatch.setattr(film, "WIDTH", 640)
-    monkeypatch.setattr(film, "HEIGHT", 360)
+def test_a_twin_holds_what_the_gripper_reports(tmp_path: Path, backend: BackendName, filmed: bool) -> None:
     with open_cell(make_settings(tmp_path, TABLE, backend), SilentReporter()) as host:
         run_until_held(host)
         known = decode_snapshot(host.take_twin())

@@ -101,7 +101,7 @@ class Run:
     @property
     def film(self) -> Film | None:
         """Its film; None if there is none: without a folder or a GL library nothing is filmed."""
-        from skillc_runtime.film.film import FILM
+        from skillc_runtime.film.footage import FILM
 
         path = None if self.folder is None else self.folder / FILM
         return Film(path) if path is not None and path.exists() else None

@@ -1,11 +1,13 @@
-"""Writes the result of a run with its report, figures, film and stills into a folder."""
+"""Writes the result of a run with its report and figures into a folder, and begins its film and stills."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from skillc.services.files import writing_to
+from skillc.services.film_making import FilmOrder, Films
 from skillc.services.reporting import Reporter
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.film_story import make_story
@@ -14,31 +16,34 @@ from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
 from skillc_runtime.evaluation.report.work_figures import list_figures
-from skillc_runtime.evaluation.report.write import write_figure, write_report, write_result
-from skillc_runtime.film.film import Film, FilmFiles, Story
+from skillc_runtime.evaluation.report.write import ReportPages, write_figure, write_figures, write_page, write_result
+from skillc_runtime.film.film import Film
+from skillc_runtime.film.footage import Footage
 from skillc_runtime.film.picture_files import FilmError
-from skillc_runtime.film.rendering import RenderingError
 from skillc_runtime.recording.node_outcome import NodeOutcome
 
 
+@dataclass(frozen=True, slots=True)
+class DrawnRun:
+    """What is drawn of a run: its trees, with the skills of a library, and its film if it was sampled."""
+
+    trees: Sequence[NodeOutcome]
+    library: SkillLibrary
+    film: Film | None
+
+
 def write_run(
-    folder: Path,
-    result: TaskResult,
-    record: RunRecord,
-    trees: Sequence[NodeOutcome],
-    library: SkillLibrary,
-    film: Film | None,
-    reporter: Reporter,
+    folder: Path, result: TaskResult, record: RunRecord, drawn: DrawnRun, films: Films, reporter: Reporter
 ) -> None:
-    """Write a run with its trees, and its film if it was sampled. ServiceError if the folder cannot be written to."""
+    """Write a run with its trees; its film, if it was sampled, is begun. ServiceError if nothing can be written."""
     with writing_to(folder):
         write_result(folder, result)
-        filmed = None
-        if film is not None and record.truth is not None:
-            moments = find_moments(record.wipings, record.history, record.state, record.truth)
-            story = make_story(moments, record.history, library, result, record.state)
-            filmed = _write_film(film, folder, story, reporter)
-        write_report(folder, result, trees, list_figures(record), filmed)
+        footage = _find_footage(result, record, drawn, reporter)
+        figures = write_figures(folder, list_figures(record))
+        pages = ReportPages(result, drawn.trees, figures, None if footage is None else footage.files)
+        write_page(folder, pages.begun)
+        if footage is not None:
+            films.begin(FilmOrder(result.task, folder, footage, pages.with_film, pages.without_film))
 
 
 def write_comparison(folder: Path, drawings: Sequence[WipingDrawing]) -> Path | None:
@@ -47,10 +52,14 @@ def write_comparison(folder: Path, drawings: Sequence[WipingDrawing]) -> Path | 
         return folder / "wiping.png" if write_figure(folder, drawings) is not None else None
 
 
-def _write_film(film: Film, folder: Path, story: Story, reporter: Reporter) -> FilmFiles | None:
-    """Write the film, stills and the loop if it is wanted; report if they cannot be made."""
+def _find_footage(result: TaskResult, record: RunRecord, drawn: DrawnRun, reporter: Reporter) -> Footage | None:
+    """Return what the film is made from, if it was sampled; report if there can be none."""
+    if drawn.film is None or record.truth is None:
+        return None
+    moments = find_moments(record.wipings, record.history, record.state, record.truth)
+    story = make_story(moments, record.history, drawn.library, result, record.state)
     try:
-        return film.write(folder, story)
-    except (FilmError, RenderingError) as error:
+        return drawn.film.footage(story)
+    except FilmError as error:
         reporter.say(f"no film: {error}")
         return None

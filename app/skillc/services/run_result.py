@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from skillc.errors import RequestError, ServiceError
+from skillc.services.film_making import Films
 from skillc.services.reporting import Reporter
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
@@ -18,6 +19,7 @@ from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_
 from skillc_runtime.evaluation.report.work_kinds import measure_work
 from skillc_runtime.execution.execute import Execution
 from skillc_runtime.recording.history_builder import HistoryBuilder
+from skillc_runtime.recording.run_spec import RunSpec
 
 if TYPE_CHECKING:
     from skillc_runtime.film.film import Film
@@ -52,14 +54,25 @@ class RunSamples:
         self.trace.sample()
 
 
-def check_film(looks: str, film: bool, gif: bool) -> None:
+@dataclass(frozen=True, slots=True)
+class ReportDestination:
+    """Where a report is written (None: nowhere), what makes its film, and what is told of problems."""
+
+    folder: Path | None
+    films: Films
+    reporter: Reporter
+
+
+def check_film(spec: RunSpec) -> None:
     """RequestError if something is wanted of a film that is not to be made."""
-    if film:
+    if spec.film:
         return
-    if looks != PRIMITIVE_LOOKS:
-        raise RequestError(f"--looks {looks} applies to films and stills, which --no-film leaves out")
-    if gif:
+    if spec.looks != PRIMITIVE_LOOKS:
+        raise RequestError(f"--looks {spec.looks} applies to films and stills, which --no-film leaves out")
+    if spec.gif:
         raise RequestError("--gif writes a film, which --no-film leaves out")
+    if spec.film_quality != RunSpec().film_quality:
+        raise RequestError("--film-quality applies to the film, which --no-film leaves out")
 
 
 def make_samples(backend: Backend, film: Film | None = None) -> RunSamples:
@@ -67,11 +80,13 @@ def make_samples(backend: Backend, film: Film | None = None) -> RunSamples:
     return RunSamples(film, RunTrace(backend))
 
 
-def begin_film(backend: Backend, looks: str, loop: bool, reporter: Reporter) -> Film | None:
-    """Return a film of a cell with the meshes of that name, also as a loop if that is wanted.
+def begin_film(backend: Backend, spec: RunSpec, reporter: Reporter) -> Film | None:
+    """Return a film of a cell as a specification wants it; None if that wants none.
 
     None if the cell cannot be drawn, which is reported. ServiceError if there are no such meshes.
     """
+    if not spec.film or spec.out is None:
+        return None
     from skillc_runtime.film.film import Film
     from skillc_runtime.film.filmed_cell import find_filmed
 
@@ -79,7 +94,8 @@ def begin_film(backend: Backend, looks: str, loop: bool, reporter: Reporter) -> 
     if cell is None:
         reporter.say("no film: this backend cannot be drawn")
         return None
-    return Film(cell, None if looks == PRIMITIVE_LOOKS else _describe_with_meshes(cell, looks), loop)
+    described = None if spec.looks == PRIMITIVE_LOOKS else _describe_with_meshes(cell, spec.looks)
+    return Film(cell, described, spec.gif, spec.film_quality)
 
 
 def report_run(
@@ -87,10 +103,9 @@ def report_run(
     builder: HistoryBuilder,
     library: SkillLibrary,
     samples: RunSamples,
-    folder: Path | None,
-    reporter: Reporter,
+    destination: ReportDestination,
 ) -> RunResult:
-    """Make the result of a run whose events the `builder` has; write it with the report, and a film if it was sampled.
+    """Make the result of a run whose events the `builder` has; write it with the report, and begin its film.
 
     Nothing is written without a folder.
     """
@@ -99,13 +114,15 @@ def report_run(
     record = RunRecord(history, state, truth, samples.trace)
     works, began_s = measure_work(record), samples.trace.began_s
     result = summarise_run(execution, history, record.wipings, backend, works, began_s)
+    folder, reporter = destination.folder, destination.reporter
     if folder is None:
         return RunResult(result)
-    from skillc.services.run_report import write_run  # what draws takes long to import
+    from skillc.services.run_report import DrawnRun, write_run  # what draws takes long to import
 
     drawings = () if truth is None else tuple(make_wiping_drawing(each, state, truth) for each in record.wipings)
     try:
-        write_run(folder, result, record, builder.draw() if execution.attempts else [], library, samples.film, reporter)
+        drawn = DrawnRun(builder.draw() if execution.attempts else [], library, samples.film)
+        write_run(folder, result, record, drawn, destination.films, reporter)
     except ServiceError as error:
         reporter.say(f"error: {error}")
         return RunResult(result, drawings, written=False)

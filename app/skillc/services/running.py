@@ -14,6 +14,7 @@ from skillc.services.backends import DEFAULT_BACKEND, check_pace, make_backend
 from skillc.services.breakpoints import make_gate
 from skillc.services.cell_checks.starting import find_start_problem
 from skillc.services.dry_runs import DryRefused, make_dry_cell, with_own_world, write_commands
+from skillc.services.film_making import Films, making_films
 from skillc.services.operating import RunMonitor, operate
 from skillc.services.planning import with_minimal_makespan
 from skillc.services.recorded_run import RecordingOptions, recorded_run
@@ -21,6 +22,7 @@ from skillc.services.reporting import Reporter
 from skillc.services.run_recordings import KnownStart, describe_contents, find_obstacle, recorded_in
 from skillc.services.run_result import (
     PRIMITIVE_LOOKS,
+    ReportDestination,
     RunResult,
     RunSamples,
     begin_film,
@@ -82,7 +84,7 @@ class RunOptions:
         check_signals(spec.signals, spec.out)
         if spec.gif and spec.out is None:
             raise RequestError("--gif writes a film, which requires --out")
-        check_film(spec.looks, spec.film, spec.gif)
+        check_film(spec)
 
     @property
     def out(self) -> Path | None:
@@ -90,13 +92,20 @@ class RunOptions:
         return None if self.spec.out is None else Path(self.spec.out)
 
 
-def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporter: Reporter) -> RunResult:
+def run_task(
+    task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporter: Reporter, films: Films | None = None
+) -> RunResult:
     """Plan, run and report a task; if it cannot start, its status is `refused`.
+
+    With `films` its film may still be made when this returns.
 
     KeyboardInterrupt stops a task that has not begun, and breaks off one that runs. RequestError for a breakpoint
     that does not exist, if there is no plan to minimise, and for a pace that the cell cannot have. ServiceError if the
     report's folder cannot be created, there are no meshes of that name, or no process can be started.
     """
+    if films is None:
+        with making_films(reporter) as films:
+            return run_task(task, options, monitor, reporter, films)
     spec = options.spec
     if spec.minimise == "makespan":
         task = with_minimal_makespan(task)
@@ -111,8 +120,7 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
         try:
             monitor.say("planning, and building the cell")
             cell = _make_cell(task, options)
-            filmed = spec.film and options.out is not None
-            film = begin_film(cell, spec.looks, spec.gif, reporter) if filmed else None
+            film = begin_film(cell, spec, reporter)
         except (SheetError, FrameError, StoreError) as error:
             return end("refused", _find_refusal(planning, error), reporter)
         except DryRefused as error:
@@ -121,7 +129,8 @@ def run_task(task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporte
             return end("stopped", str(interrupt) or "interrupted", reporter)
         with closing(cell):
             check_pace(cell, monitor.pace.factor)
-            return _Run(task, options, cell, make_samples(cell, film), gate, monitor, reporter).carry_out(planning)
+            destination = ReportDestination(options.out, films, reporter)
+            return _Run(task, options, cell, make_samples(cell, film), gate, monitor, destination).carry_out(planning)
 
 
 def _make_cell(task: LoadedTask, options: RunOptions) -> Backend:
@@ -141,7 +150,12 @@ class _Run:
     samples: RunSamples
     gate: Gate
     monitor: RunMonitor
-    reporter: Reporter
+    destination: ReportDestination
+
+    @property
+    def reporter(self) -> Reporter:
+        """What is told of problems."""
+        return self.destination.reporter
 
     def carry_out(self, planning: PlanningJob) -> RunResult:
         """Run the task once it is planned, and report it."""
@@ -165,7 +179,7 @@ class _Run:
                 self.monitor.say("writing the report")
                 if (record := cell.capabilities.commands) is not None:
                     write_commands(record, options.out)
-            return report_run(execution, builder, task.library, self.samples, options.out, self.reporter)
+            return report_run(execution, builder, task.library, self.samples, self.destination)
 
     def _recorded(self, run_id: str) -> AbstractContextManager[tuple[Recorder, ...]]:
         """Record the run as an MCAP file, if there is a folder for it."""

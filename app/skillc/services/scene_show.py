@@ -142,7 +142,7 @@ def _render(scene: OpenScene, png: Path) -> None:
     surfaces = (each for each in sorted(state.instances(SURFACE)) if _size(state, each))
     props = tuple(prop for each in surfaces for prop in make_props(pose(state, each), size(state, each)))
     model = workshop_model(drawing)
-    renderer = Renderer(model, WIDTH, HEIGHT, props, "still")
+    renderer = Renderer(model, WIDTH, HEIGHT, props)
     try:
         write_picture(png, renderer.picture(posed(model, drawing.posture()), _camera(scene)))
     finally:

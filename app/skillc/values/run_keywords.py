@@ -38,7 +38,9 @@ class WorkKeywords(TypedDict, total=False):
     signals: Literal["csv", "parquet"] | None
     """Record forces, poses, joints and references, 100 samples a second, to the folder of the report."""
     film: bool
-    """Write a film and stills with the report, which takes most of the time."""
+    """Write a film and stills with the report; another process makes them."""
+    film_quality: Literal["draft", "fine", "standard"]
+    """The quality of the film: small and without shadows, 960 x 540 pixels, or 1280 x 720, which takes longer."""
     gif: bool
     """Write film.gif as well, a film of at most 4 MB that repeats."""
     looks: str

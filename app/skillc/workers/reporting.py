@@ -10,11 +10,13 @@ from skillc.errors import RequestError
 from skillc.services.replaying.report import report_recorded
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.recording.run_spec import RunSpec
 
 
 def make_report(job: MakeReport, known: CellSnapshot) -> TaskResult:
     """Write the report to the folder of the job, and return the result; ServiceError if it cannot be made."""
-    made = report_recorded(Path(job.recording), Path(job.folder), known.library, SilentReporter(), film=job.film)
+    spec = RunSpec(out=job.folder, film=job.film)
+    made = report_recorded(Path(job.recording), known.library, spec, SilentReporter())
     if not made.written:
         raise RequestError("the report cannot be written")
     return made.result

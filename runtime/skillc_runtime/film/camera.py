@@ -47,6 +47,12 @@ class CameraView:
         right = np.array([np.sin(azimuth), -np.cos(azimuth), 0.0])
         return np.stack([right, np.cross(right, forward), forward])
 
+    def is_same(self, other: CameraView) -> bool:
+        """Whether another view shows the same."""
+        angles = (self.distance, self.azimuth_deg, self.elevation_deg)
+        same = angles == (other.distance, other.azimuth_deg, other.elevation_deg)
+        return same and bool((self.point == other.point).all())
+
     @property
     def position(self) -> Array:
         """Where the camera is, (3,) m in the world."""

@@ -13,8 +13,8 @@ from PIL import Image, ImageDraw
 
 from skillc_runtime.film.labels import load_font
 
-STRIP_PIXELS = 88
-"""Height of the strip."""
+STRIP_WIDTH, STRIP_PIXELS = 1280, 88
+"""Width and height of the strip as it is drawn; it is reduced to the width of the film."""
 
 EDGE, LARGE, SMALL = 24, 31, 22
 """Free pixels at the left and right, and heights of letters."""
@@ -61,7 +61,13 @@ def caption_at(captions: Sequence[Caption], time: float) -> str:
 
 @lru_cache(maxsize=64)
 def draw_strip(text: StripText, width: int) -> NDArray[np.uint8]:
-    """Return the strip (STRIP_PIXELS, width, 3)."""
+    """Return the strip (n, width, 3) of a film, n in proportion to STRIP_PIXELS."""
+    image = _draw_whole(text, STRIP_WIDTH)
+    size = width, round(STRIP_PIXELS * width / STRIP_WIDTH)
+    return np.asarray(image if image.size == size else image.resize(size, Image.Resampling.LANCZOS))
+
+
+def _draw_whole(text: StripText, width: int) -> Image.Image:
     colour = BACKGROUND if text.ending is None else ENDINGS[text.ending]
     image = Image.new("RGB", (width, STRIP_PIXELS), colour)
     draw = ImageDraw.Draw(image)
@@ -78,7 +84,7 @@ def draw_strip(text: StripText, width: int) -> NDArray[np.uint8]:
     )
     room = width - 3 * EDGE - draw.textlength(text.time, load_font(SMALL))
     draw.text((EDGE, lower), shorten(draw, text.small, room, SMALL, False), DIM, load_font(SMALL), anchor="lm")
-    return np.asarray(image)
+    return image
 
 
 def shorten(draw: Any, text: str, room: float, pixels: int, bold: bool) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.devices.drawing import Drawing, Posture
+from skillc_runtime.devices.drawing import Posture
 from skillc_runtime.film.camera import CameraView, blend_views, choose_view
 from skillc_runtime.film.frames import Frame
 from skillc_runtime.motion.pose import Array
@@ -53,14 +53,17 @@ class Framing:
     """
 
     def __init__(
-        self, model: Any, drawing: Drawing, frames: Sequence[Frame], corners: Mapping[str, Array], aspect: float
+        self, model: Any, prefixes: Sequence[str], frames: Sequence[Frame], corners: Mapping[str, Array], aspect: float
     ) -> None:
-        """`corners` are those (n, 3) in m of the surfaces that were worked on; aspect: width by height of pictures."""
+        """Choose views of pictures with an `aspect`, their width by their height.
+
+        `prefixes` begin the names of the parts of each device; `corners` (n, 3) in m are those of the surfaces that
+        were worked on.
+        """
         self._model, self._frames, self._corners, self._aspect = model, frames, corners, aspect
         self._bases = [each for each in range(model.nbody) if model.body_mocapid[each] >= 0]
         self._links = [
-            [each for each in range(model.nbody) if model.body(each).name.startswith(prefix)]
-            for prefix in drawing.prefixes.values()
+            [each for each in range(model.nbody) if model.body(each).name.startswith(prefix)] for prefix in prefixes
         ]
 
     def work_views(self) -> Iterator[CameraView]:

@@ -36,9 +36,6 @@ METAL, PAINT, RUBBER = (0.6, 0.7), (0.25, 0.4), (0.05, 0.1)
 GREY, DARK = 0.12, 0.35
 """A colour of less saturation is grey; a grey of less brightness is that of rubber, another one that of metal."""
 
-SLICES, STACKS = 40, 20
-"""Into how many faces round shapes are cut."""
-
 THICKER = 1.012
 """Cylinders of devices are drawn thicker by this factor, because faces of equal place would flicker."""
 
@@ -67,7 +64,6 @@ def workshop_model(drawing: Drawing, spec: Any | None = None, textures: Mapping[
     _thicken(described, tuple(drawing.prefixes.values()))
     model = described.compile()
     model.vis.map.zfar = HORIZON_M / model.stat.extent
-    model.vis.quality.numslices, model.vis.quality.numstacks = SLICES, STACKS
     return model
 
 

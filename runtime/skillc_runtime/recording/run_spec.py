@@ -140,8 +140,15 @@ class RunSpec(RunRequest, frozen=True, kw_only=True):
         ),
     ] = None
     film: Annotated[
-        bool, documented("Write a film and stills with the report, which takes most of the time.", OUTPUT)
+        bool, documented("Write a film and stills with the report; another process makes them.", OUTPUT)
     ] = True
+    film_quality: Annotated[
+        Literal["draft", "standard", "fine"],
+        documented(
+            "The quality of the film: small and without shadows, 960 x 540 pixels, or 1280 x 720, which takes longer.",
+            OUTPUT,
+        ),
+    ] = "standard"
     gif: Annotated[bool, documented("Write film.gif as well, a film of at most 4 MB that repeats.", OUTPUT)] = False
     looks: Annotated[
         str,

@@ -34,31 +34,34 @@ TASKS = {"ur5e": "clean_whiteboard", "iiwa": "clean_table"}
     show_default=True,
     help="The seed of what differs from the world model.",
 )
-@run_options(only=("out", "looks", "gif"))
+@run_options(only=("out", "film", "film_quality", "looks", "gif"))
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON: a list with one object per task.")
 def command(spec: RunSpec, robot: str, as_json: bool) -> int:
     """Run the two shipped wiping tasks in simulation."""
     from skillc.cli.console import Terminal, print_json
+    from skillc.cli.film_progress import FilmProgress
     from skillc.cli.run_output import print_results, run_with_progress
     from skillc.services.files import check_writable
+    from skillc.services.film_making import making_films
     from skillc.services.running import RunOptions
     from skillc.services.task_loading import load_task
 
     out = None if spec.out is None else Path(spec.out)
     check_writable(out)
     runs: list[RunResult] = []
-    for task in TASKS.values() if robot == "all" else [TASKS[robot]]:
-        folder = out / task if out is not None else None
-        options = RunOptions(structs.replace(spec, task=task, out=None if folder is None else str(folder)))
-        check_writable(folder)
-        with load_task(options.spec, Terminal()) as loaded:
-            runs.append(run_with_progress(loaded, options, quiet=as_json))
-        if not as_json:
-            print_results([runs[-1].result], folder if runs[-1].written else None)
-    if as_json:
-        print_json([run.result for run in runs])
-    if out is not None:
-        _compare(out, runs, as_json)
+    with making_films(Terminal(), FilmProgress(as_json)) as films:
+        for task in TASKS.values() if robot == "all" else [TASKS[robot]]:
+            folder = out / task if out is not None else None
+            options = RunOptions(structs.replace(spec, task=task, out=None if folder is None else str(folder)))
+            check_writable(folder)
+            with load_task(options.spec, Terminal()) as loaded:
+                runs.append(run_with_progress(loaded, options, as_json, films))
+            if not as_json:
+                print_results([runs[-1].result], folder if runs[-1].written else None)
+        if as_json:
+            print_json([run.result for run in runs])
+        if out is not None:
+            _compare(out, runs, as_json)
     if not all(run.result.is_sound for run in runs):
         return 3
     return 0 if all(run.written for run in runs) else 1

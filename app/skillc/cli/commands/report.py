@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from msgspec import structs
 
 from skillc.cli.command import Command
 from skillc.cli.options import PATH, json_option
@@ -30,7 +31,7 @@ skillc report recording.mcap --out report --no-film
 @click.argument("run", metavar="RUN_DIR", type=PATH)
 @click.option("--out", type=PATHS["FOLDER"], metavar="FOLDER", help="Write to this folder; by default to RUN_DIR.")
 @click.option("--library", type=PATHS["PATH"], help="The library of the run; by default the one in the recording.")
-@run_options(only=("film", "looks", "gif"))
+@run_options(only=("film", "film_quality", "looks", "gif"))
 @json_option
 def command(spec: RunSpec, run: Path, as_json: bool) -> int:
     """Write report.html, result.json, figures, film and stills of a recorded run, as `skillc run --out` does.
@@ -39,6 +40,7 @@ def command(spec: RunSpec, run: Path, as_json: bool) -> int:
     another one then, there is no report.
     """
     from skillc.cli.console import Terminal, print_json
+    from skillc.cli.film_progress import FilmProgress
     from skillc.cli.run_output import print_results
     from skillc.services.files import check_writable
     from skillc.services.replaying.report import report_recorded
@@ -48,7 +50,8 @@ def command(spec: RunSpec, run: Path, as_json: bool) -> int:
     folder = Path(spec.out or run)
     library = None if spec.library is None else Path(spec.library)
     check_writable(folder)
-    made = report_recorded(run, folder, library, Terminal(), spec.looks, spec.film, spec.gif)
+    terminal = Terminal()
+    made = report_recorded(run, library, structs.replace(spec, out=str(folder)), terminal, FilmProgress(as_json))
     if as_json:
         print_json(made.result)
     else:

@@ -54,8 +54,10 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     project, TASK may be left out if the manifest names a default one.
     """
     from skillc.cli.console import Terminal, print_json, remark_default
+    from skillc.cli.film_progress import FilmProgress
     from skillc.cli.run_output import check_operable, print_results, run_with_progress
     from skillc.services.files import check_writable
+    from skillc.services.film_making import making_films
     from skillc.services.planning import prepare_planners
     from skillc.services.running import RunOptions
     from skillc.services.stores import StoreChoice
@@ -68,12 +70,13 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     options = RunOptions(wanted, prepare_planners(wanted.plan_cache), tick_timeout, as_json)
     check_operable(options)
     check_writable(options.out)
-    with load_task(wanted, Terminal(), kept) as loaded:
-        ran = run_with_progress(loaded, options, as_json)
-    if as_json:
-        print_json(ran.result)
-    else:
-        print_results([ran.result], options.out if ran.written else None)
+    with making_films(Terminal(), FilmProgress(as_json)) as films:
+        with load_task(wanted, Terminal(), kept) as loaded:
+            ran = run_with_progress(loaded, options, as_json, films)
+        if as_json:
+            print_json(ran.result)
+        else:
+            print_results([ran.result], options.out if ran.written else None)
     if not ran.result.is_sound or (strict and not ran.result.verified):
         return 3
     return 0 if ran.written else 1

@@ -7,39 +7,35 @@ from pathlib import Path
 
 from skillc.errors import ServiceError
 from skillc.services.files import writing_to
+from skillc.services.film_making import ShowProgress, making_films, no_progress
 from skillc.services.replaying.check import build_cell, repeat
 from skillc.services.replaying.inputs import read_inputs
 from skillc.services.reporting import Reporter
-from skillc.services.run_result import PRIMITIVE_LOOKS, RunResult, begin_film, check_film, make_samples, report_run
+from skillc.services.run_result import ReportDestination, RunResult, begin_film, check_film, make_samples, report_run
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.execute import describe_execution
 from skillc_runtime.execution.repeat import NotRepeatable
 from skillc_runtime.recording.history_builder import HistoryBuilder
+from skillc_runtime.recording.run_spec import RunSpec
 
 
 def report_recorded(
-    run: Path,
-    out: Path,
-    library: Path | SkillLibrary | None,
-    reporter: Reporter,
-    looks: str = PRIMITIVE_LOOKS,
-    film: bool = True,
-    gif: bool = False,
+    run: Path, library: Path | SkillLibrary | None, spec: RunSpec, reporter: Reporter, show: ShowProgress = no_progress
 ) -> RunResult:
-    """Write the report, the figures and the film of a recorded run to a folder, and return its result.
+    """Write the report, the figures and the film of a recorded run to the folder `out` of a specification.
 
-    The film shows the meshes of `looks`; with `gif` there is one that repeats, too.
-
+    Its film is as that wants it, which is told how far it is with `show`; the result is returned when it is made.
     ServiceError if it cannot be repeated, or has no end; what `read_inputs` and `check_film` raise.
     """
-    check_film(looks, film, gif)
+    assert spec.out is not None, "a report has a folder"
+    check_film(spec)
+    out = Path(spec.out)
     inputs = read_inputs(run, library, reporter)
     if inputs.obstacle:
         raise ServiceError(f"no report can be made of {run}: {inputs.obstacle}, so it cannot be repeated")
     reporter.say(f"running {inputs.start.task} again from its seed, requests and plans")
-    with closing(build_cell(inputs)) as cell:
-        filming = begin_film(cell, looks, gif, reporter) if film else None
-        samples, builder = make_samples(cell, filming), HistoryBuilder()
+    with making_films(reporter, show) as films, closing(build_cell(inputs)) as cell:
+        samples, builder = make_samples(cell, begin_film(cell, spec, reporter)), HistoryBuilder()
         try:
             repeated = repeat(inputs, cell, (builder,), (samples.sample,))
         except NotRepeatable as error:
@@ -53,4 +49,4 @@ def report_recorded(
         with writing_to(out):
             out.mkdir(parents=True, exist_ok=True)
         execution = describe_execution(repeated.run, cell, inputs.wall_time_s)
-        return report_run(execution, builder, inputs.library, samples, out, reporter)
+        return report_run(execution, builder, inputs.library, samples, ReportDestination(out, films, reporter))

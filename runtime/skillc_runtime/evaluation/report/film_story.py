@@ -8,7 +8,7 @@ from math import inf
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.film.captions import Caption, FilmEnding
-from skillc_runtime.film.film import Moment, Story
+from skillc_runtime.film.footage import Moment, Story
 from skillc_runtime.recording.history import RecordedCall, RunHistory
 from skillc_runtime.recording.known_facts import format_status
 from skillc_runtime.world.state.labelled import LabelledIri, display_name

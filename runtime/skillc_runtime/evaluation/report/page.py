@@ -23,7 +23,7 @@ from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.labelled_text import format_value
 
 if TYPE_CHECKING:
-    from skillc_runtime.film.film import FilmFiles
+    from skillc_runtime.film.footage import FilmFiles
 
 SYMBOLS = {
     "success": "✓", "succeeded": "✓", "failure": "✗", "failed": "✗", "refused": "✗", "halted": "■", "stopped": "■",
@@ -37,8 +37,12 @@ def render_page(
     trees: Sequence[NodeOutcome],
     figures: Sequence[DrawnFigure] = (),
     filmed: FilmFiles | None = None,
+    is_made: bool = True,
 ) -> str:
-    """Return the page; `trees` are those of all attempts; the files of `filmed` are in the same folder."""
+    """Return the page; `trees` are those of all attempts; the files of `filmed` are, or will be, in the same folder.
+
+    A page whose film is not made yet loads itself again.
+    """
     environment = Environment(
         loader=PackageLoader("skillc_runtime.evaluation.report", "."),
         autoescape=True,
@@ -64,6 +68,7 @@ def render_page(
         placement_names=PLACEMENT_COLUMNS,
         figures=figures,
         filmed=filmed,
+        is_made=is_made,
         reason=_reason,
         symbols=SYMBOLS,
     )

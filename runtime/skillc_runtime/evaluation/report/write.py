@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,7 +16,7 @@ from skillc_runtime.recording.node_outcome import NodeOutcome
 
 if TYPE_CHECKING:
     from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
-    from skillc_runtime.film.film import FilmFiles
+    from skillc_runtime.film.footage import FilmFiles
 
 RESULT, REPORT, WIPING = "result.json", "report.html", "wiping"
 
@@ -25,23 +26,55 @@ def write_result(directory: Path, result: TaskResult) -> None:
     _write_atomically(directory / RESULT, msgspec.json.format(msgspec.json.encode(result), indent=2) + b"\n")
 
 
-def write_report(
-    directory: Path,
-    result: TaskResult,
-    trees: Sequence[NodeOutcome],
-    figures: Sequence[WorkFigure] = (),
-    filmed: FilmFiles | None = None,
-) -> None:
-    """Write report.html and the figures, as PNG and SVG; OSError if the folder cannot be written to.
+def write_report(directory: Path, result: TaskResult, trees: Sequence[NodeOutcome]) -> None:
+    """Write report.html without figures and film; OSError if the folder cannot be written to.
 
     `trees` are those of all attempts.
     """
-    from skillc_runtime.evaluation.report.page import render_page
+    write_page(directory, ReportPages(result, trees).without_film)
 
+
+def write_page(directory: Path, page: str) -> None:
+    """Write report.html; OSError if the folder cannot be written to."""
+    _write_atomically(directory / REPORT, page.encode())
+
+
+def write_figures(directory: Path, figures: Sequence[WorkFigure]) -> tuple[DrawnFigure, ...]:
+    """Write the figures of a report as PNG and SVG, and return them; OSError if the folder cannot be written to."""
     drawn = tuple(DrawnFigure(each, render_figure(each.draw)) for each in number_files(figures))
     for each in drawn:
         _write_files(directory, each.of.file, each.files)
-    _write_atomically(directory / REPORT, render_page(result, trees, drawn, filmed).encode())
+    return drawn
+
+
+@dataclass(frozen=True, slots=True)
+class ReportPages:
+    """The page of a report before, with and without its film, if there is to be one; `trees` are of all attempts."""
+
+    result: TaskResult
+    trees: Sequence[NodeOutcome]
+    figures: Sequence[DrawnFigure] = ()
+    film: FilmFiles | None = None
+
+    @property
+    def begun(self) -> str:
+        """The page while the film is being made, if there is to be one."""
+        return self._render(is_made=False)
+
+    @property
+    def with_film(self) -> str:
+        """The page when the film has been made."""
+        return self._render(is_made=True)
+
+    @property
+    def without_film(self) -> str:
+        """The page without a film."""
+        return replace(self, film=None).begun
+
+    def _render(self, is_made: bool) -> str:
+        from skillc_runtime.evaluation.report.page import render_page
+
+        return render_page(self.result, self.trees, self.figures, self.film, is_made)
 
 
 def write_figure(directory: Path, drawings: Sequence[WipingDrawing]) -> FigureFiles | None:
