@@ -53,7 +53,7 @@ def test_a_folder_that_cannot_be_made_is_told_first(lab: Path, monkeypatch: pyte
 def test_a_report_that_cannot_be_written_hides_no_outcome(
     form: list[str], lab: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(run_report, "write_report", full)
+    monkeypatch.setattr(run_report, "write_page", full)
     result = skillc_in(lab, "run", GOAL, "--out", str(lab / "out"), *form)
     assert result.exit_code == 1
     assert f"error: cannot write to {lab / 'out'}: No space left on device" in result.stderr

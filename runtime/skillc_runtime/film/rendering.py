@@ -60,6 +60,9 @@ SHADOW_REACH = 1.3
 Near the edge of the map that is towards the light a floor is in its own shadow; that edge is behind the camera.
 """
 
+STEEP = -0.3
+"""The vertical component of the direction of a light is at most this where shadows are short."""
+
 MOST_GEOMS = 2500
 GEOMS: dict[Kind, Any] = {
     "box": mujoco.mjtGeom.mjGEOM_BOX,
@@ -134,10 +137,10 @@ class Renderer:
         """Return the window of what can differ from the last picture, with shadows; None if nothing does."""
         geoms, last, painted = list_geoms(self._model, self._scene), self._last, self._painted
         self._last, self._painted = (view, geoms), set()
-        if last is None or not view.is_same(last[0]):
+        lights = [each for each in self._scene.lights[: self._scene.nlight] if each.castshadow]
+        if last is None or not view.is_same(last[0]) or not all(map(_is_steep, lights)):
             return Window(0, 0, projection.width, projection.height)
         moved = find_changes(last[1], geoms)
-        lights = [each for each in self._scene.lights[: self._scene.nlight] if each.castshadow]
         shadows = [moved.on_floor(np.array(each.dir, dtype=float)) for each in lights]
         sheets = [each for each in range(self._model.ngeom) if self._texture_of(each) in painted]
         around = Spheres(data.geom_xpos[sheets], self._model.geom_rbound[sheets])
@@ -212,6 +215,11 @@ class Renderer:
         geom.specular, geom.shininess = 0.1, 0.2
         self._scene.ngeom += 1
         return geom
+
+
+def _is_steep(light: Any) -> bool:
+    """Whether the shadows in a light are on the floor, not far from what casts them."""
+    return bool(light.type == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL and light.dir[2] < STEEP)
 
 
 def _set_quality(model: Any, rendered: tuple[int, int], quality: Quality) -> None:
