@@ -14,7 +14,7 @@ from PIL import Image, ImageDraw
 from skillc_runtime.film.labels import load_font
 
 STRIP_WIDTH, STRIP_PIXELS = 1280, 88
-"""Width and height of the strip as it is drawn; it is reduced to the width of the film."""
+"""Width and height of the strip of a film of that width; others are in proportion."""
 
 EDGE, LARGE, SMALL = 24, 31, 22
 """Free pixels at the left and right, and heights of letters."""
@@ -61,30 +61,24 @@ def caption_at(captions: Sequence[Caption], time: float) -> str:
 
 @lru_cache(maxsize=64)
 def draw_strip(text: StripText, width: int) -> NDArray[np.uint8]:
-    """Return the strip (n, width, 3) of a film, n in proportion to STRIP_PIXELS."""
-    image = _draw_whole(text, STRIP_WIDTH)
-    size = width, round(STRIP_PIXELS * width / STRIP_WIDTH)
-    return np.asarray(image if image.size == size else image.resize(size, Image.Resampling.LANCZOS))
-
-
-def _draw_whole(text: StripText, width: int) -> Image.Image:
-    colour = BACKGROUND if text.ending is None else ENDINGS[text.ending]
-    image = Image.new("RGB", (width, STRIP_PIXELS), colour)
+    """Return the strip (n, width, 3) of a film; n and its letters are in proportion to those of STRIP_WIDTH."""
+    scale = width / STRIP_WIDTH
+    height, edge, large, small = (round(scale * each) for each in (STRIP_PIXELS, EDGE, LARGE, SMALL))
+    image = Image.new("RGB", (width, height), BACKGROUND if text.ending is None else ENDINGS[text.ending])
     draw = ImageDraw.Draw(image)
-    upper, lower = STRIP_PIXELS * 0.33, STRIP_PIXELS * 0.74
-    first = upper if text.small else STRIP_PIXELS / 2
-    draw.text((width - EDGE, upper), text.force, FORCE, load_font(LARGE, bold=True), anchor="rm")
-    draw.text((width - EDGE, lower), text.time, DIM, load_font(SMALL), anchor="rm")
-    beside = draw.textlength(text.force, load_font(LARGE, bold=True))
+    upper, lower = height * 0.33, height * 0.74
+    first = upper if text.small else height / 2
+    draw.text((width - edge, upper), text.force, FORCE, load_font(large, bold=True), anchor="rm")
+    draw.text((width - edge, lower), text.time, DIM, load_font(small), anchor="rm")
+    beside = draw.textlength(text.force, load_font(large, bold=True))
     if not text.small:  # the line is in the middle, beside both at the right
-        beside = max(beside, draw.textlength(text.time, load_font(SMALL)))
-    room = width - 3 * EDGE - beside
-    draw.text(
-        (EDGE, first), shorten(draw, text.large, room, LARGE, True), TEXT, load_font(LARGE, bold=True), anchor="lm"
-    )
-    room = width - 3 * EDGE - draw.textlength(text.time, load_font(SMALL))
-    draw.text((EDGE, lower), shorten(draw, text.small, room, SMALL, False), DIM, load_font(SMALL), anchor="lm")
-    return image
+        beside = max(beside, draw.textlength(text.time, load_font(small)))
+    room = width - 3 * edge - beside
+    shown = shorten(draw, text.large, room, large, True)
+    draw.text((edge, first), shown, TEXT, load_font(large, bold=True), anchor="lm")
+    room = width - 3 * edge - draw.textlength(text.time, load_font(small))
+    draw.text((edge, lower), shorten(draw, text.small, room, small, False), DIM, load_font(small), anchor="lm")
+    return np.asarray(image)
 
 
 def shorten(draw: Any, text: str, room: float, pixels: int, bold: bool) -> str:

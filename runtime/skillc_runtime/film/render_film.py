@@ -17,13 +17,13 @@ from skillc_runtime.film.footage import Footage
 from skillc_runtime.film.frames import FRAMES_PER_S, Frame, Shades
 from skillc_runtime.film.framing import Framing, posed
 from skillc_runtime.film.picture_files import LoopPictures, write_film, write_picture
-from skillc_runtime.film.rendering import FILM_QUALITIES, STILL, FilmQuality, Picture, Quality, Renderer
+from skillc_runtime.film.rendering import FILM_QUALITIES, FilmQuality, Picture, Quality, Renderer
 from skillc_runtime.film.surface_colours import colour_surface
 
 SIZES: dict[FilmQuality, tuple[int, int]] = {"draft": (640, 360), "standard": (960, 540), "fine": (1280, 720)}
 """Width and height of a film in pixels; a strip with captions is at its bottom."""
 
-STILL_SIZE = 1280, 720
+STILL_SIZE, STILL = (1280, 720), Quality(1.5, 2048, 40)
 
 END_S = 2.0
 """How long the last picture is shown, with how the run ended."""

@@ -50,7 +50,7 @@ STILL = Quality(2.0, 4096, 40)
 FilmQuality: TypeAlias = Literal["draft", "standard", "fine"]
 FILM_QUALITIES: dict[FilmQuality, Quality] = {
     "draft": Quality(1.0, 0, 20),
-    "standard": Quality(1.25, 1024, 28),
+    "standard": Quality(1.25, 1024, 24),
     "fine": Quality(2.0, 4096, 40),
 }
 

@@ -96,18 +96,16 @@ def find_window(spheres: Spheres, view: CameraView, projection: Projection) -> W
     whole = Window(0, 0, projection.width, projection.height)
     if not len(spheres.radii):
         return None
-    depths = (spheres.centres - view.position) @ view.axes[2]
+    right, up, depths = ((spheres.centres - view.position) @ view.axes.T).T
     if (depths <= 2.0 * spheres.radii).any():
         return whole
-    pixels_per_m = projection.height / 2 / np.tan(np.radians(projection.fovy_deg) / 2)
-    reach = WIDER * spheres.radii * pixels_per_m / depths + MARGIN_PIXELS
-    at = np.array([projection.pixel(each) for each in spheres.centres])
-    left, right = float((at[:, 0] - reach).min()), float((at[:, 0] + reach).max())
-    high, low = float((at[:, 1] - reach).min()), float((at[:, 1] + reach).max())
+    pixels = projection.height / 2 / np.tan(np.radians(projection.fovy_deg) / 2) / depths
+    reach = WIDER * spheres.radii * pixels + MARGIN_PIXELS
+    columns, rows = projection.width / 2 + pixels * right, projection.height / 2 + pixels * up
     found = Window(
-        max(0, int(left)),
-        max(0, int(projection.height - low)),
-        min(whole.right, int(right) + 1),
-        min(whole.top, int(projection.height - high) + 1),
+        max(0, int((columns - reach).min())),
+        max(0, int((rows - reach).min())),
+        min(whole.right, int((columns + reach).max()) + 1),
+        min(whole.top, int((rows + reach).max()) + 1),
     )
     return found if found.left < found.right and found.bottom < found.top else None
