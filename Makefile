@@ -7,6 +7,9 @@ export PYTHONDONTWRITEBYTECODE :=
 export PYTHONPYCACHEPREFIX := $(CURDIR)/.tools/bytecode
 INSTALL := $(UV) pip install -q --python .venv --constraint constraints.txt
 
+# Of how many steps `make demo` says what each does; other targets install in the same ones.
+OF :=
+
 STUDIO := $(shell find studio -type f -not -path '*/node_modules/*' 2>/dev/null)
 
 # For `make fuzz`: another SEED gives other cases; MINUTES is the time for each kind; KINDS selects some kinds.
@@ -38,8 +41,10 @@ EDITS := 10000
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
 
+demo: OF := /4
 demo: .venv/.runtime ## run the demo: two robots wipe two surfaces with one skill
-	$(BIN)/skillc demo --out out/demo
+	@echo "4$(OF) running: two robots wipe two surfaces; films are made beside"
+	@$(BIN)/skillc demo --out out/demo
 
 test: .venv/.dev .venv/.studio ## run the fast tests
 	$(BIN)/pytest -n 2 --dist worksteal
@@ -127,15 +132,18 @@ clean:           ## remove the environment and all output
 	rm -rf .venv .tools build dist out
 
 .tools/.uv: Makefile
-	python3 -m pip install -q --disable-pip-version-check --root-user-action ignore --upgrade --target .tools uv==$(UV_VERSION)
+	@echo "1$(OF) installing uv, which installs the rest, about 5 s"
+	@python3 -m pip install -q --disable-pip-version-check --root-user-action ignore --upgrade --target .tools uv==$(UV_VERSION)
 	@touch $@
 
 .venv/.created: .tools/.uv
-	test -d .venv || $(UV) venv -q --python python3 .venv
+	@echo "2$(OF) making the environment in .venv, about 1 s"
+	@test -d .venv || $(UV) venv -q --python python3 .venv
 	@touch $@
 
 .venv/.runtime: pyproject.toml hatch_build.py constraints.txt .venv/.created
-	$(INSTALL) -e '.[run]'
+	@echo "3$(OF) installing what runs tasks in simulation, about 15 s from the cache of packages"
+	@$(INSTALL) -e '.[run]'
 	@touch $@
 
 # Node for the page of the studio: that of the machine, or of the package index. Without it all the rest works.
