@@ -8,13 +8,15 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from skillc.services.reporting import Reporter
 from skillc_runtime.evaluation.report.write import write_page
 from skillc_runtime.execution.worker_process import ReportingFunction, Returned, WorkerProcess, WorkerResult
-from skillc_runtime.film.footage import Footage
 from skillc_runtime.platforms.processes import DEFAULT_START
+
+if TYPE_CHECKING:
+    from skillc_runtime.film.footage import Footage
 
 LOOK_S = 0.25
 """How often a film is looked for that is being made, in s."""
