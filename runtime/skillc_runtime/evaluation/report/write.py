@@ -26,12 +26,14 @@ def write_result(directory: Path, result: TaskResult) -> None:
     _write_atomically(directory / RESULT, msgspec.json.format(msgspec.json.encode(result), indent=2) + b"\n")
 
 
-def write_report(directory: Path, result: TaskResult, trees: Sequence[NodeOutcome]) -> None:
-    """Write report.html without figures and film; OSError if the folder cannot be written to.
+def write_report(
+    directory: Path, result: TaskResult, trees: Sequence[NodeOutcome], figures: Sequence[WorkFigure] = ()
+) -> None:
+    """Write report.html without a film, and the figures; OSError if the folder cannot be written to.
 
     `trees` are those of all attempts.
     """
-    write_page(directory, ReportPages(result, trees).without_film)
+    write_page(directory, ReportPages(result, trees, write_figures(directory, figures)).without_film)
 
 
 def write_page(directory: Path, page: str) -> None:
