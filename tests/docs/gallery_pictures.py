@@ -87,7 +87,7 @@ def read_film(task: str) -> Sequence[Picture]:
     folder = RUNS / task.replace(":", "_")
     if not (folder / FILM).exists():
         with load_task(RunSpec(task=task), SilentReporter()) as loaded:
-            run_task(loaded, RunOptions(RunSpec(out=str(folder))), Monitor(), SilentReporter())
+            run_task(loaded, RunOptions(RunSpec(out=str(folder), film_quality="fine")), Monitor(), SilentReporter())
     with av.open(str(folder / FILM)) as film:
         return [frame.to_ndarray(format="rgb24") for frame in film.decode(video=0)]
 

@@ -1331,10 +1331,16 @@ export interface components {
              */
             signals?: ("csv" | "parquet") | null;
             /**
-             * @description Write a film and stills with the report, which takes most of the time.
+             * @description Write a film and stills with the report; another process makes them.
              * @default true
              */
             film?: boolean;
+            /**
+             * @description The quality of the film: small and without shadows, 960 x 540 pixels, or 1280 x 720, which takes longer.
+             * @default standard
+             * @enum {unknown}
+             */
+            film_quality?: "draft" | "fine" | "standard";
             /**
              * @description Write film.gif as well, a film of at most 4 MB that repeats.
              * @default false
