@@ -1,60 +1,76 @@
 """How trials scale with processes: trials per minute with one and with all cores, and what a process costs to start.
 
-`trials.py [TASK [COUNT]]`: COUNT trials of a task of the contact library for each number of processes.
+`trials.py [TASK [COUNT]]`: COUNT trials of a task of the contact library for each number of processes, in ROUNDS rounds.
 """
 
 from __future__ import annotations
 
 import os
+import resource
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
+from statistics import median
 from time import perf_counter
 
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_model import codec
 from skillc_ontology import catalogue
-from skillc_runtime.evaluation.trials.experiment import Experiment, TrialRunner
-from skillc_runtime.evaluation.trials.workers import run_in_processes
+from skillc_runtime.evaluation.trials.content import Experiment, prepare_runner
+from skillc_runtime.evaluation.trials.dispatch import run_on
 
-TASK, COUNT = "press_button", 4
+TASK, COUNT, ROUNDS = "press_button", 12, 3
 
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """Some trials in a number of processes: how many per minute, and the share of a process's time to start it."""
+    """Some trials: their wall time and CPU time, in s, from the first process to the end of the last one."""
 
-    jobs: int
-    per_minute: float
-    start_share: float
+    wall_s: float
+    cpu_s: float
 
 
 def experiment(task: str) -> Experiment:
     """Return what is tried: a task in its own scene, undisturbed."""
     library = libraries.compile_library(find_library(SHIPPED / "contact")).value
-    scene = library.tasks[task].scene
-    assert scene is not None
-    return Experiment(codec.dumps(library), task, catalogue.scene_path(scene), "none")
+    name = library.tasks[task].scene
+    assert name is not None
+    scene = catalogue.scene_path(name)
+    return Experiment(
+        library=codec.dumps(library), task=task, disturbance="none", scene_name=scene.name, scene=scene.read_bytes()
+    )
 
 
 def run(tried: Experiment, jobs: int, count: int) -> Series:
     """Run trials with seeds from 0 on, each process beginning from nothing."""
-    began, first = perf_counter(), 0.0
-    for trial in run_in_processes(partial(TrialRunner, tried), range(count), jobs):
-        assert trial.status == "succeeded", trial
-        first = first or perf_counter() - began - trial.wall_time_s
-    took = perf_counter() - began
-    return Series(jobs, 60 * count / took, first / took)
+    began, used = perf_counter(), children_s()
+    with ThreadPoolExecutor(jobs) as executor:
+        for each in run_on(executor, partial(prepare_runner, tried), range(count)):
+            assert each.trial.status == "succeeded", each
+    return Series(perf_counter() - began, children_s() - used)
+
+
+def children_s() -> float:
+    """Return the CPU time of all processes that have ended, in s."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 if __name__ == "__main__":
     asked = sys.argv[1:]
     tried, count = experiment(asked[0] if asked else TASK), int(asked[1]) if len(asked) > 1 else COUNT
-    series = [run(tried, jobs, count) for jobs in sorted({1, os.cpu_count() or 1})]
-    for each in series:
-        ratio = each.per_minute / series[0].per_minute
-        print(
-            f"{each.jobs} processes: {ratio:.2f} x as many trials per minute as one ({each.per_minute:.1f}); "
-            f"starting takes {each.start_share:.0%} of the time of {count} trials"
-        )
+    cores = os.cpu_count() or 1
+    run(tried, 1, 1)  # machine code is stored
+    rounds = [(run(tried, 1, 1), run(tried, 1, count), run(tried, cores, count)) for _ in range(ROUNDS)]
+    each_s = median((one.cpu_s - least.cpu_s) / (count - 1) for least, one, _ in rounds)
+    start_s = median(least.cpu_s - each_s for least, _, _ in rounds)
+    faster = median(one.wall_s / all_.wall_s for _, one, all_ in rounds)
+    dearer = median(all_.cpu_s / (one.cpu_s + (cores - 1) * start_s) for _, one, all_ in rounds)
+    ideal = (start_s + count * each_s) / (start_s + count * each_s / cores)
+    print(
+        f"{count} trials in {cores} processes: {faster:.2f} times as many per minute as in one, of {ideal:.2f} that are "
+        f"possible; they take {dearer:.2f} times the CPU time. To start a process takes {start_s / each_s:.1f} times the "
+        f"CPU time of a trial ({each_s:.2f} s)"
+    )

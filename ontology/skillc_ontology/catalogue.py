@@ -20,6 +20,7 @@ ENDINGS = (".ttl", ".owl", ".rdf", ".xml", ".nt", ".nq", ".trig", ".jsonld")
 VARIABLE = "SKILLC_ONTOLOGY"
 """The environment variable that lists the user's folders, separated as in PATH."""
 _ADDED: ContextVar[tuple[Path, ...]] = ContextVar("added ontology folders", default=())
+_REPLACED: ContextVar[bool] = ContextVar("whether the added ontology folders are all", default=False)
 
 
 def vocabulary_files() -> tuple[tuple[str, str], ...]:
@@ -29,13 +30,19 @@ def vocabulary_files() -> tuple[tuple[str, str], ...]:
 
 def user_folders() -> tuple[Path, ...]:
     """Return the user's ontology folders, each once: those that were added in this context, then the variable's."""
-    named = os.environ.get(VARIABLE, "").split(os.pathsep)
+    named = [] if _REPLACED.get() else os.environ.get(VARIABLE, "").split(os.pathsep)
     return tuple(dict.fromkeys((*_ADDED.get(), *(Path(name) for name in named if name))))
 
 
 def add_folders(folders: Iterable[Path]) -> None:
     """Put ontology folders first, until the innermost `folder_scope` around ends; other threads do not see them."""
     _ADDED.set(tuple(dict.fromkeys((*folders, *_ADDED.get()))))
+
+
+def replace_folders(folders: Iterable[Path]) -> None:
+    """Let these be the only ontology folders from now on, whatever the variable says; other threads do not see them."""
+    _ADDED.set(tuple(folders))
+    _REPLACED.set(True)
 
 
 @contextmanager
@@ -52,7 +59,7 @@ def folder_scope(folders: Iterable[Path] = ()) -> Iterator[None]:
 def make_environment() -> dict[str, str]:
     """Return the environment variables for a new process that shall see the same ontology folders."""
     folders = os.pathsep.join(map(str, user_folders()))
-    return {**os.environ, VARIABLE: folders} if folders else dict(os.environ)
+    return {**os.environ, VARIABLE: folders} if folders or VARIABLE in os.environ else dict(os.environ)
 
 
 def user_files() -> tuple[tuple[str, Path], ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 
@@ -12,8 +13,8 @@ from random_cells.outcomes import BAD, classify, format_table
 from random_cells.running import CaseRunner
 from random_cells.spoiling import SERIES
 from skillc_runtime.evaluation.trials import identity
+from skillc_runtime.evaluation.trials.dispatch import run_on
 from skillc_runtime.evaluation.trials.journal import Heading, TrialJournal, find_missing_seeds
-from skillc_runtime.evaluation.trials.workers import run_in_processes
 
 CELL_LIMIT_S = 900.0
 """How long one cell may take, in s of wall-clock time."""
@@ -31,10 +32,10 @@ def main() -> int:
         library=f"{options.backend}, at most {options.parts} parts",
         scene=identity.compute_digest(file.read_bytes() for file in sorted(Path(__file__).parent.glob("*.py"))),
     )
-    with TrialJournal(out, heading) as journal:
+    with TrialJournal(out, heading) as journal, ThreadPoolExecutor(options.jobs) as executor:
         missing = find_missing_seeds(seeds, journal.trials)
         prepare = partial(CaseRunner, out, options.backend, options.parts, options.series)
-        for trial in run_in_processes(prepare, missing, options.jobs, CELL_LIMIT_S):
+        for trial in (tried.trial for tried in run_on(executor, prepare, missing, CELL_LIMIT_S)):
             journal.add(trial)
             said = "; ".join(trial.false_claims) if trial.is_false_success else trial.reason or ""
             print(

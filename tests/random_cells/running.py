@@ -78,7 +78,6 @@ class CaseRunner:
             at_rest=cell.is_at_rest(),
             pushed=isinstance(somebody, Hand) and somebody.acted,
             sim_time_s=cell.now,
-            wall_time_s=execution.wall_time_s,
             false_claims=execution.false_claims,
         )
 

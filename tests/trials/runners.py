@@ -86,7 +86,6 @@ def good(seed: int, *works: Work) -> Trial:
         pushed=True,
         at_rest=True,
         sim_time_s=40.0,
-        wall_time_s=4.0,
     )
 
 
@@ -117,7 +116,7 @@ class Endless:
 class Exits:
     """Ends its process when it is made, as code does that calls os._exit while it is imported."""
 
-    def __init__(self) -> None:
+    def __init__(self, *_experiment: object) -> None:
         os._exit(5)
 
     def run(self, seed: int) -> Trial:
@@ -178,4 +177,19 @@ class Slow:
     def run(self, seed: int) -> Trial:
         if seed == BROKEN - 2:
             Endless(self.folder).run(seed)
+        return good(seed)
+
+
+@dataclass(frozen=True, slots=True)
+class Noted:
+    """Notes in a folder the process of each trial and its parent, and takes a time; dies at one seed."""
+
+    folder: Path
+    seconds: float
+
+    def run(self, seed: int) -> Trial:
+        (self.folder / f"{seed}-{os.getpid()}-{os.getppid()}").touch()
+        if seed == KILLED:
+            os.kill(os.getpid(), signal.SIGKILL)
+        time.sleep(self.seconds)
         return good(seed)

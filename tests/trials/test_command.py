@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-import os
+import socket
 from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor
 from functools import cache
 from pathlib import Path
 
@@ -15,11 +16,10 @@ from skillc.cli.main import skillc
 from skillc.services import libraries, task_loading, trial_runs
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.evaluation.trials import workers
+from skillc_runtime.evaluation.trials import dispatch
+from skillc_runtime.evaluation.trials.hosting import Prepare, Tried
 from skillc_runtime.evaluation.trials.journal import FILE
-from skillc_runtime.evaluation.trials.trial import Trial
-from skillc_runtime.evaluation.trials.workers import Prepare
-from trials.runners import good, wiping
+from trials.runners import Exits, good, wiping
 
 TILTED = 8
 """A seed at which a target is missed."""
@@ -36,12 +36,12 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     seeds_run: list[int] = []
     library = shipped()
 
-    def run_in_processes(_prepare: Prepare, seeds: Sequence[int], jobs: int, limit_s: float) -> Iterator[Trial]:
+    def run_on(_executor: Executor, _prepare: Prepare, seeds: Sequence[int], _limit_s: float) -> Iterator[Tried]:
         for seed in seeds:
             seeds_run.append(seed)
-            yield good(seed, wiping(tilt_rms_deg=0.9 if seed == TILTED else 0.1))
+            yield Tried(good(seed, wiping(tilt_rms_deg=0.9 if seed == TILTED else 0.1)), 4.0)
 
-    monkeypatch.setattr(trial_runs, "run_in_processes", run_in_processes)
+    monkeypatch.setattr(trial_runs, "run_on", run_on)
     monkeypatch.setattr(task_loading, "compile_valid", lambda files: library)
     return seeds_run
 
@@ -107,22 +107,23 @@ def test_a_page_that_cannot_be_written_hides_no_outcome(tmp_path: Path) -> None:
 
 
 def test_interrupted_it_keeps_what_is_done_and_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    def interrupted(_prepare: Prepare, seeds: Sequence[int], jobs: int, limit_s: float) -> Iterator[Trial]:
-        yield good(seeds[0])
+    def interrupted(_executor: Executor, _prepare: Prepare, seeds: Sequence[int], _limit_s: float) -> Iterator[Tried]:
+        yield Tried(good(seeds[0]), 4.0)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(trial_runs, "run_in_processes", interrupted)
+    monkeypatch.setattr(trial_runs, "run_on", interrupted)
     result = run("clean_table", "-n", 3, "--out", tmp_path)
     assert result.exit_code == 3
     assert "interrupted" in result.stderr and "1 of 3 trials passed, 2 not done" in result.stdout
 
 
 def test_that_no_process_can_run_trials_is_one_clear_error(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(trial_runs, "run_in_processes", workers.run_in_processes)
-    monkeypatch.setattr(trial_runs, "TrialRunner", lambda _experiment: os._exit(5))
+    monkeypatch.setattr(trial_runs, "run_on", dispatch.run_on)
+    monkeypatch.setattr(trial_runs, "prepare_runner", Exits)
     result = run("clean_table", "-n", 3, "--out", tmp_path)
     assert result.exit_code == 1 and result.stdout == ""
-    assert result.stderr == "error: no process can run the trials: its process ended with code 5\n"
+    why = f"the worker on {socket.gethostname()} cannot run the trials: its process ended with code 5"
+    assert result.stderr == f"error: no more trials can be run: {why}\n"
 
 
 @pytest.mark.parametrize(

@@ -53,7 +53,8 @@ def test_a_histogram_has_a_bin_for_each_eighth_of_the_range(values: tuple[float,
 def test_every_task_has_its_distributions_and_its_time_at_every_width(kind: str, width: int) -> None:
     works = [GOOD[kind]] if kind else []
     trials = [good(seed, *works) for seed in range(4)] + [good(4, wiping(tilt_rms_deg=0.8))]
-    lines = format_series(judge_series("task", "none", 5, trials), TerminalPage(width), is_unicode=True).split("\n")
+    series = judge_series("task", "none", 5, trials, [3.0, 5.0])
+    lines = format_series(series, TerminalPage(width), is_unicode=True).split("\n")
     assert lines[0] == "task  4 of 5 trials passed"
     assert lines[1].startswith("80 % passed, 95% confidence interval 37.6 to 96.4 %")
     assert any(line.startswith("simulated time, s") for line in lines)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from statistics import fmean
 
 from skillc.cli.layout import Row, TableCell, TerminalPage
 from skillc_runtime.evaluation.trials.confidence import LEVEL, Interval
@@ -107,10 +108,8 @@ def _list_failed(failed: FailedSeed, page: TerminalPage) -> Iterator[str]:
 
 
 def _describe_time(series: Series) -> str:
-    simulated = sum(trial.sim_time_s for trial in series.trials)
-    computed = sum(trial.wall_time_s for trial in series.trials)
-    if not series.done or not computed:
+    if not series.done or not series.mean_wall_time_s:
         return ""
-    speed = f"{simulated / computed:.1f} x real time"
-    each = f"{simulated / series.done:.1f} s simulated and {computed / series.done:.1f} s computed for each trial"
-    return f"{each}, {speed}"
+    simulated, computed = fmean(trial.sim_time_s for trial in series.trials), series.mean_wall_time_s
+    each = f"{simulated:.1f} s simulated and {computed:.1f} s computed for each trial"
+    return f"{each}, {simulated / computed:.1f} x real time"

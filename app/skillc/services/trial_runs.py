@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import AbstractContextManager, closing, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -20,13 +21,14 @@ from skillc.services.task_loading import find_task_in_scene
 from skillc_model import codec
 from skillc_model.skills import SkillLibrary, Task
 from skillc_runtime.evaluation.trials import identity, page
-from skillc_runtime.evaluation.trials.experiment import Experiment, TrialRunner
+from skillc_runtime.evaluation.trials.content import Experiment, prepare_runner, read_folders
+from skillc_runtime.evaluation.trials.dispatch import ExecutorError, run_on
+from skillc_runtime.evaluation.trials.hosting import Tried
 from skillc_runtime.evaluation.trials.journal import Heading, JournalError, TrialJournal, find_missing_seeds
 from skillc_runtime.evaluation.trials.judging import judge_series
 from skillc_runtime.evaluation.trials.series import Series
 from skillc_runtime.evaluation.trials.trial import TRIAL_LIMIT_S, Disturbance, Trial
 from skillc_runtime.evaluation.trials.trial_cell import is_without_effect
-from skillc_runtime.evaluation.trials.workers import PreparationError, run_in_processes
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.world_state import WorldState
@@ -34,11 +36,13 @@ from skillc_runtime.world.state.world_state import WorldState
 PAGE = "trials.html"
 StartMonitor: TypeAlias = Callable[[str, int], AbstractContextManager[Callable[[Trial], None]]]
 """Takes a task's name and the number of trials already done; the value of the context is called with each trial."""
+OpenExecutor: TypeAlias = Callable[[], AbstractContextManager[Executor]]
+"""Starts, or connects to, what runs the trials; it is left at the end of the context."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrialRequest:
-    """The task of the trials, their disturbance and seeds, the number of parallel `jobs`, and the folder to write.
+    """The task of the trials, their disturbance and seeds, what makes the executor, and the folder to write.
 
     `limit_s` is the time that one trial may take, in s of wall-clock time. `arguments` are the values of the task's
     parameters, as they are written in a call.
@@ -47,7 +51,7 @@ class TrialRequest:
     reference: str
     disturbance: Disturbance
     seeds: Sequence[int]
-    jobs: int
+    executor: OpenExecutor
     out: Path | None
     limit_s: float = TRIAL_LIMIT_S
     arguments: Mapping[str, str] = field(default_factory=dict)
@@ -56,15 +60,25 @@ class TrialRequest:
 def run_trials(request: TrialRequest, watch: StartMonitor, reporter: Reporter) -> Series:
     """Run the trials that are not recorded yet; return all of them, judged. Ctrl-C ends the running ones.
 
-    RequestError, DiagnosticsError or ServiceError if the library, the scene or the folder cannot be used, or if no
-    process can run trials.
+    RequestError, DiagnosticsError or ServiceError if the library, the scene or the folder cannot be used, or if the
+    executor cannot run trials.
     """
     library, task, scene = find_task_in_scene(request.reference)
     state = load_world(scene, library.vocabulary, reporter)
     require_effect(request.disturbance, state)
-    experiment = make_experiment(task, library, scene, state, request.arguments, request.disturbance)
-    trials = _run(request, experiment, _heading(experiment, library), watch, reporter)
-    return judge_series(experiment.task, request.disturbance, len(request.seeds), trials)
+    library, name = bind_trial_task(task, library, state, request.arguments)
+    experiment = _make_experiment(library, name, scene, state, request.disturbance)
+    heading = _heading(experiment, library)
+    with nullcontext() if request.out is None else _journal(request.out, heading) as journal:
+        known = () if journal is None else journal.trials
+        done = {trial.seed: trial for trial in known if trial.seed in request.seeds}
+        took_s: list[float] = []
+        with watch(experiment.task, len(done)) as show:
+            for tried in _record(_until_interrupted(_run_missing(request, experiment, done), reporter), journal):
+                done[tried.trial.seed] = tried.trial
+                took_s += () if tried.took_s is None else (tried.took_s,)
+                show(tried.trial)
+    return judge_series(experiment.task, request.disturbance, len(request.seeds), tuple(done.values()), took_s)
 
 
 def require_effect(disturbance: Disturbance, state: WorldState) -> None:
@@ -78,21 +92,15 @@ def require_effect(disturbance: Disturbance, state: WorldState) -> None:
         raise RequestError(f"the disturbance `{disturbance}` changes nothing here: the scene has no {affected}")
 
 
-def make_experiment(
-    task: Task,
-    library: SkillLibrary,
-    scene: Path,
-    state: WorldState,
-    arguments: Mapping[str, str],
-    disturbance: Disturbance,
-) -> Experiment:
-    """Return what trials of a task with arguments run, in the file of a scene, whose world is `state`.
+def bind_trial_task(
+    task: Task, library: SkillLibrary, state: WorldState, arguments: Mapping[str, str]
+) -> tuple[SkillLibrary, str]:
+    """Return a library with a task that has its arguments, and the name of that; `state` is the world of the scene.
 
     DiagnosticsError or RequestError if the arguments have errors.
     """
     task = bind_task(task, library, state, arguments)
-    library = structs.replace(library, tasks={**library.tasks, task.name: task})
-    return Experiment(codec.dumps(library), task.name, scene, disturbance)
+    return structs.replace(library, tasks={**library.tasks, task.name: task}), task.name
 
 
 def write_page(result: Series, out: Path) -> None:
@@ -101,19 +109,31 @@ def write_page(result: Series, out: Path) -> None:
         (out / PAGE).write_text(page.render_page(result), encoding="utf-8")
 
 
-def _run(
-    request: TrialRequest, experiment: Experiment, heading: Heading, watch: StartMonitor, reporter: Reporter
-) -> tuple[Trial, ...]:
-    with nullcontext() if request.out is None else _journal(request.out, heading) as journal:
-        known = () if journal is None else journal.trials
-        done = {trial.seed: trial for trial in known if trial.seed in request.seeds}
-        left = find_missing_seeds(request.seeds, known)
-        trials = run_in_processes(partial(TrialRunner, experiment), left, request.jobs, request.limit_s)
-        with watch(experiment.task, len(done)) as show:
-            for trial in _record(_until_interrupted(trials, reporter), journal):
-                done[trial.seed] = trial
-                show(trial)
-    return tuple(done.values())
+def _make_experiment(
+    library: SkillLibrary, task: str, scene: Path, state: WorldState, disturbance: Disturbance
+) -> Experiment:
+    try:
+        return Experiment(
+            library=codec.dumps(library),
+            task=task,
+            disturbance=disturbance,
+            scene_name=scene.name,
+            scene=scene.read_bytes(),
+            folders=read_folders(state),
+        )
+    except OSError as error:
+        raise ServiceError(f"{error.filename} cannot be read: {error.strerror}") from error
+
+
+def _run_missing(
+    request: TrialRequest, experiment: Experiment, done: Mapping[int, Trial]
+) -> Generator[Tried, None, None]:
+    if left := find_missing_seeds(request.seeds, done.values()):
+        with (
+            request.executor() as executor,
+            closing(run_on(executor, partial(prepare_runner, experiment), left, request.limit_s)) as trials,
+        ):
+            yield from trials
 
 
 def _heading(experiment: Experiment, library: SkillLibrary) -> Heading:
@@ -121,27 +141,28 @@ def _heading(experiment: Experiment, library: SkillLibrary) -> Heading:
         task=experiment.task,
         disturbance=experiment.disturbance,
         skillc=identity.identify_skillc(),
-        library=f"{library.name} of {library.hash[: identity.DIGITS]}",
-        scene=identity.identify_file(experiment.scene),
+        library=f"{library.name} of {experiment.library_digest}",
+        scene=f"{experiment.scene_name} of {experiment.scene_digest}",
     )
 
 
-def _record(trials: Iterator[Trial], journal: TrialJournal | None) -> Iterator[Trial]:
+def _record(trials: Iterator[Tried], journal: TrialJournal | None) -> Iterator[Tried]:
     """Yield trials; those with a journal are in it when they are yielded."""
-    for trial in trials:
+    for tried in trials:
         if journal is not None:
-            journal.add(trial)
-        yield trial
+            journal.add(tried.trial)
+        yield tried
 
 
-def _until_interrupted(trials: Iterator[Trial], reporter: Reporter) -> Iterator[Trial]:
-    """Yield trials; on Ctrl-C end the running ones and report it. ServiceError if no process can run any."""
+def _until_interrupted(trials: Generator[Tried, None, None], reporter: Reporter) -> Iterator[Tried]:
+    """Yield trials; on Ctrl-C end the running ones and report it. ServiceError if the executor cannot run any."""
     try:
         yield from trials
     except KeyboardInterrupt:
+        trials.close()
         reporter.say("interrupted; with --out, the same command continues with the remaining trials")
-    except PreparationError as error:
-        raise ServiceError(f"no process can run the trials: {error}") from error
+    except ExecutorError as error:
+        raise ServiceError(f"no more trials can be run: {error}") from error
 
 
 @contextmanager

@@ -19,7 +19,7 @@ from skillc.services.library_files import find_scene
 from skillc.services.reporting import SilentReporter
 from skillc.services.run_recordings import KnownStart, describe_contents, recorded_in
 from skillc.services.stores import load_world
-from skillc.services.trial_runs import make_experiment, require_effect
+from skillc.services.trial_runs import bind_trial_task, require_effect
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.trials.disturbance import TrialCell
@@ -82,5 +82,5 @@ def _recording(job: RecordTrial, library: SkillLibrary, cell: TrialCell) -> Iter
 def _prepare(job: RunTrial | RecordTrial, known: CellSnapshot) -> TrialRunner:
     library, request, scene = known.library, job.request, find_scene(Path(job.scene))
     state = load_world(scene, library.vocabulary, SilentReporter())
-    task = find_task(library, request.task)
-    return TrialRunner(make_experiment(task, library, scene, state, request.arguments, request.disturb))
+    library, task = bind_trial_task(find_task(library, request.task), library, state, request.arguments)
+    return TrialRunner(library, state, task, request.disturb)

@@ -3049,7 +3049,8 @@ export interface components {
          *
          *         `pass_interval` is the confidence interval of the probability to pass, from the trials that were done; None if none
          *         was. In `unverified` trials the task finished, but the facts `assumed` were not sensed. `false_successes` are trials
-         *         that succeeded although the world model claims something false about things.
+         *         that succeeded although the world model claims something false about things. `mean_wall_time_s` is the mean of
+         *         the wall times of those trials that were run now, None if none was.
          */
         Series: {
             task: string;
@@ -3068,6 +3069,8 @@ export interface components {
             assumed?: string[];
             /** @default 0 */
             false_successes?: number;
+            /** @default null */
+            mean_wall_time_s?: number | null;
         };
         /**
          * Interval
@@ -3161,8 +3164,6 @@ export interface components {
             at_rest?: boolean;
             /** @default 0 */
             sim_time_s?: number;
-            /** @default 0 */
-            wall_time_s?: number;
         };
         /**
          * WipingWork

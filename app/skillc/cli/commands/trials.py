@@ -5,7 +5,6 @@ Exit code 3 if a trial did not pass.
 
 from __future__ import annotations
 
-import os
 import sys
 from pathlib import Path
 from typing import get_args
@@ -25,6 +24,7 @@ EXAMPLES = """
 skillc trials clean_table -n 20
 skillc trials contact:insert_peg -n 100 --out trials
 skillc trials clean_table --disturb push --json
+skillc trials clean_table -n 1000 --scheduler tls://cluster:8786 --out trials
 skillc trials clean_table --cell iiwa_table -n 20
 """
 
@@ -37,6 +37,7 @@ class AskedTrials(msgspec.Struct, frozen=True, kw_only=True):
     number: int
     seed: int
     jobs: int | None
+    scheduler: str | None
     disturb: Disturbance
     out: Path | None
     deadline_s: float
@@ -59,6 +60,11 @@ COUNT, SEED = click.IntRange(min=1), click.IntRange(min=0)
 )
 @click.option("--seed", type=SEED, metavar="N", default=0, show_default=True, help="The seed of the first trial.")
 @click.option("--jobs", type=COUNT, metavar="N", help="The number of parallel trials; by default one per core.")
+@click.option(
+    "--scheduler",
+    metavar="ADDRESS",
+    help="Run the trials on the workers of this scheduler of Dask, `tls://HOST:PORT`, instead of in processes here.",
+)
 @click.option(
     "--disturb",
     type=click.Choice(get_args(Disturbance)),
@@ -95,13 +101,14 @@ def command(asked: AskedTrials, as_json: bool) -> int:
     from skillc.cli.trials_output import format_series
     from skillc.errors import RequestError
     from skillc.services.task_list import require_task
+    from skillc.services.trial_executors import choose_executor
     from skillc.services.trial_runs import TrialRequest, run_trials, write_page
 
     def progress(name: str, done: int) -> TrialProgress:
         return TrialProgress(name, asked.disturb, asked.number, done, quiet=as_json)
 
     if asks_cell():
-        refuse_options(jobs=asked.jobs, out=asked.out)
+        refuse_options(jobs=asked.jobs, scheduler=asked.scheduler, out=asked.out)
         if asked.task is None:
             raise RequestError("name a task of the cell's library")
         with progress(asked.task, 0) as shown:
@@ -117,9 +124,9 @@ def command(asked: AskedTrials, as_json: bool) -> int:
     else:
         chosen = require_task(asked.task)
         remark_default(asked.task, chosen)
-        at_a_time = min(asked.jobs or os.cpu_count() or 1, asked.number)
+        executor = choose_executor(asked.jobs, asked.scheduler, asked.number, Terminal())
         seeds = range(asked.seed, asked.seed + asked.number)
-        request = TrialRequest(chosen, asked.disturb, seeds, at_a_time, asked.out, asked.deadline_s, asked.arguments)
+        request = TrialRequest(chosen, asked.disturb, seeds, executor, asked.out, asked.deadline_s, asked.arguments)
         result = run_trials(request, progress, Terminal())
     if as_json:
         print_json(result)

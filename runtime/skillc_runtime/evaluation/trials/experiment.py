@@ -6,10 +6,8 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from math import inf
-from pathlib import Path
 from typing import TypeAlias
 
-from skillc_model import codec
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.measures import buttons, placements, poses, sockets, surfaces
@@ -33,7 +31,6 @@ from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.recording.known_facts import unverified_facts
-from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
 from skillc_runtime.world.state.labelled_text import format_fact
@@ -45,16 +42,6 @@ MEASURES = (surfaces.measure, buttons.measure, sockets.measure, poses.measure)
 """The measures of the kinds of work that need evidence, in the order in which trials list them."""
 
 
-@dataclass(frozen=True, slots=True)
-class Experiment:
-    """What trials run, as it is sent to worker processes: a compiled library as JSON, its task, the file of a scene."""
-
-    library: bytes
-    task: str
-    scene: Path
-    disturbance: Disturbance
-
-
 RecordTrial: TypeAlias = Callable[[TrialCell], AbstractContextManager[Sequence[Listener]]]
 """Records what happens in the cell of a trial in a `with` statement, which yields who gets the events."""
 
@@ -64,14 +51,12 @@ class NotRecorded(Exception):
 
 
 class TrialRunner:
-    """Runs trials of one experiment; loading and planning are done once for all of them."""
+    """Runs trials of a task of a library in the world of a scene; planning is done once for all of them."""
 
-    def __init__(self, experiment: Experiment) -> None:
-        """Load and plan; LibraryError, SceneError or OSError if the library or the scene cannot be loaded."""
-        self._library = codec.loads(experiment.library, "the library")
-        self._state = load_scene(experiment.scene, self._library.vocabulary)
-        self._disturbance = experiment.disturbance
-        self._prepared = prepare_task(_make_assignment(experiment.task, self._library, self._state), self._library)
+    def __init__(self, library: SkillLibrary, state: WorldState, task: str, disturbance: Disturbance) -> None:
+        """Plan."""
+        self._library, self._state, self._disturbance = library, state, disturbance
+        self._prepared = prepare_task(_make_assignment(task, library, state), library)
 
     def run(self, seed: int) -> Trial:
         """Run the trial of a seed."""
@@ -132,7 +117,6 @@ class _Executed:
             taken=self.taken,
             at_rest=cell.is_at_rest(),
             sim_time_s=result.sim_time_s,
-            wall_time_s=result.wall_time_s,
         )
 
 

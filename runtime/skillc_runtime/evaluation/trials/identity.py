@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib import import_module
 from importlib.metadata import version
@@ -20,17 +20,12 @@ def identify_skillc() -> str:
     return f"{version('skillc')} of {compute_digest(_read_files())}, MuJoCo {version('mujoco')}"
 
 
-def compute_digest(contents: Iterator[bytes]) -> str:
+def compute_digest(contents: Iterable[bytes]) -> str:
     """Return a short digest of contents in order."""
     sha = hashlib.sha256()
     for content in contents:
         sha.update(b"%d:" % len(content) + content)
     return sha.hexdigest()[:DIGITS]
-
-
-def identify_file(path: Path) -> str:
-    """Return the name and a digest of a file; OSError if it cannot be read."""
-    return f"{path.name} of {compute_digest(iter((path.read_bytes(),)))}"
 
 
 def _read_files() -> Iterator[bytes]:

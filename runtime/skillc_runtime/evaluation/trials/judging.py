@@ -13,8 +13,10 @@ from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 
 
-def judge_series(task: str, disturbance: Disturbance, wanted: int, trials: Sequence[Trial]) -> Series:
-    """Judge the trials of a task, of which `wanted` were requested."""
+def judge_series(
+    task: str, disturbance: Disturbance, wanted: int, trials: Sequence[Trial], took_s: Sequence[float] = ()
+) -> Series:
+    """Judge the trials of a task, of which `wanted` were requested; `took_s` are the wall times of some, in s."""
     ordered = tuple(sorted(trials, key=lambda trial: trial.seed))
     judged = [(trial, find_unmet_criteria(trial, disturbance)) for trial in ordered]
     failed = tuple(FailedSeed(seed=t.seed, reasons=why, variation=t.variation) for t, why in judged if why)
@@ -32,6 +34,7 @@ def judge_series(task: str, disturbance: Disturbance, wanted: int, trials: Seque
         unverified=sum(trial.verified is False for trial in ordered),
         assumed=tuple(dict.fromkeys(fact for trial in ordered for fact in trial.assumed)),
         false_successes=sum(trial.is_false_success for trial in ordered),
+        mean_wall_time_s=fmean(took_s) if took_s else None,
     )
 
 

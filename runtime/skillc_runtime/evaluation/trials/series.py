@@ -51,7 +51,8 @@ class Series(msgspec.Struct, frozen=True, kw_only=True):
 
     `pass_interval` is the confidence interval of the probability to pass, from the trials that were done; None if none
     was. In `unverified` trials the task finished, but the facts `assumed` were not sensed. `false_successes` are trials
-    that succeeded although the world model claims something false about things.
+    that succeeded although the world model claims something false about things. `mean_wall_time_s` is the mean of
+    the wall times of those trials that were run now, None if none was.
     """
 
     task: str
@@ -66,6 +67,7 @@ class Series(msgspec.Struct, frozen=True, kw_only=True):
     unverified: int = 0
     assumed: tuple[str, ...] = ()
     false_successes: int = 0
+    mean_wall_time_s: float | None = None
 
     @property
     def is_good(self) -> bool:

@@ -47,7 +47,6 @@ class Trial(msgspec.Struct, frozen=True, kw_only=True):
     taken: bool = False
     at_rest: bool = False
     sim_time_s: float = 0.0
-    wall_time_s: float = 0.0
 
     @property
     def is_false_success(self) -> bool:

@@ -1,0 +1,53 @@
+"""How many workers of Dask trials keep busy: trials that only sleep, on processes of this machine.
+
+`cluster.py [WORKERS [SECONDS]]`: each worker gets ROUNDS trials that sleep.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from dataclasses import dataclass
+from functools import partial
+from importlib.util import find_spec
+
+from skillc_runtime.evaluation.trials.dispatch import run_on
+from skillc_runtime.evaluation.trials.trial import Trial
+
+WORKERS, SECONDS, ROUNDS = 64, 5.0, 4
+
+
+@dataclass(frozen=True, slots=True)
+class Sleeper:
+    """Sleeps."""
+
+    seconds: float
+
+    def run(self, seed: int) -> Trial:
+        time.sleep(self.seconds)
+        return Trial(seed=seed, status="succeeded")
+
+
+def measure(workers: int, seconds: float) -> float:
+    """Return the share of their time in which the workers sleep; they have started before."""
+    from distributed import Client, LocalCluster
+
+    options = {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": None, "memory_limit": 0}
+    with LocalCluster(**options) as cluster, Client(cluster, set_as_default=False) as client:
+        client.wait_for_workers(workers)
+        began, count = time.perf_counter(), ROUNDS * workers
+        tried = list(run_on(client.get_executor(pure=False), partial(Sleeper, seconds), range(count)))
+        took = time.perf_counter() - began
+    assert len(tried) == count
+    return ROUNDS * seconds / took
+
+
+if __name__ == "__main__":
+    asked = sys.argv[1:]
+    workers, seconds = int(asked[0]) if asked else WORKERS, float(asked[1]) if len(asked) > 1 else SECONDS
+    if find_spec("distributed") is None:
+        print("Dask is not installed: pip install 'skillc[cluster]'")
+    else:
+        print(
+            f"{workers} workers sleep {measure(workers, seconds):.0%} of the time of {ROUNDS * workers} trials of {seconds:g} s"
+        )
