@@ -48,6 +48,5 @@ if __name__ == "__main__":
     if find_spec("distributed") is None:
         print("Dask is not installed: pip install 'skillc[cluster]'")
     else:
-        print(
-            f"{workers} workers sleep {measure(workers, seconds):.0%} of the time of {ROUNDS * workers} trials of {seconds:g} s"
-        )
+        share = measure(workers, seconds)
+        print(f"{workers} workers sleep {share:.0%} of the time of {ROUNDS * workers} trials of {seconds:g} s")

@@ -1,6 +1,6 @@
 """How trials scale with processes: trials per minute with one and with all cores, and what a process costs to start.
 
-`trials.py [TASK [COUNT]]`: COUNT trials of a task of the contact library for each number of processes, in ROUNDS rounds.
+`trials.py [TASK [COUNT]]`: COUNT trials of a task of the contact library for each number of processes, ROUNDS times.
 """
 
 from __future__ import annotations
@@ -69,8 +69,6 @@ if __name__ == "__main__":
     faster = median(one.wall_s / all_.wall_s for _, one, all_ in rounds)
     dearer = median(all_.cpu_s / (one.cpu_s + (cores - 1) * start_s) for _, one, all_ in rounds)
     ideal = (start_s + count * each_s) / (start_s + count * each_s / cores)
-    print(
-        f"{count} trials in {cores} processes: {faster:.2f} times as many per minute as in one, of {ideal:.2f} that are "
-        f"possible; they take {dearer:.2f} times the CPU time. To start a process takes {start_s / each_s:.1f} times the "
-        f"CPU time of a trial ({each_s:.2f} s)"
-    )
+    print(f"{count} trials in {cores} processes: {faster:.2f} times as many per minute as in one, at most {ideal:.2f}")
+    print(f"They take {dearer:.2f} times the CPU time of one process and the start of the others")
+    print(f"To start a process takes {start_s / each_s:.1f} times the CPU time of a trial ({each_s:.2f} s)")
