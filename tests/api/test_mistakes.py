@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -59,6 +60,14 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     "wrong folder": (lambda: skillc.run("contact:press_button", out="broken.skill"), "cannot write to"),
     "no recording": (lambda: skillc.open_run("."), "has no events.jsonl"),
     "no trials": (lambda: skillc.trials("contact:press_button", 0), "a whole number of at least 1"),
+    "two places of trials": (
+        lambda: skillc.trials("contact:press_button", 2, jobs=2, executor=ThreadPoolExecutor(1)),
+        "either `jobs` or `executor` says where the trials run",
+    ),
+    "no executor": (
+        lambda: skillc.trials("contact:press_button", 2, executor=2),  # type: ignore[arg-type]
+        "`executor` must be a concurrent.futures.Executor, not 2",
+    ),
     "no plan": (lambda: skillc.plan(goal="lab:Dock contain lab:Whiteboard-1", scene="ur5e_whiteboard"), "no plan"),
     "arguments": (lambda: skillc.plan("contact:press_button", arguments={"a": "1"}), "takes no arguments"),
     "arguments of a goal": (

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from skillc import extras
 from skillc.cli.main import skillc
 from skillc.services import libraries, task_loading, trial_runs
 from skillc.services.library_files import SHIPPED, find_library
@@ -144,3 +145,23 @@ def test_a_disturbance_that_changes_nothing_is_refused(
     assert f"`{disturbance}` changes nothing here: the scene has no surface" in refused.stderr
     assert f"{lacking}\n" in refused.stderr
     assert run("sorting:sort_parts", "-n", 1, "--disturb", "take").exit_code != 2 and asked == [0]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        (("--scheduler", "tcp://10.0.0.5:8786"), 2, "use TLS, tls://10.0.0.5:8786, with the certificates"),
+        (("--scheduler", "cluster:8786"), 2, "use TLS, tls://cluster:8786, with the certificates"),
+        (("--scheduler", "tls://cluster:8786", "--jobs", 2), 2, "--jobs is the number of processes here"),
+        (("--scheduler", "tls://cluster:8786", "--cell", "table"), 2, "--scheduler"),
+    ],
+)
+def test_a_scheduler_that_cannot_be_used_is_refused(arguments: tuple[str, ...], code: int, said: str) -> None:
+    result = run("clean_table", "-n", 2, *arguments)
+    assert (result.exit_code, result.stdout) == (code, "") and said in result.stderr
+
+
+def test_a_scheduler_needs_an_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(extras, "find_spec", lambda _name: None)
+    result = run("clean_table", "-n", 2, "--scheduler", "127.0.0.1:8786")
+    assert (result.exit_code, "pip install 'skillc[cluster]'" in result.stderr) == (2, True)

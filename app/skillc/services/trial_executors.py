@@ -30,7 +30,9 @@ def choose_executor(jobs: int | None, scheduler: str | None, number: int, report
         # A thread for each process: it waits for the process, and ends it if need be.
         return partial(ThreadPoolExecutor, min(jobs or os.cpu_count() or 1, number))
     if jobs is not None:
-        raise RequestError("--jobs is the number of processes here; with --scheduler its workers run the trials: give one of them")
+        raise RequestError(
+            "--jobs is the number of processes here; with --scheduler its workers run the trials: give one of them"
+        )
     _require_secret(scheduler, f"--scheduler {scheduler}")
     require("--scheduler", "cluster")
     return partial(_connect, scheduler, reporter)
