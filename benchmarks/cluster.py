@@ -14,7 +14,13 @@ from importlib.util import find_spec
 from skillc_runtime.evaluation.trials.dispatch import run_on
 from skillc_runtime.evaluation.trials.trial import Trial
 
-WORKERS, SECONDS, ROUNDS = 64, 5.0, 4
+WORKERS, SECONDS, ROUNDS = 64, 10.0, 4
+SETTINGS = {
+    "distributed.scheduler.worker-saturation": 1.0,  # as docs/how-to/many-machines.md has it
+    # All workers share a few cores here: they start as forks of one process, and Dask does not sample their stacks.
+    "distributed.worker.multiprocessing-method": "forkserver",
+    "distributed.worker.profile.enabled": False,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,9 +39,7 @@ def measure(workers: int, seconds: float) -> float:
     import dask
     from distributed import Client, LocalCluster
 
-    # All workers share a few cores here: they start as forks of one process, and Dask does not sample their stacks.
-    dask.config.set({"distributed.worker.multiprocessing-method": "forkserver"})
-    dask.config.set({"distributed.worker.profile.enabled": False})
+    dask.config.set(SETTINGS)
     options = {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": None, "memory_limit": 0}
     with LocalCluster(**options) as cluster, Client(cluster, set_as_default=False) as client:
         client.wait_for_workers(workers)

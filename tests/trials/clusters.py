@@ -31,6 +31,7 @@ class Cluster:
             **os.environ,
             **{f"{SETTING}TLS__{name}": str(file) for name, file in files.items()},
             f"{SETTING}TIMEOUTS__CONNECT": "5s",
+            "DASK_DISTRIBUTED__SCHEDULER__WORKER_SATURATION": "1.0",
             "PYTHONPATH": os.pathsep.join([str(TESTS), *sys.path]),
         }
         self._file = folder / "scheduler.json"
