@@ -62,8 +62,10 @@ class Cluster:
         import dask
         from distributed import Client
 
+        own = {name[5:]: value for name, value in self.environment.items() if name.startswith("DASK_")}
+        settings = {name.lower().replace("__", "."): value for name, value in own.items()}
         with (
-            dask.config.set(dask.config.collect_env(self.environment)),
+            dask.config.set(settings),
             Client(self.address, set_as_default=False) as client,
         ):
             yield client
