@@ -34,8 +34,8 @@ class Sleeper:
         return Trial(seed=seed, status="succeeded")
 
 
-def measure(workers: int, seconds: float) -> float:
-    """Return the share of their time in which the workers sleep; they have started before."""
+def measure(workers: int, seconds: float) -> tuple[float, float]:
+    """Return the share of their time in which workers that have started sleep: in trials, and in bare tasks of Dask."""
     import dask
     from distributed import Client, LocalCluster
 
@@ -47,9 +47,11 @@ def measure(workers: int, seconds: float) -> float:
         list(run_on(executor, sleeper, range(workers)))  # each has its process now
         began = time.perf_counter()
         tried = list(run_on(executor, sleeper, range(count)))
-        took = time.perf_counter() - began
+        ended = time.perf_counter()
+        client.gather(client.map(time.sleep, [seconds] * count, pure=False))
+        bare_s = time.perf_counter() - ended
     assert len(tried) == count
-    return ROUNDS * seconds / took
+    return ROUNDS * seconds / (ended - began), ROUNDS * seconds / bare_s
 
 
 if __name__ == "__main__":
@@ -58,5 +60,6 @@ if __name__ == "__main__":
     if find_spec("distributed") is None:
         print("Dask is not installed: pip install 'skillc[cluster]'")
     else:
-        share = measure(workers, seconds)
+        share, bare = measure(workers, seconds)
         print(f"{workers} workers sleep {share:.0%} of the time of {ROUNDS * workers} trials of {seconds:g} s")
+        print(f"They sleep {bare:.0%} of the time of as many tasks of Dask that only sleep")
