@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services import libraries
+from skillc.services import compiled_libraries, libraries
 from skillc.services.cell_checks.checks import check_cell
 from skillc.services.library_files import find_library
 from skillc.services.new_library import create_library
@@ -24,5 +24,5 @@ def test_nothing_is_wrong_in_a_shipped_scene(name: str) -> None:
 def test_nothing_is_wrong_in_a_new_library(tmp_path: Path) -> None:
     create_library(tmp_path / "mine")
     (scene,) = (tmp_path / "mine").rglob("*.ttl")
-    library = libraries.compile_valid(find_library(tmp_path / "mine"))
+    library = compiled_libraries.compile_valid(find_library(tmp_path / "mine"))
     assert check_cell(load_scene(scene, library.vocabulary)) == ()

@@ -8,7 +8,7 @@ import pytest
 
 from skillc.errors import RequestError
 from skillc.services.breakpoints import parse_breakpoints
-from skillc.services.libraries import compile_valid
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import Compound, SkillLibrary
 from skillc_model.traversal import find_calls

@@ -1,4 +1,4 @@
-"""A run without a report imports nothing that draws figures, pages or films: that takes longer than most runs."""
+"""A run imports what it needs: what draws takes longer than most runs, and so does the compiler."""
 
 from __future__ import annotations
 
@@ -13,6 +13,13 @@ from commands.test_output import lab
 __all__ = ["lab"]
 
 DRAWING = {"skillc.services.run_report", "matplotlib", "PIL"}
+UNUSED = {"skillc.services.dry_runs", "skillc_compiler.checks", "skillc_dsl.parsing.parser"}
+TASK = """
+task fill {
+    scene "scene.ttl"
+    goal lab:b contain lab:crate
+}
+"""
 
 
 @pytest.mark.slow
@@ -21,10 +28,23 @@ def test_what_draws_is_imported_for_a_report_only(lab: Path) -> None:
     assert imported_by_run(lab, "--out", str(lab / "out")) >= DRAWING
 
 
+@pytest.mark.slow
+def test_a_task_of_a_library_that_was_compiled_needs_no_compiler(lab: Path) -> None:
+    written = (lab / "depot.skill").read_text("utf-8")
+    (lab / "depot.skill").write_text(f"prefix lab: <http://example.org/lab#>\n{written}{TASK}", "utf-8")
+    assert imported(f"{lab}:fill") >= {"skillc_compiler.checks", "skillc_dsl.parsing.parser"}
+    assert imported(f"{lab}:fill") & UNUSED == set()
+
+
 def imported_by_run(lab: Path, *more: str) -> set[str]:
     """Run a goal in a process of its own, and return the names of the modules that it imports."""
-    asked = ("run", "--library", str(lab), "--scene", str(lab / "scene.ttl"), "--goal", "lab:b contain lab:crate")
-    command = (sys.executable, "-X", "importtime", "-m", "skillc", *asked, *more)
+    return imported(
+        "--library", str(lab), "--scene", str(lab / "scene.ttl"), "--goal", "lab:b contain lab:crate", *more
+    )
+
+
+def imported(*asked: str) -> set[str]:
+    command = (sys.executable, "-X", "importtime", "-m", "skillc", "run", *asked)
     ran = subprocess.run(command, capture_output=True, text=True, timeout=300)
     assert ran.returncode == 0, ran.stderr[-2000:]
     times = [line.rpartition("|") for line in ran.stderr.splitlines() if line.startswith("import time:")]

@@ -14,7 +14,7 @@ from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.backends import make_backend
-from skillc.services.libraries import compile_valid
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc.services.reporting import SilentReporter
 from skillc_runtime.execution.consistency import check_events

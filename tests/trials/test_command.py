@@ -14,7 +14,7 @@ from click.testing import CliRunner, Result
 
 from skillc import extras
 from skillc.cli.main import skillc
-from skillc.services import libraries, task_loading, trial_runs
+from skillc.services import compiled_libraries, task_loading, trial_runs
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.trials import dispatch
@@ -28,7 +28,7 @@ TILTED = 8
 
 @cache
 def shipped() -> SkillLibrary:
-    return libraries.compile_valid(find_library(SHIPPED / "wiping"))
+    return compiled_libraries.compile_valid(find_library(SHIPPED / "wiping"))
 
 
 @pytest.fixture(autouse=True)
@@ -138,7 +138,7 @@ def test_wrong_words_are_exit_code_2(arguments: tuple[str, ...]) -> None:
 def test_a_disturbance_that_changes_nothing_is_refused(
     asked: list[int], monkeypatch: pytest.MonkeyPatch, disturbance: str, lacking: str
 ) -> None:
-    sorting = libraries.compile_valid(find_library(SHIPPED / "sorting"))
+    sorting = compiled_libraries.compile_valid(find_library(SHIPPED / "sorting"))
     monkeypatch.setattr(task_loading, "compile_valid", lambda files: sorting)
     refused = run("sorting:sort_parts", "-n", 1, "--disturb", disturbance)
     assert refused.exit_code == 2 and asked == []

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from skillc.services import libraries
+from skillc.services import compiled_libraries
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_model import codec
 from skillc_model.skills import SkillLibrary
@@ -27,7 +27,7 @@ SHEET = """
 
 @pytest.fixture(scope="module")
 def library() -> SkillLibrary:
-    return libraries.compile_valid(find_library(SHIPPED / "contact"))
+    return compiled_libraries.compile_valid(find_library(SHIPPED / "contact"))
 
 
 def make_folder(place: Path, sheet: str) -> Path:

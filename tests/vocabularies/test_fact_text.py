@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services.libraries import compile_valid
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import SilentReporter
 from skillc.services.stores import load_world

@@ -12,7 +12,7 @@ from skillc.api.boundary import api_call
 from skillc.api.picture import Picture
 from skillc.errors import DiagnosticsError
 from skillc.services.checking import CheckRequest, check_paths, check_sources
-from skillc.services.libraries import compile_valid
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library, find_scene
 from skillc.services.pictures import draw_declaration
 from skillc.services.task_list import TaskEntry, default_library, list_tasks, tasks_of

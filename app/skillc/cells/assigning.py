@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from skillc.errors import RequestError
 from skillc.services.assignments import assign_call, assign_goal, assign_task
-from skillc.services.libraries import find_task
+from skillc.services.task_list import find_task
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.world.state.world_state import WorldState

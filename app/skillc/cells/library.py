@@ -9,7 +9,7 @@ from pathlib import Path
 import msgspec
 
 from skillc.cells.settings import CellSettings
-from skillc.services.libraries import compile_valid
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc_model.skills import Primitive, SkillLibrary
 from skillc_runtime.platforms.python_modules import import_named

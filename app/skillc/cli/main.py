@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import gc
 import importlib
 import os
 import signal
@@ -23,6 +24,8 @@ from skillc.errors import OutputError
 from skillc.services import crash_reports
 
 COMMANDS = Path(__file__).parent / "commands"
+GARBAGE = 50_000
+"""How many objects more than were deleted are made before new garbage is looked for."""
 INTERNAL = 70
 """EX_SOFTWARE of sysexits.h."""
 VARIABLE = "_SKILLC_COMPLETE"
@@ -160,5 +163,6 @@ def skillc() -> None:
 
 
 def main(arguments: list[str] | None = None) -> Any:
-    """Run the command line."""
+    """Run the command line; garbage is looked for seldom, since most of what a command makes stays until its end."""
+    gc.set_threshold(GARBAGE)
     return skillc(arguments)

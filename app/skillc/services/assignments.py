@@ -1,4 +1,7 @@
-"""Makes what a cell carries out, from a task, a goal or a call, with a compiled library and the present world."""
+"""Makes what a cell carries out, from a task, a goal or a call, with a compiled library and the present world.
+
+What reads goals and calls is slow to import: a task without arguments needs none of it.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,6 @@ from msgspec import structs
 from skillc.errors import DiagnosticsError, RequestError
 from skillc.services.task_scenes import classes_by_individual
 from skillc_compiler.goals.json_text import is_json
-from skillc_compiler.goals.parsing import home_of, parse_call, parse_goal
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
 from skillc_model.format_condition import format_condition
@@ -49,6 +51,8 @@ def bind_task(task: Task, library: SkillLibrary, state: WorldState, arguments: M
         if arguments:
             raise RequestError(f"the task `{task.name}` takes no arguments")
         return task
+    from skillc_compiler.goals.parsing import parse_call
+
     written = write_call(task.name, arguments)
     head = Skill(name=task.name, parameters=task.parameters, source=task.source)
     individuals = classes_by_individual(state, library.vocabulary)
@@ -65,6 +69,8 @@ def bind_task(task: Task, library: SkillLibrary, state: WorldState, arguments: M
 
 def assign_goal(text: str, library: SkillLibrary, state: WorldState) -> Assignment:
     """Return the assignment of a goal, as a condition, in PDDL or in JSON; DiagnosticsError if it has errors."""
+    from skillc_compiler.goals.parsing import home_of, parse_goal
+
     individuals = classes_by_individual(state, library.vocabulary)
     prefixes, home = state.vocabulary.prefixes, home_of(library)
     goal = _valid(parse_goal(text, library.vocabulary, individuals, prefixes, home, library.skills), text)
@@ -74,6 +80,8 @@ def assign_goal(text: str, library: SkillLibrary, state: WorldState) -> Assignme
 
 def assign_call(text: str, library: SkillLibrary, state: WorldState) -> Assignment:
     """Return the assignment of a skill call such as `Wipe(surface: lab:Board)`; DiagnosticsError for errors in it."""
+    from skillc_compiler.goals.parsing import parse_call
+
     individuals = classes_by_individual(state, library.vocabulary)
     call = _valid(parse_call(text, library, individuals, state.vocabulary.prefixes), text)
     return Assignment(call.skill, state, ExecuteBody(call))

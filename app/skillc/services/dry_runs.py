@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 from skillc.errors import ServiceError
 from skillc.services.connecting import connected_devices
-from skillc.services.task_loading import LoadedTask
+from skillc.services.unstarted_runs import CannotBegin
 from skillc_runtime.backends.control_process.dry_cell import DryCell
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.command_record import UNITS, ArmCommands, CommandRecord
@@ -21,29 +20,20 @@ COMMANDS = "commands.csv"
 """The file with what would be sent, in the folder of a run."""
 
 
-class DryRefused(Exception):
-    """A dry run cannot begin where the devices are; the message says why."""
-
-
-def with_own_world(task: LoadedTask) -> LoadedTask:
-    """Return a task in a copy of its world, so that the effects of its simulation do not become facts."""
-    return replace(task, world=WorldModel(task.world.snapshot()))
-
-
 def make_dry_cell(spec: RunSpec, world: WorldModel) -> Backend:
     """Look where the devices of a back end are, and return a simulation that begins there.
 
-    DryRefused if a device is not ready, or contradicts the scene; RequestError and ServiceError as of
+    CannotBegin if a device is not ready, or contradicts the scene; RequestError and ServiceError as of
     `connected_devices`.
     """
     with connected_devices(world.snapshot(), spec.backend) as observer:
         seen = observer.observe()
     if seen.problems:
-        raise DryRefused("; ".join(seen.problems))
+        raise CannotBegin("; ".join(seen.problems))
     try:
         return DryCell(world, spec.seed, seen)
     except SheetError as error:
-        raise DryRefused(str(error)) from error
+        raise CannotBegin(str(error)) from error
 
 
 def write_commands(record: CommandRecord, folder: Path) -> None:

@@ -6,14 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache, lru_cache, partial
 from typing import TypeAlias
 
-from skillc.errors import DiagnosticsError, RequestError
 from skillc.services.library_files import (
     LibraryFiles,
     read_vocabularies,
-    source_texts,
     user_vocabularies,
 )
-from skillc.services.task_list import list_tasks
 from skillc_compiler import pipeline
 from skillc_compiler.diagnostics.fixes import keep_useful_fixes
 from skillc_compiler.problems import AnalysisMemo, find_problems
@@ -25,8 +22,7 @@ from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
-from skillc_dsl.spelling import did_you_mean
-from skillc_model.skills import SkillLibrary, Task
+from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.load import load
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -70,14 +66,6 @@ def compile_library(
     return Outcome(outcome.value, tuple(library.with_display_paths(each) for each in (*known.diagnostics, *useful)))
 
 
-def compile_valid(files: LibraryFiles) -> SkillLibrary:
-    """Compile a library that has no errors; DiagnosticsError if it has."""
-    outcome = compile_library(files)
-    if not outcome.ok:
-        raise DiagnosticsError(outcome.diagnostics, source_texts(files))
-    return outcome.value
-
-
 def load_vocabulary() -> Vocabulary:
     """Load the shipped ontology and those in the user's ontology folders."""
     return load_vocabulary_with(read_vocabularies(sorted(user_vocabularies().items()))).value
@@ -95,19 +83,6 @@ def load_vocabulary_with(own: tuple[Source, ...]) -> Outcome[Vocabulary]:
 @cache
 def _shipped() -> tuple[Source, ...]:
     return tuple(Source(path, text) for path, text in catalogue.vocabulary_files())
-
-
-def find_task(library: SkillLibrary, name: str) -> Task:
-    """Return a task; RequestError suggests one that exists."""
-    if name not in library.tasks:
-        if name in library.skills:
-            needed = ", ".join(f"{each.name}: .." for each in library.skills[name].parameters if each.direction == "in")
-            raise RequestError(f"`{name}` is a skill, not a task: `--scene FILE --call '{name}({needed})'` runs it")
-        elsewhere = [each.name for each in list_tasks() if each.name.endswith(f":{name}")]
-        hint = f"did you mean `{elsewhere[0]}`?" if elsewhere else did_you_mean(name, library.tasks)
-        more = f"{hint} " if hint else ""
-        raise RequestError(f"there is no task `{name}` in {library.name}; {more}(`skillc tasks` lists all)")
-    return library.tasks[name]
 
 
 _parse = lru_cache(_MOST_FILES)(parse)

@@ -8,7 +8,7 @@ from typing import assert_never
 
 from skillc.errors import RequestError
 from skillc.services.artifacts import parse_files
-from skillc.services.libraries import compile_valid
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc.services.reporting import Reporter
 from skillc.services.task_loading import load_task

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import AbstractContextManager, closing, nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
@@ -13,7 +13,6 @@ from skillc.errors import RequestError, ServiceError
 from skillc.services.backends import DEFAULT_BACKEND, check_pace, make_backend
 from skillc.services.breakpoints import make_gate
 from skillc.services.cell_checks.starting import find_start_problem
-from skillc.services.dry_runs import DryRefused, make_dry_cell, with_own_world, write_commands
 from skillc.services.film_making import Films, making_films
 from skillc.services.operating import RunMonitor, operate
 from skillc.services.planning import with_minimal_makespan
@@ -33,7 +32,7 @@ from skillc.services.run_result import (
 from skillc.services.signal_files import check_signals, recorded_signals
 from skillc.services.store_polling import StorePoller
 from skillc.services.task_loading import LoadedTask
-from skillc.services.unstarted_runs import end_unstarted
+from skillc.services.unstarted_runs import CannotBegin, end_unstarted
 from skillc.services.watchdog.process import TICK_TIMEOUT_S
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.evaluation.report.summary import summarise_start
@@ -51,6 +50,7 @@ from skillc_runtime.recording.history_builder import HistoryBuilder
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.transactions import StoreError
 
 
@@ -110,7 +110,7 @@ def run_task(
     if spec.minimise == "makespan":
         task = with_minimal_makespan(task)
     if spec.dry:
-        task = with_own_world(task)
+        task = _with_own_world(task)
     gate = make_gate(spec, task.library)
     end = partial(end_unstarted, task, spec)
     problem = find_start_problem(task, reporter)
@@ -123,7 +123,7 @@ def run_task(
             film = begin_film(cell, spec, reporter)
         except (SheetError, FrameError, StoreError) as error:
             return end("refused", _find_refusal(planning, error), reporter)
-        except DryRefused as error:
+        except CannotBegin as error:
             return end("refused", str(error), reporter)
         except KeyboardInterrupt as interrupt:
             return end("stopped", str(interrupt) or "interrupted", reporter)
@@ -133,9 +133,17 @@ def run_task(
             return _Run(task, options, cell, make_samples(cell, film), gate, monitor, destination).carry_out(planning)
 
 
+def _with_own_world(task: LoadedTask) -> LoadedTask:
+    """Return a task in a copy of its world, so that the effects of its simulation do not become facts."""
+    return replace(task, world=WorldModel(task.world.snapshot()))
+
+
 def _make_cell(task: LoadedTask, options: RunOptions) -> Backend:
     spec = options.spec
     if spec.dry:
+        # What looks at real devices is slow to import.
+        from skillc.services.dry_runs import make_dry_cell
+
         return make_dry_cell(spec, task.world)
     return make_backend(spec.backend, task.world, spec.seed, options.saved)
 
@@ -178,6 +186,8 @@ class _Run:
             if options.out is not None:
                 self.monitor.say("writing the report")
                 if (record := cell.capabilities.commands) is not None:
+                    from skillc.services.dry_runs import write_commands
+
                     write_commands(record, options.out)
             return report_run(execution, builder, task.library, self.samples, self.destination)
 

@@ -15,7 +15,7 @@ import pyoxigraph as ox
 from skillc.errors import RequestError, ServiceError
 from skillc.services import scene_picture
 from skillc.services.assignments import assign_goal
-from skillc.services.libraries import compile_valid
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library, find_scene
 from skillc.services.project.loading import find_project
 from skillc.services.project.project import find_root

@@ -12,7 +12,8 @@ from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
 from skillc.services.project.loading import find_project
 from skillc_compiler.program.written import calls_of
 from skillc_dsl import syntax as s
-from skillc_dsl.parsing.parser import parse
+from skillc_dsl.spelling import did_you_mean
+from skillc_model.skills import SkillLibrary, Task
 
 DEFAULT_LIBRARY = "wiping"
 """The shipped library of tasks that are named without one, outside of projects."""
@@ -79,6 +80,19 @@ def default_library() -> LibraryFiles:
     return find_library(Path() if find_project(Path()) else SHIPPED / DEFAULT_LIBRARY)
 
 
+def find_task(library: SkillLibrary, name: str) -> Task:
+    """Return a task; RequestError suggests one that exists."""
+    if name not in library.tasks:
+        if name in library.skills:
+            needed = ", ".join(f"{each.name}: .." for each in library.skills[name].parameters if each.direction == "in")
+            raise RequestError(f"`{name}` is a skill, not a task: `--scene FILE --call '{name}({needed})'` runs it")
+        elsewhere = [each.name for each in list_tasks() if each.name.endswith(f":{name}")]
+        hint = f"did you mean `{elsewhere[0]}`?" if elsewhere else did_you_mean(name, library.tasks)
+        more = f"{hint} " if hint else ""
+        raise RequestError(f"there is no task `{name}` in {library.name}; {more}(`skillc tasks` lists all)")
+    return library.tasks[name]
+
+
 def task_names(files: LibraryFiles) -> frozenset[str]:
     """Return the names of the tasks of a library, also of those with errors."""
     named = files.project.manifest.tasks if files.project else ()
@@ -142,6 +156,9 @@ def _format_type(written: s.TypeName) -> str:
 
 
 def _declarations(files: LibraryFiles) -> Iterator[s.TaskDeclaration]:
+    # The parser is slow to import, and a shipped task is found without it.
+    from skillc_dsl.parsing.parser import parse
+
     for source in files.sources:
         yield from (each for each in parse(source).value.declarations if isinstance(each, s.TaskDeclaration))
 

@@ -13,14 +13,13 @@ from msgspec import structs
 from skillc.errors import RequestError
 from skillc.services import task_scenes
 from skillc.services.assignments import assign_call, assign_goal, assign_task
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.files import inspect_path
-from skillc.services.libraries import compile_valid, find_task
 from skillc.services.library_files import LibraryFiles, find_library, find_scene
-from skillc.services.named_goals import make_named_task, named_scene
 from skillc.services.project.loading import find_project
 from skillc.services.reporting import Reporter
 from skillc.services.stores import NO_STORE, StoreChoice, open_world
-from skillc.services.task_list import choose_task, default_library, split_reference
+from skillc.services.task_list import choose_task, default_library, find_task, split_reference
 from skillc_model.skills import SkillLibrary, Task
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.recording.run_spec import RunSpec
@@ -103,6 +102,9 @@ def find_task_in_scene(reference: str) -> tuple[SkillLibrary, Task, Path]:
     files, name = split_reference(reference)
     library = compile_valid(files)
     if name not in library.tasks and files.project and name in files.project.manifest.tasks:
+        # What reads goals is slow to import.
+        from skillc.services.named_goals import make_named_task, named_scene
+
         scene = named_scene(files.project, name)
         task = make_named_task(files.project, name, library, scene)
         return structs.replace(library, tasks={**library.tasks, name: task}), task, scene

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from skillc.services import scene_diagnostics
 from skillc.services.files import inspect_path
 from skillc.services.library_files import LibraryFiles
 from skillc.services.missing_terms import find_missing_terms, select_problems
 from skillc.services.project.project import Project
-from skillc_compiler.program.typed import Program
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.spelling import did_you_mean
@@ -22,6 +21,9 @@ from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, SceneError
 from skillc_runtime.scene.load import Scene, read_with_sheets
 from skillc_runtime.world.state.world_state import WorldState
+
+if TYPE_CHECKING:
+    from skillc_compiler.program.typed import Program
 
 Individuals: TypeAlias = dict[str, list[str]]
 """The IRIs of a scene with their classes."""

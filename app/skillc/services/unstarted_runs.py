@@ -25,6 +25,10 @@ from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.writer import TraceWriter
 
 
+class CannotBegin(Exception):
+    """A run cannot begin where the devices are; the message says why."""
+
+
 def end_unstarted(
     task: LoadedTask,
     spec: RunSpec,

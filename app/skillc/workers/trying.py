@@ -14,11 +14,11 @@ from skillc.contract.jobs import CheckTrials, RecordTrial, RunTrial
 from skillc.errors import ServiceError
 from skillc.services.assignments import assign_task
 from skillc.services.backends import DEFAULT_BACKEND
-from skillc.services.libraries import find_task
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import SilentReporter
 from skillc.services.run_recordings import KnownStart, describe_contents, recorded_in
 from skillc.services.stores import load_world
+from skillc.services.task_list import find_task
 from skillc.services.trial_runs import bind_trial_task, require_effect
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.result import TaskResult

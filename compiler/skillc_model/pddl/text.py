@@ -6,9 +6,7 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import cache
 from itertools import groupby
-from typing import assert_never
-
-from jinja2 import Environment, PackageLoader, StrictUndefined, Template
+from typing import TYPE_CHECKING, assert_never
 
 from skillc_model.pddl.domain import Action, ComputedCost, Cost, FixedCost, GuardMeaning, PlanningDomain, Predicate
 from skillc_model.pddl.formulas import (
@@ -29,6 +27,9 @@ from skillc_model.pddl.formulas import (
 )
 from skillc_model.pddl.problem import Problem
 from skillc_model.pddl.requirements import find_requirements
+
+if TYPE_CHECKING:
+    from jinja2 import Template
 
 WIDTH = 100
 
@@ -69,6 +70,9 @@ def _declared(problem: Problem) -> list[Typed]:
 
 @cache
 def _template(name: str) -> Template:
+    # It is slow to import, and only other programs than ours read PDDL.
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
     environment = Environment(
         loader=PackageLoader("skillc_model.pddl", "."),
         undefined=StrictUndefined,

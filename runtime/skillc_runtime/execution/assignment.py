@@ -14,7 +14,6 @@ from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.planning.arrangement import Arrangement, arrange_plan, step_numbers
-from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
@@ -175,6 +174,9 @@ def _plan(
         case "work":
             return solve(library, state, objective.goal, planners.for_work, cancel, without, report=report)
         case "makespan":
+            # It is slow to import, and few goals minimise the makespan.
+            from skillc_runtime.planning.makespan.minimise import minimise_makespan
+
             result = minimise_makespan(library, state, objective.goal, planners, cancel, without, report)
             return result.as_solved() if isinstance(result, Scheduled) else result
         case _:

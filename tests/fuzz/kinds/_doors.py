@@ -20,7 +20,7 @@ from skillc.errors import ServiceError
 from skillc.lsp.messages import MalformedMessage, MessageReader, MessageWriter
 from skillc.server.problems import ApiRefusal
 from skillc.server.requests import decode_body
-from skillc.services import libraries
+from skillc.services import compiled_libraries
 from skillc.services.breakpoints import parse_breakpoints
 from skillc.services.library_files import SHIPPED, find_library, is_vocabulary
 from skillc.services.project.manifest import read_manifest
@@ -131,7 +131,7 @@ def _scene_in_bulk(text: str) -> object:
 
 @cache
 def _library() -> SkillLibrary:
-    return libraries.compile_valid(find_library(SHIPPED / "wiping"))
+    return compiled_libraries.compile_valid(find_library(SHIPPED / "wiping"))
 
 
 def _messages(text: str) -> object:

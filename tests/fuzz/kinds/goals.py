@@ -8,7 +8,7 @@ from pathlib import Path
 from random import Random
 
 from fuzz.kinds._texts import make_text
-from skillc.services import libraries, task_scenes
+from skillc.services import compiled_libraries, task_scenes
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_compiler.goals.parsing import parse_goal
 from skillc_dsl.diagnostics import Outcome
@@ -176,7 +176,7 @@ def _changed(random: Random, text: str) -> str:
 
 @cache
 def _library_of() -> SkillLibrary:
-    return libraries.compile_valid(find_library(SHIPPED / "wiping"))
+    return compiled_libraries.compile_valid(find_library(SHIPPED / "wiping"))
 
 
 @cache

@@ -10,8 +10,8 @@ from tempfile import TemporaryDirectory
 from msgspec import structs
 
 from skillc.errors import RequestError, ServiceError
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.files import inspect_path
-from skillc.services.libraries import compile_valid
 from skillc.services.library_files import SHIPPED, find_library
 from skillc.services.project.loading import find_project
 from skillc.services.recordings import find_mcap, find_recording, is_mcap, read_envelopes
