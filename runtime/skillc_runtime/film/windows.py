@@ -16,6 +16,9 @@ from skillc_runtime.motion.pose import Array
 WIDER, MARGIN_PIXELS = 1.3, 3
 """A sphere far from the middle of a picture is an ellipse; smooth edges and lines reach this far beyond."""
 
+VALUES = 20
+"""Position 3, orientation 9, size 3, colour 4 and type of a geom."""
+
 
 @dataclass(frozen=True, slots=True)
 class Window:
@@ -47,7 +50,7 @@ class Spheres:
 
 @dataclass(frozen=True, slots=True)
 class DrawnGeoms:
-    """What a scene draws: a sphere around each geom, and all that a renderer reads of it (n, k)."""
+    """What a scene draws: a sphere around each geom, and all that a renderer reads of it (n, VALUES)."""
 
     around: Spheres
     values: NDArray[np.float32]
@@ -58,7 +61,7 @@ def list_geoms(model: Any, scene: Any) -> DrawnGeoms:
     geoms = scene.geoms[: scene.ngeom]
     values = [(*each.pos, *each.mat.ravel(), *each.size, *each.rgba, each.type) for each in geoms]
     radii = [_radius(model, each) for each in geoms]
-    rows = np.array(values, dtype=np.float32).reshape(len(geoms), -1)
+    rows = np.array(values, dtype=np.float32).reshape(len(geoms), VALUES)
     return DrawnGeoms(Spheres(rows[:, :3].astype(float), np.array(radii, dtype=float)), rows)
 
 

@@ -25,6 +25,7 @@ class Recorder:
         self._rows = np.empty((expected_steps, MEASURED))
         self._count = 0
         self._references: list[tuple[float, Array]] = []
+        self._made = Recording(np.empty((0, COLUMNS)))
 
     def sample(self, time: float) -> None:
         """Record the row of one step that began at `time` s."""
@@ -46,7 +47,12 @@ class Recorder:
         return float(rows[first:, 1].mean()) if first < len(rows) else 0.0
 
     def recording(self) -> Recording:
-        """Return a read-only copy of the recording; references are interpolated between samples."""
+        """Return a read-only copy of the recording; references are interpolated between samples.
+
+        It is made once for all who ask between two steps.
+        """
+        if len(self._made.rows) == self._count:
+            return self._made
         rows = np.empty((self._count, COLUMNS))
         rows[:, :MEASURED] = self._rows[: self._count]
         if self._references:
@@ -55,4 +61,5 @@ class Recorder:
             for column, values in enumerate(asked.T, start=MEASURED):
                 rows[:, column] = np.interp(rows[:, 0], times, values)
         rows.flags.writeable = False
-        return Recording(rows)
+        self._made = Recording(rows)
+        return self._made

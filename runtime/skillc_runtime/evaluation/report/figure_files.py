@@ -48,9 +48,17 @@ def render_figure(draw: Callable[[], Figure]) -> FigureFiles:
 
     with mpl.rc_context(figure_style.STYLE):
         figure = draw()
+        _lay_out(figure)
         png = _save(figure, "png", {"Software": ""})
-        figure.set_layout_engine("none")
         return FigureFiles(png, _save(figure, "svg", {"Date": None, "Creator": None}))
+
+
+def _lay_out(figure: Figure) -> None:
+    """Place what is in a figure, once for all files; saving it would draw it once more for that."""
+    figure.dpi = DOTS_PER_INCH
+    if (engine := figure.get_layout_engine()) is not None:
+        engine.execute(figure)
+        figure.set_layout_engine("none")
 
 
 def _save(figure: Figure, form: str, metadata: dict[str, str | None]) -> bytes:

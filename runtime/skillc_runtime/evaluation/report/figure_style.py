@@ -78,16 +78,15 @@ def thin_curve(x: Array, y: Array) -> tuple[Array, Array]:
     if len(x) <= MOST_POINTS:
         return x, y
     width = -(-len(x) * 2 // MOST_POINTS)
-    starts = range(0, len(x), width)
-    kept = sorted({start + each for start in starts for each in _extremes(y[start : start + width])})
+    missing = -len(y) % width
+    stretches = np.append(y, np.full(missing, np.nan)).reshape(-1, width)
+    unknown = np.isnan(stretches)
+    least = np.where(unknown, np.inf, stretches).argmin(axis=1)
+    greatest = np.where(unknown, -np.inf, stretches).argmax(axis=1)
+    greatest[unknown.all(axis=1)] = width - 1
+    starts = np.arange(0, len(y), width)
+    kept = np.unique(np.minimum(np.concatenate((starts + least, starts + greatest)), len(y) - 1))
     return x[kept], y[kept]
-
-
-def _extremes(values: Array) -> tuple[int, int]:
-    """Return where values are least and greatest; the first and the last one where none is a number."""
-    if np.isnan(values).all():
-        return 0, len(values) - 1
-    return int(np.nanargmin(values)), int(np.nanargmax(values))
 
 
 def thin_rows(rows: Array) -> Array:
