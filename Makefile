@@ -142,7 +142,7 @@ clean:           ## remove the environment and all output
 	@touch $@
 
 .venv/.runtime: pyproject.toml hatch_build.py constraints.txt .venv/.created
-	@echo "3$(OF) installing what runs tasks in simulation, about 15 s from the cache of packages"
+	@echo "3$(OF) installing what runs tasks in simulation, about 5 s if the packages are in the cache"
 	@$(INSTALL) -e '.[run]'
 	@touch $@
 
