@@ -70,5 +70,5 @@ class TableBody(Ros2Body):
 
 POSITIONS = {"rate_hz": 125, "joint_names": IN_ROS}
 BODY, WITHOUT_LOSS = Ros2Body({**POSITIONS, **LOSSY}), Ros2Body(POSITIONS)
-TORQUES = TableBody({"control": "effort", "rate_hz": 500, **LOSSY}, lambda folder: scenes.table(folder, 500.0))
+TORQUES = TableBody({"control": "effort", "rate_hz": 500}, lambda folder: scenes.table(folder, 500.0))
 OWN_LAW = TableBody({"control": "cartesian", "rate_hz": 250, **LOSSY}, scenes.cartesian_table)

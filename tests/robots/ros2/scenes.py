@@ -7,8 +7,9 @@ from pathlib import Path
 from skillc_ontology import catalogue
 
 ROS2 = "@prefix ros2: <https://w3id.org/skillc/ros2#> .\n"
-SLOW = "ros2:updateRate {rate_hz} ; skillc:stateTimeout 1.0"
-"""Machines that run tests beside each other are slow: a robot may be silent for longer than a real one."""
+TIMEOUTS = ("treeTimeout", "controlTimeout", "cycleTimeout")
+SLOW = "ros2:updateRate {rate_hz} ; skillc:stateTimeout 1.0 ; " + " ; ".join(f"skillc:{each} 5.0" for each in TIMEOUTS)
+"""Machines that run tests beside each other are slow: all may be silent for longer than with a real robot."""
 
 
 def whiteboard(folder: Path) -> Path:
