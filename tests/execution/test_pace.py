@@ -8,6 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from skillc.cli.run_keys import format_help
+from skillc.cli.run_view import RunView
 from skillc_runtime.execution.pace import FAST, MAX_LAG_S, PACES, REAL, Pace, format_pace, parse_pace
 
 TICK_S = 0.01
@@ -90,6 +92,14 @@ def test_paces_change_one_by_one_and_end_at_both_ends() -> None:
     for _ in range(len(PACES) + 1):
         pace.slower()
     assert pace.factor == PACES[0]
+
+
+def test_that_of_devices_is_fixed_and_no_keys_are_offered_for_it() -> None:
+    pace, run = Pace(), RunView("running", "", ("pause",))
+    assert format_help(run, pace, detachable=False) == "p pause  + - pace: fast"
+    pace.fix()
+    assert format_help(run, pace, detachable=False) == "p pause"
+    assert pace.factor == REAL
 
 
 @pytest.mark.parametrize(("text", "factor"), [("fast", FAST), ("real", REAL), ("1", REAL), ("0.5", 0.5), ("20", 20.0)])

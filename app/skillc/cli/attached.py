@@ -83,6 +83,8 @@ def attach(cell: ServerCell, operation: ServerOperation) -> int:
     """
     factor = cell.status.pace
     pace = Pace(FAST if factor is None else factor)
+    if not cell.status.paceable:
+        pace.fix()
     with RunProgress(operation.task, False, pace, detachable=True) as progress, progress.operating():
         feed = EventQueue(operation)
         watcher = _Watcher(cell, operation, progress, CellTime(cell))

@@ -52,7 +52,8 @@ def keys_of(run: RunView) -> tuple[Key, ...]:
 def format_help(run: RunView, pace: Pace, detachable: bool) -> str:
     """Return the line that says which keys do something now."""
     detach = [f"{DETACH} detach"] if detachable else []
-    return "  ".join((*_format_keys(run), *detach, f"{FASTER} {SLOWER} pace: {format_pace(pace.factor)}"))
+    paces = [] if pace.is_fixed else [f"{FASTER} {SLOWER} pace: {format_pace(pace.factor)}"]
+    return "  ".join((*_format_keys(run), *detach, *paces))
 
 
 def find_answer(digit: str, run: RunView) -> Answer | None:

@@ -165,7 +165,7 @@ class RunProgress:
     def _understand(self, letter: str, run: RunView) -> Iterator[Command]:
         """Yield the command of a key, also one that will be refused: that is recorded, and the user is told."""
         self._remark = ""
-        if letter in (FASTER, SLOWER):
+        if letter in (FASTER, SLOWER) and not self.pace.is_fixed:
             self.pace.faster() if letter == FASTER else self.pace.slower()
         self.detached |= self._detachable and letter == DETACH
         if letter.isdecimal() and (answer := find_answer(letter, run)) is not None:

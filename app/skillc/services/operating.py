@@ -8,7 +8,7 @@ from typing import Protocol
 
 from skillc_runtime.execution.cell_loop import CellLoop, TooManyRequests
 from skillc_runtime.execution.execute import WAIT_S, drive
-from skillc_runtime.execution.pace import REAL, Pace
+from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import Event
@@ -46,7 +46,9 @@ def operate(loop: CellLoop, run: TaskRun, monitor: RunMonitor, heartbeat: Callab
     A cell with a time of its own has no other pace.
     """
 
-    pace = monitor.pace if loop.backend.capabilities.lock_step is not None else Pace(REAL)
+    pace = monitor.pace
+    if loop.backend.capabilities.lock_step is None:
+        pace.fix()
 
     def attend() -> bool:
         heartbeat()

@@ -19,12 +19,13 @@ MAX_LAG_S = 0.1
 class Pace:
     """Limits the ratio of the cell's time to wall time to `factor`, at any time; FAST is no limit.
 
-    After a time in which the cell could not keep up, or stood still, it does not rush.
+    After a time in which the cell could not keep up, or stood still, it does not rush. `is_fixed`: the cell has a time
+    of its own, and a user changes nothing.
     """
 
     def __init__(self, factor: float = FAST, wall_clock: Callable[[], float] = time.monotonic) -> None:
         """Start with a factor; `wall_clock` returns the wall time in s."""
-        self.factor = factor
+        self.factor, self.is_fixed = factor, False
         self._wall_clock = wall_clock
         self._at = 0.0
         self._due = -inf
@@ -44,6 +45,11 @@ class Pace:
     def change(self, factor: float) -> None:
         """Change the factor; the next tick is due now."""
         self.factor, self._due = factor, -inf
+
+    def fix(self) -> None:
+        """Let it be real time from now on, that of devices."""
+        self.change(REAL)
+        self.is_fixed = True
 
     def faster(self) -> None:
         """Change to the next greater one of PACES."""
