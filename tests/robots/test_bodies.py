@@ -29,6 +29,8 @@ def test_it_does_its_task(name: str, task_name: TaskName, tmp_path: Path) -> Non
         assert figures.coverage == pytest.approx(1.0, abs=0.01)
         assert figures.rmse is not None
         assert figures.rmse < 0.25
+        assert figures.tilt_rms_deg is not None
+        assert figures.tilt_rms_deg < 1.0
     elif task_name == "pick and place":
         assert figures.missed_mm is None or figures.missed_mm < 20.0
     else:
