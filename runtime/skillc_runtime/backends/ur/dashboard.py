@@ -23,8 +23,9 @@ class Dashboard:
             self._lines.readline()
         except OSError as error:
             raise BackendUnavailable(
-                f"the dashboard server of {name} (port {PORT}) does not answer ({error}): is the controller on, is the "
-                "address right (skiros:DriverAddress), and is the service enabled in its security settings?"
+                f"the dashboard server of {name} (port {PORT}) does not answer ({error.strerror or error}): is the "
+                "controller on, is the address right (skiros:DriverAddress), and is the service enabled in its "
+                "security settings?"
             ) from error
 
     def __enter__(self) -> Dashboard:
@@ -57,4 +58,5 @@ class Dashboard:
             self._socket.sendall(f"{line}\n".encode())
             return self._lines.readline().strip()
         except OSError as error:
-            raise BackendUnavailable(f"the dashboard server of {self._name} has gone silent: {error}") from error
+            why = error.strerror or error
+            raise BackendUnavailable(f"the dashboard server of {self._name} has gone silent: {why}") from error

@@ -128,11 +128,11 @@ class UrLink(RobotLink):
         program, mode, self._program, self._mode = self._program, self._mode, None, None
         if program is None:
             return
-        program.end(mode)
-        self._leaving.leave(program.connection)
         states = self._connected
-        if not program.has_ended:
+        if states.is_alive() and not program.has_ended:
+            program.end(mode)
             states.await_that(lambda: not states.executes, RELEASE_S)
+        self._leaving.leave(program.connection)
         self._update_condition()
 
     def recover(self) -> None:

@@ -103,9 +103,8 @@ class UrProgram:
         return total / TARE_STATES
 
     def end(self, mode: UrMode | None) -> None:
-        """Let the controller brake and end the program; a silent controller brakes by its watchdog."""
-        if self._states.is_alive() and not self.has_ended:
-            do_within(END_S, lambda: self._end(mode))
+        """Let the controller, which answers, brake and end the program."""
+        do_within(END_S, lambda: self._end(mode))
 
     def _end(self, mode: UrMode | None) -> None:
         control, brake = self.connection, self._facts.servo.stop_rad_s2

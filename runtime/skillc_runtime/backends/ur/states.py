@@ -91,7 +91,9 @@ class UrStates:
     def is_alive(self) -> bool:
         """Tell whether the controller still sends states."""
         before = self.connection.getTimestamp()
-        return self.await_that(lambda: self.connection.getTimestamp() != before, self._facts.silence_s)
+        return self.is_connected and self.await_that(
+            lambda: self.connection.getTimestamp() != before, self._facts.silence_s
+        )
 
     def await_that(self, holds: Callable[[], bool], seconds: float) -> bool:
         """Wait until something holds, for so long; tell whether it does."""
