@@ -16,7 +16,7 @@ from robots.ur.proxy import Proxy, running_proxy
 from skillc_ontology.catalogue import model_path
 from skillc_runtime.backends.control_process.link import ControlRefused, LinkLost, PointMass
 from skillc_runtime.backends.ur.link import UrLink
-from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
+from skillc_runtime.devices.backend import BackendUnavailable
 
 pytest.importorskip("rtde_control", reason="ur-rtde is not installed: pip install 'skillc[ur]'")
 pytestmark = [pytest.mark.robot, pytest.mark.slow]
@@ -84,41 +84,6 @@ def test_the_wrench_is_that_on_the_flange_without_weight_and_offset(peer: Peer) 
         assert rotation @ pushed[:3] == pytest.approx([0.0, 0.0, -10.0], abs=0.5)
 
 
-def test_a_protective_stop_is_a_condition_until_it_is_acknowledged(peer: Peer) -> None:
-    with connected(peer) as loop:
-        loop.link.take_control("position")
-        start = loop.state.q.copy()
-        loop.run(50, swing(start, 0, 0.1, 400))
-        peer.do("protect")
-        loop.run(100, swing(start, 0, 0.1, 400))
-        assert loop.link.condition.kind == "protective-stop"
-        assert "has stopped by itself" in loop.link.condition.sentence
-        with pytest.raises(ControlRefused, match="has stopped by itself"):
-            loop.link.take_control("position")
-        loop.link.recover()
-        loop.run(5)
-        assert loop.link.condition.kind == "ready"
-        at_rest = np.array(peer.tell()["q"])
-        loop.link.take_control("position")
-        loop.run(50, lambda _c, _s: at_rest)
-        assert loop.link.condition.kind == "in-control"
-
-
-def test_a_stop_whose_cause_is_there_persists(peer: Peer) -> None:
-    with connected(peer) as loop:
-        loop.link.take_control("position")
-        peer.do("press")
-        loop.run(20)
-        assert loop.link.condition.kind == "emergency-stop"
-        with pytest.raises(StopPersists, match="release it, then switch the arm on"):
-            loop.link.recover()
-        peer.do("release")
-        loop.run(20)
-        assert loop.link.condition.kind == "wrong-mode"
-        assert "has no power" in loop.link.condition.sentence
-        peer.do("power")
-
-
 def test_control_is_not_taken_from_somebody_else(peer: Peer) -> None:
     with connected(peer) as first, connected(peer) as second:
         first.link.take_control("position")
@@ -130,28 +95,6 @@ def test_control_is_not_taken_from_somebody_else(peer: Peer) -> None:
             second.link.take_control("position")
         first.run(20, lambda _c, state: state.q.copy())
         assert first.link.condition.kind == "in-control"
-
-
-def test_the_program_of_somebody_else_ends_ours_and_is_left_alone(peer: Peer) -> None:
-    with connected(peer) as loop:
-        loop.link.take_control("position")
-        start = loop.state.q.copy()
-        loop.run(50, lambda _c, _s: start)
-        peer.do("program")
-        loop.run(200, lambda _c, _s: start)
-        assert loop.link.condition.kind == "not-in-control"
-        assert "executes another program" in loop.link.condition.sentence
-        loop.link.give_back()
-        assert peer.tell()["runtime"] == "PLAYING"
-        peer.do("stop")
-
-
-def test_control_is_refused_in_local_mode(peer: Peer) -> None:
-    with connected(peer) as loop:
-        peer.do("remote", on=False)
-        with pytest.raises(ControlRefused, match="switch its panel to remote control"):
-            loop.link.take_control("position")
-        peer.do("remote", on=True)
 
 
 def test_control_by_torques_is_refused_before_a_program_is_sent(peer: Peer) -> None:
@@ -176,25 +119,6 @@ def test_the_program_ends_when_commands_are_missing(peer: Peer) -> None:
         loop.link.recover()
         loop.run(5)
         assert loop.link.condition.kind == "ready"
-
-
-def test_a_slow_speed_slider_is_told(peer: Peer) -> None:
-    with connected(peer) as loop:
-        peer.do("slider", share=0.25)
-        loop.run(20)
-        assert loop.state.speed_share[0] == pytest.approx(0.25)
-        peer.do("slider", share=1.0)
-
-
-def test_silence_is_noticed_and_the_program_ends(peer: Peer) -> None:
-    with connected(peer) as loop:
-        loop.link.take_control("position")
-        start = loop.state.q.copy()
-        wanted = swing(start, 0, 0.2, 500)
-        loop.run(100, wanted)
-        with peer.paused(), pytest.raises(LinkLost, match=r"Ur5e-1 at .* has sent no state for 500 ms"):
-            loop.run(1000, lambda cycle, state: wanted(100 + cycle, state))
-        wait_until(lambda: peer.tell()["runtime"] == "STOPPED")
 
 
 @contextmanager
