@@ -115,12 +115,8 @@ class ControlledArm:
         self.driver.set_speed(max(share * self._slider, LEAST_SPEED))
 
     def look(self, measured: StateView, now: float) -> None:
-        """Take a measurement without control."""
+        """Take a measurement without a step, also again after the tool or the zero of the sensor was changed."""
         self.arm.measure(measured, now)
-        self.look_again()
-
-    def look_again(self) -> None:
-        """Compute the last measurement again, after the tool or the zero of the sensor was changed."""
         self.driver.measured.state = self.arm.state()
 
     def report(self, stop: DeviceStop) -> None:

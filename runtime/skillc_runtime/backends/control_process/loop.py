@@ -188,7 +188,7 @@ class ControlLoop:
         self._publisher.publish_at_once(self._phase, monotonic(), busy_until_s=monotonic() + 3 * CALL_S)
         self._is_excused = True
         slow[call.name](*call.arguments)
-        self._arm.look_again()
+        self._arm.look(self._measured, self._clock.now_s)
         return None
 
     def _take_control(self) -> None:
@@ -252,5 +252,6 @@ class ControlLoop:
     def _tare(self) -> None:
         if self._link.abilities.tares:
             self._link.tare()
+            self._link.read(self._measured)  # What was measured before has the old zero.
         else:
             self._arm.arm.tare()
