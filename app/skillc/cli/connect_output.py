@@ -39,7 +39,7 @@ def _format_arm(arm: ObservedArm, page: TerminalPage) -> Iterator[str]:
         yield from page.wrap(arm.sentence, style, "  ")
     header = ("", "measured", "home", "")
     joints = [
-        (f"  {each.joint}", f"{each.measured_rad:+.3f}", f"{each.scene_rad:+.3f} rad", _differs(each.differs))
+        (f"  {each.joint}", _angle(each.measured_rad), f"{_angle(each.scene_rad)} rad", _differs(each.differs))
         for each in arm.joints
     ]
     away_mm = 1e3 * sum((a - b) ** 2 for a, b in zip(arm.tool_m, arm.scene_tool_m, strict=True)) ** 0.5
@@ -74,5 +74,9 @@ def _differs(differs: bool) -> TableCell:
     return TableCell("differs", "warning") if differs else TableCell("")
 
 
+def _angle(angle_rad: float) -> str:
+    return f"{round(angle_rad, 3) + 0.0:+.3f}"
+
+
 def _numbers(values: tuple[float, ...], digits: int) -> str:
-    return ", ".join(f"{value + 0.0:.{digits}f}" for value in values)
+    return ", ".join(f"{round(value, digits) + 0.0:.{digits}f}" for value in values)

@@ -100,7 +100,9 @@ class RemoteArmDriver:
         stop: DeviceStop | None = self.process.call("device", "explain")
         if stop is None:
             return None
-        return DeviceStop(stop.kind, f"{self.process.name}: {stop.reason}", (self._individual,))
+        name = self.process.name
+        reason = stop.reason if name in stop.reason else f"{name}: {stop.reason}"
+        return DeviceStop(stop.kind, reason, (self._individual,))
 
     def recover(self) -> None:
         """Acknowledge a stop and take control again; StopPersists, with what somebody has to do."""
