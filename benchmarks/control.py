@@ -1,17 +1,24 @@
-"""How fast the simulated loop runs: loop and law against bare physics of the same model, by part; whole tasks.
+"""What a control period of a simulated arm costs, by what the arm does; whole recorded tasks.
 
-Without arguments the scenes at rest and all tasks; `control.py NAME ...` runs these scenes and tasks only.
+Without arguments all tasks; `control.py TASK ...` runs these only. Each task is run twice: once to take its parts
+apart, once recorded and otherwise undisturbed. Costs are medians over bursts of ten periods, in calibration steps (see
+`_calibration`) and beside bare physics of the same model from the same states; nothing is measured hot in a loop.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections import defaultdict
+from contextlib import closing
 from copy import copy
-from time import perf_counter
+from dataclasses import dataclass, field
+from time import thread_time
+from typing import Literal, TypeAlias
 
 import mujoco
 import numpy as np
+from _calibration import calibration_step_us
+from _whole_task import run_recorded
 
 from skillc.services import libraries
 from skillc.services.library_files import SHIPPED, find_library
@@ -19,11 +26,13 @@ from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.load import load
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits
+from skillc_runtime.recording.mcap.signal_tap import SignalTap
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 
@@ -34,7 +43,24 @@ TASKS = {
 }
 """All tasks of one robot, and the library of each."""
 
-REPEATS, BURST = 200, 20
+Situation: TypeAlias = Literal["joints move", "at rest", "free", "push", "sliding", "overlay", "paused"]
+
+PAUSE_AT, PAUSE_S = 300, 1.5
+"""After how many bursts with an overlay the motion is paused, once, and for how long in simulated s."""
+
+LEAST_BURSTS = 10
+"""Of fewer bursts no median is printed."""
+
+
+def _clock_s() -> float:
+    """Return what reading the clock adds to a time that is measured."""
+    began = thread_time()
+    for _ in range(1000):
+        thread_time()
+    return (thread_time() - began) / 1000
+
+
+CLOCK_S = _clock_s()
 
 
 def moving(scene: str) -> tuple[SimulatedCell, str]:
@@ -49,75 +75,80 @@ def moving(scene: str) -> tuple[SimulatedCell, str]:
     return cell, name
 
 
-def costs_us(calls: tuple[Callable[[], object], ...]) -> list[float]:
-    """Return what each call costs when nothing else runs: the least of many bursts, taken in turn.
+@dataclass
+class Costs:
+    """What bursts have cost, in s a control period; ticks in s each."""
 
-    A burst is long enough to hold what is done every tenth time only.
-    """
-    least = [float("inf")] * len(calls)
-    for _ in range(REPEATS):
-        for i, call in enumerate(calls):
-            began = perf_counter()
-            for _ in range(BURST):
-                call()
-            least[i] = min(least[i], (perf_counter() - began) / BURST)
-    return [1e6 * cost for cost in least]
-
-
-def measure(scene: str) -> dict[str, float]:
-    """Return what a simulated millisecond costs in us: the whole loop, the arm's controller, its parts, the physics."""
-    cell, name = moving(scene)
-    driver, arm, model, data = cell.arm(name), cell.arms[name], cell.model, cell.data
-    task = driver._task
-    law, generator, compliance = task.controllers.tool, task.tool.reference_generator, task.tool.compliance.applied
-    state, reference = arm.state(), task.tool.reference
-
-    def physics() -> None:
-        mujoco.mj_step2(model, data)
-        mujoco.mj_step1(model, data)
-
-    parts: dict[str, Callable[[], object]] = {
-        "loop": lambda: cell.advance(0.001),
-        "controller": lambda: driver.step(data.time),
-        "measuring": arm.state,
-        "reference": lambda: generator.sample(task.now),
-        "law": lambda: law.command(state, reference, compliance, 0.001),
-        "safety": lambda: driver._safety.violation(state, 0.001),
-        "mj_step": physics,
-    }
-    return dict(zip(parts, costs_us(tuple(parts.values())), strict=True))
+    period: list[float] = field(default_factory=list)
+    physics: list[float] = field(default_factory=list)
+    loop: list[float] = field(default_factory=list)
+    tick: list[float] = field(default_factory=list)
 
 
 class TimedCell(SimulatedCell):
-    """A cell that, beside every tenth of its ticks, times bare physics from the same state on."""
+    """A recorded cell that times each advance, the control periods in it, and at times bare physics from there on."""
 
-    ticks, steps, physics_s, comparing_s = 0, 0, 0.0, 0.0
+    def __init__(self, world: WorldModel) -> None:
+        super().__init__(world, seed=0)
+        self.costs = defaultdict[Situation, Costs](Costs)
+        self._advances, self._controlled, self._left = 0, 0.0, thread_time()
+        self._paused_until: float | None = None
+        SignalTap(self.live).add(lambda block: None)
 
     def advance(self, seconds: float) -> None:
         """Let time pass."""
+        now, self._controlled, began = self.now, 0.0, thread_time()
         super().advance(seconds)
-        if self.ticks % 10 == 0:
-            self.compare(10)
-        self.ticks += 1
+        ended, periods = thread_time(), (self.now - now) / self.period_s
+        costs = self.costs[self._situation()]
+        costs.tick.append(began - self._left)
+        costs.loop.append((ended - began) / periods)
+        costs.period.append(self._controlled / periods)
+        if self._advances % 5 == 0:
+            costs.physics.append(self._time_physics(10))
+        self._advances += 1
+        self._pause_once()
+        self._left = thread_time()
 
-    def compare(self, steps: int) -> None:
-        """Time some steps of a twin; everything about it counts, so that it can be taken off the whole."""
-        began = perf_counter()
+    def _control(self, arm: CompliantArmDriver, now: float) -> None:
+        began = thread_time()
+        super()._control(arm, now)
+        self._controlled += thread_time() - began - CLOCK_S
+
+    def _time_physics(self, steps: int) -> float:
         twin = copy(self.data)
-        first = perf_counter()
+        began = thread_time()
         for _ in range(steps):
             mujoco.mj_step2(self.model, twin)
             mujoco.mj_step1(self.model, twin)
-        done = perf_counter()
-        self.physics_s, self.steps = self.physics_s + done - first, self.steps + steps
-        self.comparing_s = self.comparing_s + done - began
+        return (thread_time() - began) / steps
+
+    def _situation(self) -> Situation:
+        driver = self.arm(next(iter(self.arms)))
+        if np.isnan(np.frombuffer(driver.motion.copy_tool_reference())).any():
+            return "at rest" if driver.motion.done else "joints move"
+        overlaid = bool((driver.motion.reference.rows != driver.motion.path.rows).any())
+        pressing = any(push.pressed_s is not None for push in driver.compliance.active_pushes)
+        if self._paused_until is not None and self.now < self._paused_until:
+            return "paused"
+        if driver.compliance.active_pushes and not overlaid and driver.motion.done:
+            return "push"
+        if pressing:
+            return "overlay" if overlaid else "sliding"
+        return "at rest" if driver.motion.done else "free"
+
+    def _pause_once(self) -> None:
+        motion = self.arm(next(iter(self.arms))).motion
+        if self._paused_until is None and len(self.costs["overlay"].period) >= PAUSE_AT:
+            motion.pause()
+            self._paused_until = self.now + PAUSE_S
+        elif self._paused_until is not None and -np.inf < self._paused_until <= self.now:
+            motion.resume()
+            self._paused_until = -np.inf
 
 
-def whole(library_name: str, task: str) -> tuple[float, float]:
-    """Return how many simulated seconds a task takes per second, and its time in that of its bare physics.
-
-    The tree, records and the world model are included; planning and preparing are not.
-    """
+def take_apart(library_name: str, task: str) -> dict[Situation, Costs]:
+    """Return the costs of one run of a task by situation."""
     library = libraries.compile_library(find_library(SHIPPED / library_name)).value
     goal, scene = library.tasks[task].goal, library.tasks[task].scene
     assert goal is not None
@@ -125,31 +156,40 @@ def whole(library_name: str, task: str) -> tuple[float, float]:
     state = load_scene(catalogue.scene_path(scene), library.vocabulary)
     prepared = prepare_task(Assignment(task, state, AchieveGoal(goal)), library)
     assert isinstance(prepared, PreparedTask), prepared
-    cell = TimedCell(WorldModel(state), seed=0)
-    began = perf_counter()
-    execute_task(prepared, library, cell)
-    per_step = (perf_counter() - began - cell.comparing_s) / (cell.now / cell.period_s)
-    return cell.period_s / per_step, per_step / (cell.physics_s / cell.steps)
+    with closing(TimedCell(WorldModel(state))) as cell:
+        execute_task(prepared, library, cell)
+        return cell.costs
 
 
-def print_scene(scene: str) -> None:
-    """Print the parts of the loop of one scene."""
-    costs = measure(scene)
-    ratios = ", ".join(f"{part} {cost / costs['mj_step']:.2f}" for part, cost in costs.items() if part != "mj_step")
-    print(f"{scene}: {ratios} x mj_step; {1000 / costs['loop']:.1f} x real time")
+def whole(library: str, task: str) -> tuple[float, float]:
+    """Return how many simulated seconds a recorded task takes per second of CPU, and a simulated ms in us of CPU."""
+    cell, cpu_s = run_recorded(library, task)
+    return cell.now / cpu_s, 1e3 * cpu_s / cell.now
 
 
 def print_task(library: str, task: str) -> None:
-    """Print how fast one task is."""
-    real_time, ratio = whole(library, task)
-    print(f"{task}: {ratio:.2f} x mj_step; {real_time:.1f} x real time")
+    """Print a row for each situation of a task, then one for the whole."""
+    calibration = calibration_step_us()
+    for situation, costs in take_apart(library, task).items():
+        if len(costs.period) >= LEAST_BURSTS and costs.physics:
+            period, physics, loop, tick = (
+                1e6 * float(np.median(each)) / calibration
+                for each in (costs.period, costs.physics, costs.loop, costs.tick)
+            )
+            print(
+                f"{task:18} {situation:12} {period:7.2f} {physics:8.2f} {loop:7.2f} {tick:7.1f} "
+                f"{period / physics:10.2f} {loop / physics:8.2f}"
+            )
+    real_time, cost_us = whole(library, task)
+    print(f"{task:18} whole, recorded: {cost_us / calibration:.2f} per simulated ms, {real_time:.1f} x real time")
 
 
 if __name__ == "__main__":
     asked = sys.argv[1:]
-    for scene in SCENES:
-        if not asked or scene in asked:
-            print_scene(scene)
+    print(f"calibration step: {calibration_step_us():.2f} us; costs are in calibration steps")
+    print(
+        f"{'task':18} {'arm':12} {'period':>7} {'mj_step':>8} {'loop':>7} {'tick':>7} {'/ mj_step':>10} {'loop /':>8}"
+    )
     for task, library in TASKS.items():
         if not asked or task in asked:
             print_task(library, task)
