@@ -130,7 +130,7 @@ def measurements(count: int) -> list[list[float]]:
         q, dq, bias, noise = chance.uniform(-1, 1, (4, 7))
         velocity = np.zeros(3)
         sensing = ArmSensing(
-            joints, hand.in_base, J, wrench, velocity, q, dq, bias, hand.on_link, axes, centre, Pose(position, link),
+            joints, hand.in_base, hand.rotation, J, wrench, velocity, q, dq, bias, hand.on_link, axes, centre, Pose(position, link),
             Pose(origin, base), weight, *chance.uniform(-9, 9, (4, 7)), chance.uniform(-1, 1, (6, 9)), readings,
         )  # fmt: skip
         measure(sensing, noise)

@@ -224,6 +224,7 @@ class ModelledArm(Arm):
         return ArmSensing(
             joints=self._joints,
             in_base=hand.in_base,
+            rotation=hand.rotation,
             jacobian=here.jacobian,
             wrench=here.wrench,
             velocity=self._velocity,

@@ -29,8 +29,8 @@ class LastLink:
     """
 
     def __init__(self) -> None:
-        self.on_link, self.in_base = np.zeros((8, 3)), np.zeros((8, 3))
-        self.tool = Pose(self.in_base[TOOL], self.in_base[:3].T)
+        self.on_link, self.in_base, self.rotation = np.zeros((8, 3)), np.zeros((8, 3)), np.zeros((3, 3))
+        self.tool = Pose(self.in_base[TOOL], self.rotation)
         self.lever = self.in_base[LEVER]
 
     def configure(self, tool: Pose, wrist: Array, payload: Array) -> None:
@@ -66,10 +66,10 @@ class ArmSensing:
     """The inputs and outputs of `measure` for one arm; all arrays are reused or change with the simulation.
 
     Written, in the arm's base frame. joints (6, nv): Q rad, SPEED and BEFORE rad/s, others N m; in_base (8, 3): see
-    `Hand`; jacobian (6, nv): of the tool centre point, [linear m; angular rad] per rad; wrench (6,): N and N m on the
+    `LastLink`; rotation (3, 3): of the tool centre point; jacobian (6, nv): of the tool centre point, [linear m; angular rad] per rad; wrench (6,): N and N m on the
     tool, zeros without sensor; velocity (3,): m/s, of the tool centre point.
 
-    Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; on_link (8, 3): see `Hand`. In the world:
+    Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; on_link (8, 3): as there. In the world:
     motion_axes (nv, 6), MuJoCo's `cdof`, and centre (3,) m, where they hold; position (3,) m and rotation (3, 3) of
     last link and base; weight (3,) N of the payload. actuators, applied, passive (nv,): N m, in the last step, in which
     the servos' damping (nv,), N m s/rad, also acts on the change of the speeds. gain (6, 9) and readings (9,): of the
@@ -78,6 +78,7 @@ class ArmSensing:
 
     joints: OutMatrix
     in_base: OutMatrix
+    rotation: OutMatrix
     jacobian: OutMatrix
     wrench: OutVector
     velocity: OutVector
@@ -115,6 +116,8 @@ def update_hand(arm: ArmSensing) -> None:
             at_tool[i, 3 + j] = at_tool[3 + i, j] = axes[j, i]
     product(in_world, axes, arm.in_base)
     for i in range(3):
+        for j in range(3):
+            arm.rotation[i, j] = arm.in_base[j, i]
         cross(away, at_tool[i, 3:], at_tool[i, :3])
     product(at_tool, arm.motion_axes.T, arm.jacobian)
 

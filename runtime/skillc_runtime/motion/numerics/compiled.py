@@ -17,39 +17,41 @@ from dataclasses import fields, is_dataclass
 from functools import cache, partial
 from hashlib import sha256
 from importlib import import_module
-from importlib.util import find_spec
 from inspect import get_annotations, isfunction
 from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar, get_args, get_origin, get_type_hints
 
 from skillc_dsl.cache import cache_folder
+from skillc_runtime.motion.numerics.places import COMPILES as COMPILES
+from skillc_runtime.motion.numerics.places import PLACES, find_place, matrix_at, vector_at
 
 Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
 First = TypeVar("First")
 
-COMPILES: bool = os.environ.get("SKILLC_COMPILED", "1") != "0" and find_spec("numba") is not None
-"""Whether functions are compiled; SKILLC_COMPILED=0 in the environment turns it off."""
-
-
 def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     """Compile a function for the types of its annotations: those of `arrays`, numbers, bool, and tuples as a result.
 
     Parameters may be dataclasses whose fields have these types or are such dataclasses; the fields are read-only, the
-    contents of arrays are not. Such a function can only be called from Python. Functions that it calls are `compiled`
-    or `inlined` themselves.
+    contents of arrays are not. Such a function can only be called from Python. If only the first parameter is one, the
+    function works on memory: its arrays are in C order, all are written in place, and it is called by `bind`, or slowly.
+    Functions that it calls are `compiled` or `inlined` themselves.
     """
     if not COMPILES:
         return function
-    if any(is_dataclass(annotation) for annotation in get_annotations(function, eval_str=True).values()):
+    packed = [is_dataclass(each) for each in get_annotations(function, eval_str=True).values()]
+    if any(packed[1:]):
         return _unpacking(function)
+    if packed[0]:
+        return _on_memory(function)
     return _compiled_lazily(function)
 
 
 def bind(function: Callable[Concatenate[First, Parameters], Result], first: First) -> Callable[Parameters, Result]:
     """Return the function with its first parameter fixed: a dataclass whose arrays keep their places in memory.
 
-    Its fields are read once, here, and not at every call.
+    A compiled function gets the places of all arrays in one table, so that a call costs the same with any number of
+    them. Numbers in the dataclass are read once, here.
     """
     if hasattr(function, "bind"):
         bound: Callable[Parameters, Result] = function.bind(first)
@@ -116,25 +118,64 @@ def _unpacking(function: Callable[Parameters, Result]) -> Callable[Parameters, R
     annotations = get_annotations(function, eval_str=True)
     returns = annotations.pop("return")
     leaves: dict[str, Any] = {}
-    names: dict[str, Any] = {"function": inlined(function), "partial": partial, "__name__": function.__module__}
+    names: dict[str, Any] = {"function": inlined(function), "__name__": function.__module__}
     packed = [_packed(function, annotation, name, leaves, names) for name, annotation in annotations.items()]
     flat = {path.replace(".", "__"): annotation for path, annotation in leaves.items()}
-    first = next(iter(annotations))
-    fields_of_first = ", ".join(each for each in leaves if each.startswith(f"{first}."))
     source = (
         f"def flat({', '.join(flat)}):\n    return function({', '.join(packed)})\n"
         f"def call({', '.join(annotations)}):\n    return flat({', '.join(leaves)})\n"
-        f"def bind({first}):\n    return partial(flat, {fields_of_first})\n"
     )
+    return _built(function, source, names, "flat", {**flat, "return": returns})
+
+
+def _on_memory(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
+    """Return a function of a dataclass, whose arrays a compiled function finds by the table of their places."""
+    annotations = get_annotations(function, eval_str=True)
+    returns = annotations.pop("return")
+    first, *others = annotations
+    leaves: dict[str, Any] = {}
+    names: dict[str, Any] = {"function": inlined(function), "partial": partial, "__name__": function.__module__}
+    names.update(find_place=find_place, vector_at=vector_at, matrix_at=matrix_at, np=import_module("numpy"))
+    packed = _packed(function, annotations[first], first, leaves, names)
+    views = [
+        f"    {path.replace('.', '__')} = {_view(annotation)}".format(row=row)
+        for row, (path, annotation) in enumerate(leaves.items())
+    ]
+    arguments = "".join(f", {each}" for each in others)
+    source = "\n".join(
+        (
+            f"def at_places(places{arguments}):", *views, f"    return function({packed}{arguments})",
+            f"def bind({first}):",
+            f"    kept = [np.asarray(each, np.float64) for each in ({''.join(f'{each}, ' for each in leaves)})]",
+            "    call = partial(at_places, np.array([find_place(each) for each in kept]))",
+            f"    call.kept = kept, {first}",
+            "    return call",
+            f"def call({first}{arguments}):", f"    return bind({first})({', '.join(others)})", "",
+        )
+    )  # fmt: skip
+    types = {"places": PLACES, **{each: annotations[each] for each in others}, "return": returns}
+    call: Any = _built(function, source, names, "at_places", types)
+    call.bind = names["bind"]
+    on_memory: Callable[Parameters, Result] = call
+    return on_memory
+
+
+def _built(function: Any, source: str, names: dict[str, Any], inner: str, types: dict[str, Any]) -> Any:
+    """Return `call` of a source, in which the function `inner`, of these types, is compiled at its first call."""
     exec(compile(source, function.__code__.co_filename, "exec"), names)
-    names["flat"].__qualname__ = f"{function.__qualname__}_flat"
-    names["flat"].__annotations__ = {**flat, "return": returns}
-    names["flat"] = _compiled_lazily(names["flat"])
-    call: Any = names["call"]
-    call.__doc__, call.__name__, call.bind = function.__doc__, function.__name__, names["bind"]
-    call.compile_now = names["flat"].compile_now
-    unpacking: Callable[Parameters, Result] = call
-    return unpacking
+    names[inner].__qualname__ = f"{function.__qualname__}_{inner}"
+    names[inner].__annotations__ = types
+    names[inner] = _compiled_lazily(names[inner])
+    call = names["call"]
+    call.__doc__, call.__name__, call.compile_now = function.__doc__, function.__name__, names[inner].compile_now
+    return call
+
+
+def _view(annotation: Any) -> str:
+    """Return the expression of a field in the table of places: an array there, or a number."""
+    if annotation is float:
+        return "vector_at(places, {row})[0]"
+    return "vector_at(places, {row})" if annotation.__metadata__[0] == 1 else "matrix_at(places, {row})"
 
 
 @cache
@@ -171,6 +212,8 @@ def _type(annotation: Any) -> Any:
     if get_origin(annotation) is tuple:
         return types.Tuple([_type(each) for each in get_args(annotation)])
     dimensions, access = annotation.__metadata__
+    if access == "places":
+        return types.Array(types.int64, dimensions, "C", readonly=True)
     return types.Array(types.float64, dimensions, *(("A", True) if access == "read" else ("C", False)))
 
 
