@@ -12,8 +12,11 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from skillc_runtime.control.filters import Lag
+from skillc_runtime.control.filters import lag_share, step_lag
 from skillc_runtime.control.gains import Gains
+from skillc_runtime.motion.arrays import OutMatrix, OutVector
+from skillc_runtime.motion.numerics.compiled import bind, compiled, inlined
+from skillc_runtime.motion.numerics.linear import times
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import UNLIMITED_SPEED, Compliance
 
@@ -41,11 +44,57 @@ class ComplianceSetpoint:
     fastest: Array
 
 
+STIFFNESS, WRENCH = 0, 1
+"""Rows of `ComplianceMemory.target`."""
+
+STIFFNESS_GRAIN, WRENCH_GRAIN = 1e-2, 1e-3
+"""Closer to their targets than this, N/m and N m/rad, or N and N m, stiffness and wrench have arrived."""
+
+
+@dataclass(frozen=True, slots=True)
+class ComplianceMemory:
+    """What a law uses, as in `Compliance`, and what that follows, with a time constant of command_time s.
+
+    exerted (3,): N, along the axes of the reference tool frame; target (2, 6): stiffness and wrench; follows (1,): 0 if
+    they have arrived.
+    """
+
+    stiffness: OutVector
+    wrench: OutVector
+    frame: OutMatrix
+    damping_ratio: float
+    fastest: OutVector
+    exerted: OutVector
+    target: OutMatrix
+    follows: OutVector
+    command_time: float
+
+
+@inlined
+def follow_target(memory: ComplianceMemory, period: float) -> None:
+    """Let stiffness and wrench follow their targets for `period` s."""
+    if memory.follows[0] == 0.0:
+        return
+    share = lag_share(period, memory.command_time)
+    stiff = step_lag(memory.stiffness, memory.target[STIFFNESS], share, STIFFNESS_GRAIN)
+    pushes = step_lag(memory.wrench, memory.target[WRENCH], share, WRENCH_GRAIN)
+    times(memory.frame, memory.wrench[:3], memory.exerted)
+    if stiff and pushes:
+        memory.follows[0] = 0.0
+
+
+@compiled
+def step_compliance(memory: ComplianceMemory, period: float) -> None:
+    """Let stiffness and wrench follow their targets for `period` s."""
+    follow_target(memory, period)
+
+
 class ComplianceState:
     """The nested setpoints, innermost last; `applied` follows them with the command time of the gains.
 
     While `held`, released axes have the stiffness of the gains and the tool does not push, whatever the setpoints are.
     Stiffness (6,) in N/m and N m/rad, force (3,) in N, directions (3,) are unit vectors; stiffness of a release in N/m.
+    `step` lets stiffness and wrench follow for a period in s; the arrays of `applied`, in `memory`, change.
     `exerted` (3,) is the applied force along the axes of the reference tool frame, in N; one array, which changes.
     """
 
@@ -54,12 +103,13 @@ class ComplianceState:
         self._unasked = stiffness.copy()
         self._setpoints = [ComplianceSetpoint(stiffness, np.zeros(3), np.eye(3), UNLIMITED_SPEED)]
         self.held, self.exerted = False, np.zeros(3)
-        self._stiffness = Lag(stiffness, gains.command_time, grain=1e-2)
-        self._wrench = Lag(np.zeros(6), gains.command_time, grain=1e-3)
-        self._followed = self.wanted
-        self._target, self._arrived_at = np.zeros(6), self._followed
-        self._ratio = gains.damping_ratio
-        self.applied = self._compliance()
+        self.memory = ComplianceMemory(
+            stiffness.copy(), np.zeros(6), np.eye(3), gains.damping_ratio, UNLIMITED_SPEED.copy(), self.exerted,
+            np.array([stiffness, np.zeros(6)]), np.zeros(1), gains.command_time,
+        )  # fmt: skip
+        self.step = bind(step_compliance, self.memory)
+        self._followed, memory = self.wanted, self.memory
+        self.applied = Compliance(memory.stiffness, memory.wrench, memory.frame, memory.damping_ratio, memory.fastest)
 
     @property
     def wanted(self) -> ComplianceSetpoint:
@@ -79,19 +129,7 @@ class ComplianceState:
     @property
     def pushing(self) -> bool:
         """Whether the tool pushes, or its last push has not faded out yet."""
-        return self._arrived_at is not self._followed or bool(self._followed.force.any())
-
-    def step(self, period: float) -> Compliance:
-        """Let stiffness and wrench follow the setpoint for `period` s; the arrays of the result are reused."""
-        followed = self._followed
-        if followed is not self._arrived_at:
-            self._target[:3] = followed.force
-            self._stiffness.step(followed.stiffness, period)
-            self._wrench.step(self._target, period)
-            followed.frame.dot(self._wrench.value[:3], out=self.exerted)
-            if self._stiffness.arrived and self._wrench.arrived:
-                self._arrived_at = followed
-        return self.applied
+        return bool(self.memory.follows[0]) or bool(self._followed.force.any())
 
     def release(self, direction: Array, stiffness: float) -> None:
         """Release a direction (3,) of the tool frame; ValueError if it is oblique to an earlier one."""
@@ -99,7 +137,7 @@ class ComplianceState:
         axis = _axis(frame, direction)
         wanted = self.wanted.stiffness.copy()
         wanted[axis] = stiffness
-        self._wrench.value[:3] = frame.T @ self.wanted.frame @ self._wrench.value[:3]
+        self.memory.wrench[:3] = frame.T @ self.wanted.frame @ self.memory.wrench[:3]
         self._setpoints.append(replace(self.wanted, stiffness=wanted, frame=frame))
         self._follow()
 
@@ -111,7 +149,7 @@ class ComplianceState:
         """
         before = self._setpoints.pop()
         back = self.wanted.stiffness[:3] != before.stiffness[:3]
-        self._wrench.value[:3] -= back * self._stiffness.value[:3] * error
+        self.memory.wrench[:3] -= back * self.memory.stiffness[:3] * error
         kept = before if self.released else replace(self.wanted, frame=before.frame)
         self.held = self.held and self.released
         self._replace(replace(kept, stiffness=self.wanted.stiffness))
@@ -155,7 +193,7 @@ class ComplianceState:
         error (3,): tool minus reference in m along the axes of C. The caller sets it to zero on the axes that regain
         stiffness.
         """
-        self._wrench.value[:3] -= self._yields() * self._stiffness.value[:3] * error
+        self.memory.wrench[:3] -= self._yields() * self.memory.stiffness[:3] * error
         self.held = True
         self._follow()
 
@@ -185,8 +223,11 @@ class ComplianceState:
             stiffness = wanted.stiffness.copy()
             stiffness[:3] = np.maximum(stiffness[:3], self._unasked[:3])
             wanted = ComplianceSetpoint(stiffness, np.zeros(3), wanted.frame, UNLIMITED_SPEED)
-        self._followed = wanted
-        self.applied = self._compliance()
+        self._followed, memory = wanted, self.memory
+        memory.frame[:], memory.fastest[:] = wanted.frame, wanted.fastest
+        memory.target[STIFFNESS], memory.target[WRENCH, :3] = wanted.stiffness, wanted.force
+        memory.follows[0] = 1.0
+        memory.frame.dot(memory.wrench[:3], out=self.exerted)
 
     def _frame_for(self, direction: Array) -> Array:
         """Return axes (3, 3) of which one is the direction, if possible.
@@ -198,11 +239,6 @@ class ComplianceState:
         frame = self.wanted.frame
         alone = len(self._setpoints) == 2 and abs(float(frame[:, RELEASED_FIRST] @ direction)) < ACROSS
         return _turned(frame, direction) if alone else frame
-
-    def _compliance(self) -> Compliance:
-        frame, fastest = self._followed.frame, self._followed.fastest
-        frame.dot(self._wrench.value[:3], out=self.exerted)
-        return Compliance(self._stiffness.value, self._wrench.value, frame, self._ratio, fastest)
 
 
 def _frame_along(direction: Array) -> Array:

@@ -120,6 +120,12 @@ class SlowedTrajectory:
     factor: float
 
     @property
+    def tabled(self) -> tuple[Array, float] | None:
+        """The table of the path, and by how much it is slowed down, for `reference_plan`; None without a table."""
+        found: tuple[Array, float] | None = getattr(self.trajectory, "tabled", None)
+        return None if found is None else (found[0], found[1] * self.factor)
+
+    @property
     def duration(self) -> float:
         """The time in s from start to rest."""
         return self.trajectory.duration * self.factor

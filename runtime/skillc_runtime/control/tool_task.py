@@ -12,7 +12,7 @@ from skillc_runtime.motion.joint import JointReference
 from skillc_runtime.motion.pose import Array, Pose, log
 from skillc_runtime.motion.reference import Reference
 from skillc_runtime.motion.reference_generator import ReferenceGenerator
-from skillc_runtime.motion.shift import NO_SHIFT, constant_shift
+from skillc_runtime.motion.shift import NO_SHIFT, Shift, constant_shift
 
 NEAR_M, NEAR_RAD = 0.005, 0.05
 """Error below which the tool has reached its reference; while it pushes, friction may add to it."""
@@ -24,7 +24,7 @@ RETURN_M_S, RETURN_M_S2 = 0.02, 0.05
 class ToolTask:
     """Reference and compliance of the tool; releases and restores change both.
 
-    `reference` is that of the last control period, in base. Times are in s, directions (3,) unit vectors.
+    Times are in s, directions (3,) unit vectors.
     """
 
     def __init__(self, gains: Gains, law: Controller, tool: Pose) -> None:
@@ -34,23 +34,28 @@ class ToolTask:
         self._law = law
         self._acceleration_m_s2 = gains.limits.acceleration_m_s2
         self._shift = NO_SHIFT
-        self.reference = self.reference_generator.sample(0.0)
+        self.reference_generator.sample(0.0)
+
+    @property
+    def reference(self) -> Reference:
+        """The last sample of the reference, in base; its arrays change."""
+        return Reference(self.reference_generator.plan.rows)
 
     def command(self, state: ArmState, now: float, period: float) -> Command:
         """Return the command for the next `period` s."""
-        self.reference = self._sample(now)
+        self._sample(now)
         return self._law.command(state, self.reference, self.compliance.applied, period)
 
     def restart_from(self, state: ArmState, joints: JointReference, tool: Pose, twist: Array, now: float) -> None:
         """Come to rest from joints with the tool at `tool`, in base, and a twist (6,), m/s and rad/s."""
-        self._shift = NO_SHIFT
+        self._set_shift(NO_SHIFT)
         self._law.reset(state, joints.q, joints.dq)
         self.reference_generator.restart_from(tool, twist, now)
-        self.reference = self.reference_generator.sample(now)
+        self.reference_generator.sample(now)
 
     def restart_here(self, state: ArmState, q: Array, now: float) -> None:
         """Hold the tool at its present pose, with joints q (nv,) in rad, after it was moved on the hand."""
-        self._shift = NO_SHIFT
+        self._set_shift(NO_SHIFT)
         self._law.reset(state, q, np.zeros_like(q))
         self.reference_generator.restart_from(self._law.tool, np.zeros(6), now)
 
@@ -83,23 +88,23 @@ class ToolTask:
         beside = regained @ (regained.T @ (away + self._shift.at(now)[0]))
         kept = np.eye(3) - regained @ regained.T
         self.reference_generator.jump_to(Pose(resting.position + beside, resting.rotation), kept, now)
-        self._shift = self._shift.project(kept)
+        self._set_shift(self._shift.project(kept))
 
     def hold_released(self, now: float) -> None:
         """Hold the tool, along released axes, where it is now, without a push. The motion is kept, beside the tool."""
         reference, away = self._error(now)
         released = reference.rotation @ self.compliance.released_axes()
         self.compliance.hold((reference.rotation @ self.compliance.wanted.frame).T @ away)
-        self._shift = constant_shift(self._shift.at(now)[0] + released @ (released.T @ away))
+        self._set_shift(constant_shift(self._shift.at(now)[0] + released @ (released.T @ away)))
 
     def lift(self, way: Array, speed: float, now: float) -> None:
         """Move the held tool beside its motion, by `way` (3,) in m in base, with a speed in m/s."""
-        self._shift = self._shift.towards(self._shift.at(now)[0] + way, speed, self._acceleration_m_s2, now)
+        self._set_shift(self._shift.towards(self._shift.at(now)[0] + way, speed, self._acceleration_m_s2, now))
 
     def let_go_released(self, now: float) -> None:
         """Let released axes yield again after `hold_released`; the tool returns to its motion along the others."""
         self.compliance.let_go()
-        self._shift = self._shift.towards(np.zeros(3), RETURN_M_S, RETURN_M_S2, now)
+        self._set_shift(self._shift.towards(np.zeros(3), RETURN_M_S, RETURN_M_S2, now))
 
     def lifting(self, now: float) -> bool:
         """Tell whether the tool moves beside its motion."""
@@ -110,10 +115,13 @@ class ToolTask:
         return self._shift.done(now) and self.reference_generator.stationary(now)
 
     def _sample(self, now: float) -> Reference:
-        reference = self.reference_generator.sample(now)
         if self._shift is not NO_SHIFT and self._shift.is_over(now):
-            self._shift = NO_SHIFT
-        return reference if self._shift is NO_SHIFT else self._shift.add_to(reference, now)
+            self._set_shift(NO_SHIFT)
+        return self.reference_generator.sample(now)
+
+    def _set_shift(self, shift: Shift) -> None:
+        self._shift = shift
+        self.reference_generator.set_shift(None if shift is NO_SHIFT else shift)
 
     def _error(self, now: float) -> tuple[Pose, Array]:
         """Return the pose of the reference, and the tool's position (3,) relative to it in m, in base."""

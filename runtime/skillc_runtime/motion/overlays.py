@@ -6,16 +6,17 @@ The axes of an overlay are those that are passed to `ReferenceGenerator.add`, wh
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import asinh, cos, pi, sin, sqrt
+from math import asinh, cos, inf, pi, sin, sqrt
 
 import numpy as np
 
 from skillc_runtime.motion.arrays import OutMatrix, Vector
-from skillc_runtime.motion.numerics.compiled import compiled
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay
 
-Scalars = tuple[float, float, float]
+CIRCLE, SINES, GIVEN = 1.0, 2.0, 3.0
+"""Kinds of overlays that `reference_plan` samples; it is given the samples of all others."""
 
 
 @compiled
@@ -57,6 +58,11 @@ class Circle:
         """The speed along the circle in m/s."""
         return 2 * pi * self.radius * self.rate
 
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """The kind of overlay, and what describes it, for `reference_plan`: radius in m, turns per s."""
+        return CIRCLE, self.radius, self.rate
+
     def at(self, time: float) -> Array:
         """Return offset, velocity and acceleration (3, 3) at `time` s: m, m/s, m/s^2."""
         motion = np.zeros((3, 3))
@@ -76,6 +82,11 @@ class Lissajous:
     def speed(self) -> float:
         """An upper bound of the speed in m/s, reached if all axes are fastest at the same time."""
         return float(np.linalg.norm(2 * pi * self.frequency * self.amplitude))
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """The kind of overlay, and what describes it, for `reference_plan`: all amplitudes in m, Hz, rad."""
+        return SINES, *self.amplitude, *self.frequency, *self.phase
 
     def at(self, time: float) -> Array:
         """Return offset, velocity and acceleration (3, 3) at `time` s: m, m/s, m/s^2."""
@@ -151,17 +162,36 @@ class FadedOverlay:
 
     def at(self, time: float) -> Array:
         """Return offset, velocity and acceleration (3, 3): m, m/s, m/s^2, by the product rule applied twice."""
-        g, dg, ddg = _rise((time - self.start) / self.fade, self.fade)
-        if self.end is not None:
-            f, df, ddf = _rise((self.end + self.fade - time) / self.fade, -self.fade)
-            g, dg, ddg = g * f, dg * f + g * df, ddg * f + 2 * dg * df + g * ddf
-        sample = self.overlay.at(time - self.start)
-        return sample if g == 1.0 else np.array([[g, 0.0, 0.0], [dg, g, 0.0], [ddg, 2 * dg, g]]) @ sample
+        motion = np.array(self.overlay.at(time - self.start), dtype=float)
+        faded_at(motion, self.start, self.fade, inf if self.end is None else self.end, time)
+        return motion
 
 
-def _rise(x: float, fade: float) -> Scalars:
+@inlined
+def _rise(x: float, fade: float) -> tuple[float, float, float]:
     """Return the quintic step 10 x^3 - 15 x^4 + 6 x^5 on [0, 1] and its first two derivatives by time, x = t / fade."""
-    if x <= 0 or x >= 1:
-        return float(x >= 1), 0.0, 0.0
+    if x <= 0:
+        return 0.0, 0.0, 0.0
+    if x >= 1:
+        return 1.0, 0.0, 0.0
     slope, bend = 30 * x * x * (1 - x) ** 2, 60 * x * (1 - x) * (1 - 2 * x)
     return x**3 * (10 - 15 * x + 6 * x * x), slope / fade, bend / fade**2
+
+
+@compiled
+def faded_at(motion: OutMatrix, start: float, fade: float, end: float, time: float) -> None:
+    """Fade offset, velocity and acceleration (3, 3), m and s, along the axes of the overlay, by the product rule.
+
+    It fades in for `fade` s from `start` on, and out for as long from `end` on; time: s.
+    """
+    g, dg, ddg = _rise((time - start) / fade, fade)
+    if end < inf:
+        f, df, ddf = _rise((end + fade - time) / fade, -fade)
+        g, dg, ddg = g * f, dg * f + g * df, ddg * f + 2 * dg * df + g * ddf
+    if g == 1.0:
+        return
+    for i in range(3):
+        offset, velocity, acceleration = motion[0, i], motion[1, i], motion[2, i]
+        motion[0, i] = g * offset
+        motion[1, i] = dg * offset + g * velocity
+        motion[2, i] = ddg * offset + 2 * dg * velocity + g * acceleration

@@ -30,6 +30,9 @@ PLACE, AXES = COLUMNS + 2, COLUMNS + 5
 """Columns of the corner where the segment starts: position (3,) and rotation, row by row (9,)."""
 
 
+COLUMNS_OF_PATH = AXES + 9
+
+
 @dataclass(frozen=True, slots=True)
 class Path:
     """Segments with start times in s; `corners[i]` is the pose, in the parent frame, where segment i starts unblended.
@@ -48,7 +51,12 @@ class Path:
             [*piece.row, start, start + piece.duration, *corner.position, *corner.rotation.ravel()]
             for piece, start, corner in zip(self.segments, self.starts, self.corners, strict=False)
         ]
-        object.__setattr__(self, "table", np.array(rows))
+        object.__setattr__(self, "table", np.array(rows).reshape(len(rows), COLUMNS_OF_PATH))
+
+    @property
+    def tabled(self) -> tuple[Array, float]:
+        """The table of the path, and by how much its motion is slowed down, for `reference_plan`."""
+        return self.table, 1.0
 
     @property
     def duration(self) -> float:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from math import inf
+
 import numpy as np
 
-from skillc_runtime.motion.arrays import Matrix, OutMatrix
-from skillc_runtime.motion.numerics.compiled import compiled
-from skillc_runtime.motion.numerics.linear import product
-from skillc_runtime.motion.overlays import FadedOverlay
-from skillc_runtime.motion.pose import Array, Pose, exp, skew
+from skillc_runtime.motion import reference_plan as plans
+from skillc_runtime.motion.numerics.compiled import bind
+from skillc_runtime.motion.overlays import GIVEN, FadedOverlay
+from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory, resting_reference
+from skillc_runtime.motion.reference_plan import make_plan, sample_motion, sample_reference
+from skillc_runtime.motion.shift import Shift
 from skillc_runtime.motion.stopping_motion import stopping_motion
 from skillc_runtime.motion.time_scaling import RAMP_S, TimeScaling, start_time
 
@@ -25,13 +29,15 @@ class ReferenceGenerator:
 
     A motion starts where the one before it comes to rest; the two overlap in time, without a jump.
     Motion time starts with each motion, overlay time runs on, both `speed` times as fast as that of the clock; a pause
-    slows both down to a standstill. Stops take the time that the deceleration wants, at any speed. `path` is the last
-    sample without overlays. Times `now` are in s, of any clock.
+    slows both down to a standstill. Stops take the time that the deceleration wants, at any speed. `plan` has all of it
+    as numbers; it is replaced with the table of a path. Times `now` are in s, of any clock.
     """
 
     def __init__(self, pose: Pose, deceleration: float) -> None:
         """Hold a pose; abandoned motions stop with `deceleration` m/s^2."""
         self._deceleration, self.speed = deceleration, 1.0
+        self.plan, self._looked, self._is_given = make_plan(), np.zeros((8, 3)), False
+        self._plan_with(self.plan.table)
         self._overlays: dict[int, tuple[FadedOverlay, Array]] = {}
         self._next_handle = 0
         self._overlay_time = TimeScaling()
@@ -50,7 +56,13 @@ class ReferenceGenerator:
         )
         self._trajectory: Trajectory | None = None
         self._ends = max(self._way.duration, self._turn.duration)
-        self.path = self._rest
+        self._write()
+        self.plan.path[:] = self._rest.rows
+
+    @property
+    def path(self) -> Reference:
+        """The last sample without overlays; its arrays change."""
+        return Reference(self.plan.path)
 
     def set_speed(self, speed: float, now: float) -> None:
         """Let motions, also the present one, have this share, above 0 to 1, of the speed that they were made with."""
@@ -58,6 +70,7 @@ class ReferenceGenerator:
         if self._time.goal > 0.0:
             self._time = self._time.towards(speed, now)
         self._overlay_time = self._overlay_time.towards(speed, now)
+        self._write()
 
     def follow(self, trajectory: Trajectory, now: float) -> None:
         """Follow a trajectory from now on; ValueError if it does not start at `stopping_pose`."""
@@ -71,6 +84,7 @@ class ReferenceGenerator:
         self._trajectory = trajectory
         self._ends = max(self._ends, trajectory.duration)
         self._rest = resting_reference(trajectory.at(trajectory.duration).pose)
+        self._write()
 
     def stop(self, now: float) -> None:
         """Abandon the trajectory and come to rest."""
@@ -126,6 +140,7 @@ class ReferenceGenerator:
             ahead += LOOK_AHEAD_S
         self._time = self._time.towards(rate, now, ramp_s)
         self._overlay_time = self._overlay_time.towards(rate, now, ramp_s)
+        self._write()
 
     def _stopping_time(self, time: float, overlay_time: float) -> float:
         """Return the time in s in which the motion, at its full speed, stops with the deceleration."""
@@ -138,9 +153,15 @@ class ReferenceGenerator:
         return max(speed / self._deceleration, turning / TURN_DECELERATION)
 
     def add(self, overlay: Overlay, axes: Array, fade: float, now: float) -> int:
-        """Add an overlay along `axes` (3, 3), which fades in for `fade` s; return the handle to remove it with."""
+        """Add an overlay along `axes` (3, 3), which fades in for `fade` s; return the handle to remove it with.
+
+        ValueError for too many at once.
+        """
+        if len(self._overlays) == plans.MOST_OVERLAYS:
+            raise ValueError(f"a motion has at most {plans.MOST_OVERLAYS} overlays at once")
         self._next_handle += 1
         self._overlays[self._next_handle] = (FadedOverlay(overlay, self._overlay_time.at(now)[0], fade), axes.copy())
+        self._write()
         return self._next_handle
 
     def remove(self, handle: int, now: float) -> None:
@@ -149,10 +170,12 @@ class ReferenceGenerator:
             self._overlay_time = self._overlay_time.towards(self.speed, now)
             faded, axes = self._overlays[handle]
             self._overlays[handle] = (faded.end_at(self._overlay_time.at(now)[0]), axes)
+            self._write()
 
     def drop_overlays(self) -> None:
         """Remove all overlays at once, for a caller that restarts from a pose next."""
         self._overlays = {}
+        self._write()
 
     def fade_overlays(self, now: float) -> None:
         """Fade all overlays out."""
@@ -161,53 +184,81 @@ class ReferenceGenerator:
 
     def sample(self, now: float) -> Reference:
         """Return the reference at `now`."""
-        self.path = self._motion(now)
-        return self._overlaid(self.path, now) if self._overlays else self.path
+        self.prepare(now)
+        if self._sample(now):
+            self.forget_faded(now)
+        return Reference(self.plan.rows.copy())
+
+    def prepare(self, now: float) -> None:
+        """Let the plan have what it cannot sample itself: motions and overlays that have no numbers."""
+        if self._is_given:
+            self._give_motion(self.plan.path, now)
+            self._give_overlays(now)
+
+    def set_shift(self, shift: Shift | None) -> None:
+        """Add a displacement to the reference, beside its motion, from now on; None for none."""
+        self.plan.motion[plans.SHIFTED] = shift is not None
+        if shift is not None:
+            self.plan.shift[:] = shift.numbers
+
+    def forget_faded(self, now: float) -> None:
+        """Forget overlays that have faded out."""
+        time = self._overlay_time.at(now)[0]
+        self._overlays = {h: entry for h, entry in self._overlays.items() if not entry[0].is_over(time)}
+        self._write()
 
     def _motion(self, now: float) -> Reference:
-        time, rate, slope = self._time.at(now)
-        if time >= self._ends:
-            return self._rest
-        motion = self._trajectory.at(time) if self._trajectory else self._rest
-        if time < self._way.duration or time < self._turn.duration:
-            motion = self._braking(motion, time)
-        if rate == 1.0:
-            return motion
-        return Reference.of(motion.pose, rate * motion.twist, rate * rate * motion.acceleration + slope * motion.twist)
+        if self._is_given:
+            self._give_motion(self._looked, now)
+        self._look(now)
+        return Reference(self._looked.copy())
 
-    def _braking(self, motion: Reference, time: float) -> Reference:
-        """Add the rest of the motion before: r = offset + r_b, R = E R_b."""
-        offset, velocity, acceleration = self._way.at(time)
-        turn, spin, change = self._turn.at(time)
-        E = exp(turn)
-        turning = E @ motion.twist[3:]
-        angular = change + E @ motion.acceleration[3:] + skew(spin) @ turning
-        return Reference.of(
-            Pose(motion.pose.position + offset, E @ motion.pose.rotation),
-            np.concatenate([motion.twist[:3] + velocity, turning + spin]),
-            np.concatenate([motion.acceleration[:3] + acceleration, angular]),
-        )
+    def _give_motion(self, path: Array, now: float) -> None:
+        if self._trajectory is not None and self.plan.motion[plans.KIND] == plans.GIVEN:
+            path[:] = self._trajectory.at(self._time.at(now)[0]).rows
 
-    def _overlaid(self, motion: Reference, now: float) -> Reference:
-        """Add the overlays."""
-        time, rate, slope = self._overlay_time.at(now)
-        rows = motion.rows.copy()
-        for faded, axes in self._overlays.values():
-            add_overlay(rows, faded.at(time), axes, rate, slope)
-        if any(faded.is_over(time) for faded, _ in self._overlays.values()):
-            self._overlays = {h: entry for h, entry in self._overlays.items() if not entry[0].is_over(time)}
-        return Reference(rows)
+    def _give_overlays(self, now: float) -> None:
+        time = self._overlay_time.at(now)[0]
+        for row, (faded, _) in zip(self.plan.overlays, self._overlays.values(), strict=False):
+            if row[plans.OVERLAY_KIND] == GIVEN:
+                row[plans.PARAMETERS :] = faded.overlay.at(time - faded.start).ravel()
+
+    def _write(self) -> None:
+        """Write the plan."""
+        plan = self.plan
+        plan.clocks[plans.MOTION], plan.clocks[plans.OVERLAID] = self._time.numbers, self._overlay_time.numbers
+        for row, stop in zip(plan.stops, (self._way, self._turn), strict=True):
+            row[:3], row[3] = stop.velocity, stop.duration
+        plan.rest[:] = self._rest.rows
+        table, factor, kind = _describe(self._trajectory)
+        plan.motion[: plans.SHIFTED] = kind, self._ends, factor
+        plan.overlays[:, plans.OVERLAY_KIND] = 0.0
+        for row, (faded, axes) in zip(plan.overlays, self._overlays.values(), strict=False):
+            _write_overlay(row, faded, axes)
+        self._is_given = kind == plans.GIVEN or bool((plan.overlays[:, plans.OVERLAY_KIND] == GIVEN).any())
+        if table is not plan.table:
+            self._plan_with(table)
+
+    def _plan_with(self, table: Array) -> None:
+        self.plan = replace(self.plan, table=table)
+        self._sample = bind(sample_reference, self.plan)
+        self._look = bind(sample_motion, replace(self.plan, path=self._looked))
 
 
-@compiled
-def add_overlay(rows: OutMatrix, motion: Matrix, axes: Matrix, rate: float, slope: float) -> None:
-    """Add an overlay's motion (3, 3), m and s, along `axes` (3, 3) to the rows (8, 3) of a reference in the same frame.
+def _describe(trajectory: Trajectory | None) -> tuple[Array, float, float]:
+    """Return the table of a motion, by how much it is slowed down, and its kind."""
+    if trajectory is None:
+        return plans.NO_TABLE, 1.0, plans.AT_REST
+    tabled: tuple[Array, float] | None = getattr(trajectory, "tabled", None)
+    if tabled is None:
+        return plans.NO_TABLE, 1.0, plans.GIVEN
+    table, factor = tabled
+    return (table, factor, plans.ALONG_TABLE) if len(table) else (plans.NO_TABLE, 1.0, plans.AT_REST)
 
-    rate, slope: of overlay time, and its change in 1/s; the chain rule.
-    """
-    added = np.empty((3, 3))
-    product(motion, axes.T, added)
-    for i in range(3):
-        rows[0, i] += added[0, i]
-        rows[4, i] += rate * added[1, i]
-        rows[6, i] += slope * added[1, i] + rate * rate * added[2, i]
+
+def _write_overlay(row: Array, faded: FadedOverlay, axes: Array) -> None:
+    kind, *numbers = getattr(faded.overlay, "numbers", (GIVEN,))
+    row[plans.OVERLAY_KIND], row[plans.START], row[plans.FADE] = kind, faded.start, faded.fade
+    row[plans.END] = inf if faded.end is None else faded.end
+    row[plans.OVERLAY_AXES : plans.PARAMETERS] = axes.ravel()
+    row[plans.PARAMETERS : plans.PARAMETERS + len(numbers)] = numbers

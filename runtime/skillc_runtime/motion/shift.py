@@ -8,10 +8,6 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.profile import Profile, trapezoidal_profile
-from skillc_runtime.motion.reference import Reference
-
-LINEAR = [0, 4, 6]
-"""Rows of `Reference.rows`: position, linear velocity, linear acceleration."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,11 +51,10 @@ class Shift:
         """Return the projected shift; projection (3, 3) in the frame of the reference."""
         return replace(self, start=projection @ self.start, end=projection @ self.end)
 
-    def add_to(self, reference: Reference, now: float) -> Reference:
-        """Return a reference, in the same frame, with this displacement."""
-        rows = reference.rows.copy()
-        rows[LINEAR] += self.at(now)
-        return Reference(rows)
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """The numbers of `ReferencePlan.shift`."""
+        return *self.start, *(self.end - self.start), *self.progress.coefficients[:5], self.since
 
 
 def constant_shift(displacement: Array) -> Shift:

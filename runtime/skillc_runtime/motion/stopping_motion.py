@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from skillc_runtime.motion.arrays import OutMatrix, Vector
+from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array
 
 
@@ -26,11 +28,19 @@ class StoppingMotion:
 
     def at(self, time: float) -> tuple[Array, Array, Array]:
         """Return displacement, velocity and acceleration (n,) `time` s after the start; zeros after the end."""
-        left = 1 - time / self.duration if time < self.duration else 0.0
-        if left <= 0:
-            nothing = np.zeros_like(self.velocity)
-            return nothing, nothing, nothing
-        return -self.displacement * (left * left), self.velocity * left, self.velocity * (-1 / self.duration)
+        displacement, velocity, acceleration = motion = np.empty((3, self.velocity.size))
+        stop_at(motion, self.velocity, self.duration, time)
+        return displacement, velocity, acceleration
+
+
+@compiled
+def stop_at(motion: OutMatrix, velocity: Vector, duration: float, time: float) -> None:
+    """Compute displacement, velocity and acceleration (3, n) of a `StoppingMotion` in its units; time: s."""
+    left = 1 - time / duration if time < duration else 0.0
+    for i in range(velocity.size):
+        motion[0, i] = -(velocity[i] * (duration / 2)) * (left * left)
+        motion[1, i] = velocity[i] * left
+        motion[2, i] = velocity[i] * (-1 / duration) if left > 0.0 else 0.0
 
 
 def stopping_motion(velocity: Array, deceleration: float) -> StoppingMotion:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from skillc_runtime.motion.numerics.compiled import compiled
+
 RAMP_S = 0.5
 """Least time from full speed to standstill."""
 
@@ -24,14 +26,12 @@ class TimeScaling:
 
     def at(self, now: float) -> tuple[float, float, float]:
         """Return motion time in s, its rate, and the change of the rate in 1/s."""
-        passed = now - self.since
-        if self.rate == self.goal:
-            return self.time + self.goal * passed, self.goal, 0.0
-        ramp = abs(self.goal - self.rate) * self.ramp_s
-        slope = (self.goal - self.rate) / ramp
-        if passed >= ramp:
-            return self.time + (self.rate + self.goal) / 2 * ramp + self.goal * (passed - ramp), self.goal, 0.0
-        return self.time + self.rate * passed + slope * passed * passed / 2, self.rate + slope * passed, slope
+        return scaled_time(self.since, self.time, self.rate, self.goal, self.ramp_s, now)
+
+    @property
+    def numbers(self) -> tuple[float, float, float, float, float]:
+        """What `scaled_time` takes: s, s, two rates, s."""
+        return self.since, self.time, self.rate, self.goal, self.ramp_s
 
     def towards(self, goal: float, now: float, ramp_s: float = RAMP_S) -> TimeScaling:
         """Return the scaling whose rate changes to `goal` from now on."""
@@ -42,3 +42,18 @@ class TimeScaling:
 def start_time(now: float, rate: float) -> TimeScaling:
     """Return motion time that is 0 at the time `now` in s, and has a rate."""
     return TimeScaling(since=now, rate=rate, goal=rate)
+
+
+@compiled
+def scaled_time(
+    since: float, time: float, rate: float, goal: float, ramp_s: float, now: float
+) -> tuple[float, float, float]:
+    """Return motion time in s, its rate, and the change of the rate in 1/s, of a `TimeScaling` at `now` in s."""
+    passed = now - since
+    if rate == goal:
+        return time + goal * passed, goal, 0.0
+    ramp = abs(goal - rate) * ramp_s
+    slope = (goal - rate) / ramp
+    if passed >= ramp:
+        return time + (rate + goal) / 2 * ramp + goal * (passed - ramp), goal, 0.0
+    return time + rate * passed + slope * passed * passed / 2, rate + slope * passed, slope

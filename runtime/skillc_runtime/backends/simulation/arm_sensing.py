@@ -66,8 +66,8 @@ class ArmSensing:
     """The inputs and outputs of `measure` for one arm; all arrays are reused or change with the simulation.
 
     Written, in the arm's base frame. joints (6, nv): Q rad, SPEED and BEFORE rad/s, others N m; in_base (8, 3): see
-    `LastLink`; rotation (3, 3): of the tool centre point; jacobian (6, nv): of the tool centre point, [linear m; angular rad] per rad; wrench (6,): N and N m on the
-    tool, zeros without sensor; velocity (3,): m/s, of the tool centre point.
+    `LastLink`; rotation (3, 3), jacobian (6, nv): of the tool centre point, [linear m; angular rad] per rad; wrench
+    (6,): N and N m on the tool, zeros without sensor; velocity (3,): m/s, of the tool centre point.
 
     Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; on_link (8, 3): as there. In the world:
     motion_axes (nv, 6), MuJoCo's `cdof`, and centre (3,) m, where they hold; position (3,) m and rotation (3, 3) of

@@ -29,12 +29,13 @@ Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
 First = TypeVar("First")
 
+
 def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     """Compile a function for the types of its annotations: those of `arrays`, numbers, bool, and tuples as a result.
 
     Parameters may be dataclasses whose fields have these types or are such dataclasses; the fields are read-only, the
     contents of arrays are not. Such a function can only be called from Python. If only the first parameter is one, the
-    function works on memory: its arrays are in C order, all are written in place, and it is called by `bind`, or slowly.
+    function works on memory: all arrays there are in C order, and it is meant to be called as `bind` returns it.
     Functions that it calls are `compiled` or `inlined` themselves.
     """
     if not COMPILES:

@@ -23,6 +23,21 @@ def product(A: Array, B: Array, out: Array) -> None:
     np.dot(A, B, out=out)
 
 
+def copy_matrix(A: Array, out: Array) -> None:
+    """out (m, n) = A (m, n), in any unit."""
+    out[:] = A
+
+
+def copy_vector(x: Array, out: Array) -> None:
+    """out (n,) = x (n,), in any unit."""
+    out[:] = x
+
+
+def squared(x: Array) -> float:
+    """Return the sum of the squares of x (n,), in any unit: not finite if one of them is not."""
+    return float(np.dot(x, x))
+
+
 def cross(a: Array, b: Array, out: Array) -> None:
     """out (3,) = a x b (3,), along the same axes and in any unit."""
     mujoco.mju_cross(out, a, b)

@@ -40,6 +40,30 @@ def product(A: Array, B: Array, out: Array) -> None:
 
 
 @inlined
+def copy_matrix(A: Array, out: Array) -> None:
+    """out (m, n) = A (m, n), in any unit."""
+    for i in range(A.shape[0]):
+        for j in range(A.shape[1]):
+            out[i, j] = A[i, j]
+
+
+@inlined
+def copy_vector(x: Array, out: Array) -> None:
+    """out (n,) = x (n,), in any unit."""
+    for i in range(x.size):
+        out[i] = x[i]
+
+
+@inlined
+def squared(x: Array) -> float:
+    """Return the sum of the squares of x (n,), in any unit: not finite if one of them is not."""
+    total = 0.0
+    for i in range(x.size):
+        total += x[i] * x[i]
+    return total
+
+
+@inlined
 def cross(a: Array, b: Array, out: Array) -> None:
     """out (3,) = a x b (3,), along the same axes and in any unit."""
     out[0] = a[1] * b[2] - a[2] * b[1]

@@ -1,0 +1,53 @@
+"""Where arrays are in memory, as rows of a table: how a compiled function gets any number of them for the cost of one.
+
+Without numba nothing of this is used.
+"""
+
+from __future__ import annotations
+
+import os
+from importlib.util import find_spec
+from typing import Annotated, Any
+
+from skillc_runtime.motion.arrays import Array, np
+
+PLACES = Annotated[Any, 2, "places"]
+"""A table (n, 3) of integers: address, rows and columns of each array, which is in C order; a vector has one column."""
+
+COMPILES: bool = os.environ.get("SKILLC_COMPILED", "1") != "0" and find_spec("numba") is not None
+"""Whether functions are compiled; SKILLC_COMPILED=0 in the environment turns it off."""
+
+
+def find_place(array: Array) -> tuple[int, int, int]:
+    """Return the row of an array; ValueError if it is not in C order."""
+    if not array.flags.c_contiguous:
+        raise ValueError(f"memory of the shape {array.shape} is not in C order")
+    rows, columns = array.shape if array.ndim == 2 else (array.size, 1)
+    return array.__array_interface__["data"][0], rows, columns
+
+
+if COMPILES:
+    from numba import carray, types
+    from numba.extending import intrinsic, register_jitable
+
+    @intrinsic
+    def _pointer(typing_context: Any, address: Any) -> Any:
+        """Return an address as a pointer."""
+
+        def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            return builder.inttoptr(arguments[0], context.get_value_type(types.voidptr))
+
+        return types.voidptr(types.int64), generate
+
+    @register_jitable
+    def vector_at(places: Any, row: int) -> Any:
+        """Return the vector of a row of the table."""
+        return carray(_pointer(places[row, 0]), (places[row, 1],), dtype=np.float64)
+
+    @register_jitable
+    def matrix_at(places: Any, row: int) -> Any:
+        """Return the matrix of a row of the table."""
+        return carray(_pointer(places[row, 0]), (places[row, 1], places[row, 2]), dtype=np.float64)
+
+else:
+    vector_at = matrix_at = find_place
