@@ -9,29 +9,27 @@ import numpy as np
 from skillc_runtime.control.controllers import make_controllers
 from skillc_runtime.control.kinematics import JOINT_RAMP_S, Kinematics
 from skillc_runtime.control.measured import MeasuredArm
+from skillc_runtime.control.period import TOOL_JUMP_M_S
 from skillc_runtime.control.setup import ArmSetup
 from skillc_runtime.control.tool_task import ToolTask
 from skillc_runtime.devices.arm import ArmState, Command
 from skillc_runtime.motion.joint_reference_generator import JointReferenceGenerator
 from skillc_runtime.motion.pose import Array, Pose
 
-TOOL_JUMP_M_S = 3.0
-"""A tool that seems to move faster was moved on the hand, for example by grasping."""
-
 
 class ArmTask:
     """What one arm is doing: `joints` generates their reference, or is None while `tool` is controlled.
 
     `now` s is the time of motions, which stops while the arm is not controlled. All motions have the share `speed`,
-    above 0 to 1, of theirs. `MotionControl` and `ComplianceControl` change it for skills; the driver asks it for a
-    command once a control period.
+    above 0 to 1, of theirs. place (3,): of the tool in the last period, m, in base. `MotionControl` and
+    `ComplianceControl` change it for skills; the driver asks it for a command once a control period.
     """
 
     def __init__(self, setup: ArmSetup) -> None:
         """Hold the joints at their positions."""
         state = setup.arm.state()
         self.limits, self.period, self.now, self.speed = setup.limits, setup.period, 0.0, 1.0
-        self._arm, self._tool_position = setup.arm, state.tool.position.tolist()
+        self._arm, self.place = setup.arm, state.tool.position.copy()
         self.measured = MeasuredArm(setup.base, self.contact_wrench, state)
         self.controllers = make_controllers(setup.gains, setup.limits, setup.virtual, state, setup.period)
         self.kinematics, self.workspace = Kinematics(setup.virtual), setup.safety.workspace
@@ -51,9 +49,14 @@ class ArmTask:
 
     def update_state(self, state: ArmState) -> None:
         """Store a measured state; restart tool control if the tool centre point was moved on the hand."""
-        before, self._tool_position = self._tool_position, state.tool.position.tolist()
-        self.measured.state = state
-        if self.joints is None and dist(self._tool_position, before) > TOOL_JUMP_M_S * self.period:
+        jump = dist(state.tool.position, self.place)
+        self.place[:], self.measured.state = state.tool.position, state
+        if jump > TOOL_JUMP_M_S * self.period:
+            self.restart_tool(state)
+
+    def restart_tool(self, state: ArmState) -> None:
+        """Hold the tool where it is, if it is controlled, after it was moved on the hand."""
+        if self.joints is None:
             self.tool.restart_here(state, self.controllers.joints_now(state), self.now)
 
     def move_tool(self) -> ToolTask:

@@ -14,30 +14,31 @@ from skillc_runtime.control.safety import SafetyLimits, SafetyMonitor
 from skillc_runtime.devices.arm import Arm, ArmState, Command, JointPosition, JointVelocity, Torque, command_values
 from skillc_runtime.motion.arrays import OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled
+from skillc_runtime.motion.numerics.linear import copy_vector, squared
 from skillc_runtime.motion.pose import Array
 
 
 @compiled
 def sum_of_squares(x: Vector) -> float:
     """Return the sum of the squares of x (n,), in any unit: not finite if one of them is not."""
-    total = 0.0
-    for value in x:
-        total += value * value
-    return total
+    return squared(x)
 
 
 class CommandValidator:
-    """Checks what one arm measures and is commanded, and holds its last known position if a check fails."""
+    """Checks what one arm measures and is commanded, and holds its last known position if a check fails.
+
+    holds (nv,): what holds it there, N m or rad; one array, which changes.
+    """
 
     def __init__(self, arm: Arm, state: ArmState, limits: SafetyLimits | None = None) -> None:
         self._arm = arm
         self.safety = SafetyMonitor(limits or SafetyLimits(), state, arm.interface, arm.capabilities)
-        self._holding = self._rest(state).copy()
+        self.holds = self._rest(state).copy()
 
     def check(self, state: ArmState) -> None:
         """Check a measured state. ControlError if a value is not finite; the arm is commanded to hold first."""
-        if not update_holding(self._holding, self._rest(state), state.q, state.dq, state.wrench, state.tool.position):
-            self._give_up("the arm reports something that is not a number")
+        if not update_holding(self.holds, self._rest(state), state.q, state.dq, state.wrench, state.tool.position):
+            self.refuse_measurement()
 
     def command(self, command: Command, period: float) -> None:
         """Command the arm for the next `period` s.
@@ -45,19 +46,27 @@ class CommandValidator:
         ControlError if a value is not finite; the arm is commanded to hold instead.
         """
         if not sum_of_squares(command_values(command)) < np.inf:
-            self._give_up("the control law does not yield a number")
-        self.safety.add_command(command, self._holding, period)
+            self.refuse_command()
+        self.safety.add_command(command, self.holds, period)
         self._arm.command(command)
+
+    def refuse_measurement(self) -> NoReturn:
+        """Command the arm to hold and raise ControlError, for a measurement that is not finite."""
+        self._give_up("the arm reports something that is not a number")
+
+    def refuse_command(self) -> NoReturn:
+        """Command the arm to hold and raise ControlError, for a command that is not finite."""
+        self._give_up("the control law does not yield a number")
 
     def holding(self) -> Command:
         """Return the command that holds the last known position."""
         match self._arm.interface:
             case "torque":
-                return Torque(self._holding.copy())
+                return Torque(self.holds.copy())
             case "position":
-                return JointPosition(self._holding.copy())
+                return JointPosition(self.holds.copy())
             case "velocity":
-                return JointVelocity(np.zeros_like(self._holding))
+                return JointVelocity(np.zeros_like(self.holds))
             case never:
                 assert_never(never)
 
@@ -76,8 +85,7 @@ def update_holding(holding: OutVector, rest: Vector, q: Vector, dq: Vector, wren
 
     rest: N m or rad; q, dq (nv,): rad, rad/s; wrench (6,): N, N m, and position (3,): m, in the base frame.
     """
-    finite = sum_of_squares(q) + sum_of_squares(dq) + sum_of_squares(wrench) + sum_of_squares(position) < np.inf
+    finite = squared(q) + squared(dq) + squared(wrench) + squared(position) < np.inf
     if finite:
-        for j in range(holding.size):
-            holding[j] = rest[j]
+        copy_vector(rest, holding)
     return bool(finite)

@@ -7,6 +7,8 @@ from skillc_runtime.control.command_validator import CommandValidator
 from skillc_runtime.control.compliance_control import ComplianceControl
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.motion_control import MotionControl
+from skillc_runtime.control.period import BAD_COMMAND, BEYOND_LIMIT, NOT_FINITE, OVERLAY_OVER, TOOL_MOVED, WATCHED
+from skillc_runtime.control.period_memory import ControlPeriod
 from skillc_runtime.control.setup import ArmSetup
 from skillc_runtime.devices.arm import ArmState, Command
 from skillc_runtime.motion.reference import Compliance, Reference
@@ -31,6 +33,7 @@ class CompliantArmDriver:
         self.compliance = ComplianceControl(self._task, setup.gains.law.release_damping)
         self._validator = CommandValidator(setup.arm, self.measured.state, setup.safety)
         self._safety = self._validator.safety
+        self._period = ControlPeriod(setup.arm, self._task, self._validator)
         self.measured.felt_wrench = lambda: self._safety.felt_wrench(self.measured.state)
         self.fault: str | None = None
         self.broken: str | None = None
@@ -69,24 +72,45 @@ class CompliantArmDriver:
         if not 0 <= gap <= max(LONGEST_GAP_S, 2 * task.period):
             self._lost += gap - task.period
         task.now = now - self._lost
-        state = self._arm.state()
+        state = task.measured.state = self._period.measure()
         try:
-            self._validator.check(state)
-            task.update_state(state)
-            if (violation := self._safety.violation(state, task.period)) is not None:
-                self.violation = violation
-                self.hold_still(violation)
-            try:
-                command = task.command(state)
-            except ControlError as fault:
-                command = self._hold_joints(state, str(fault))
-            self._validator.command(command, task.period)
+            self._command(state)
         except ControlError as fault:
             self.broken = str(fault)
             raise
         for push in self.compliance.active_pushes:
             if (reason := self.compliance.evaluate(push, state)) is not None:
                 self.abort(reason)
+
+    def _command(self, state: ArmState) -> None:
+        """Check the measured state, and command the arm for a control period."""
+        task, period = self._task, self._period
+        events = period.control(is_watched=False) if period.gives_torques else period.watch()
+        if events & WATCHED:
+            self._handle(events, state)
+            events = period.control(is_watched=True) if period.gives_torques else 0
+        if period.gives_torques:
+            if events & BAD_COMMAND:
+                self._validator.refuse_command()
+            if events & OVERLAY_OVER:
+                task.tool.reference_generator.forget_faded(task.now)
+            self._arm.command(period.torque)
+            return
+        try:
+            command = task.command(state)
+        except ControlError as fault:
+            command = self._hold_joints(state, str(fault))
+        self._validator.command(command, task.period)
+
+    def _handle(self, events: int, state: ArmState) -> None:
+        """Act on what was found in the measured state."""
+        if events & NOT_FINITE:
+            self._validator.refuse_measurement()
+        if events & TOOL_MOVED:
+            self._task.restart_tool(state)
+        if events & BEYOND_LIMIT:
+            self.violation = self._safety.describe(state) or "a limit of the arm was exceeded"
+            self.hold_still(self.violation)
 
     def take_fault(self) -> str | None:
         """Return why the arm stopped by itself, once; None if it did not."""

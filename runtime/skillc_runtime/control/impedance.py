@@ -14,10 +14,10 @@ from math import sqrt
 import numpy as np
 
 from skillc_runtime.control.damping import BRAKE_RATE, tool_inertia
-from skillc_runtime.control.filters import Lag
+from skillc_runtime.control.filters import lag_share, step_lag
 from skillc_runtime.control.gains import Gains, ImpedanceGains
 from skillc_runtime.control.limits import TorqueLimit, limit_torque
-from skillc_runtime.control.nullspace import Nullspace, posture_torque
+from skillc_runtime.control.nullspace import posture_torque
 from skillc_runtime.control.task_error import (
     ACCELERATION,
     BRAKING,
@@ -35,12 +35,15 @@ from skillc_runtime.control.task_error import (
 from skillc_runtime.devices.arm import ArmState, Torque
 from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
-from skillc_runtime.motion.numerics.linear import times, transposed_times
+from skillc_runtime.motion.numerics.linear import copy_matrix, copy_vector, times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
 
 INERTIA_PERIOD_S = 0.01
 """Period with which inertia and damping, which change slowly, are computed."""
+
+DAMPING_GRAIN = 1e-6
+"""Closer to its design than this, N s/m and N m s/rad, the damping has arrived."""
 
 FASTEST_DECAY = 1.5
 """Greatest decay rate of damping, times the control period: from 2 on it is unstable."""
@@ -54,6 +57,8 @@ class ImpedanceMemory:
     limits (5, nv): see `TorqueLimit`. inertia (6, 6): of the tool along C, kg and kg m^2; floor (6,): least damping,
     N s/m and N m s/rad. rest (nv,): rad, posture to which a redundant arm is pulled with rest_stiffness N m/rad.
     torque_rate N m/s: greatest change of a joint torque; force_n N, power_w W: limits of springs, dampers and brakes.
+    damping (6,): N s/m and N m s/rad, follows its design with command_time s. age (1,): s since that was computed;
+    manipulability (1,): of the last period.
     """
 
     task: TaskError
@@ -66,6 +71,10 @@ class ImpedanceMemory:
     torque_rate: float
     force_n: float
     power_w: float
+    damping: OutVector
+    command_time: float
+    age: OutVector
+    manipulability: OutVector
 
 
 class Impedance:
@@ -73,21 +82,28 @@ class Impedance:
 
     def __init__(self, gains: Gains, law: ImpedanceGains, limit: TorqueLimit, joints: int) -> None:
         stiffness = np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)
-        self._posture = Nullspace(law.nullspace_stiffness, joints)
+        floor = np.repeat([law.damping_floor, law.rotational_damping_floor], 3)
         self._memory = ImpedanceMemory(
             task=make_task_error(stiffness),
             tool=np.zeros((4, 3)),
             limits=limit.rows,
             inertia=np.zeros((6, 6)),
-            floor=np.repeat([law.damping_floor, law.rotational_damping_floor], 3),
-            rest=self._posture.rest,
-            rest_stiffness=self._posture.stiffness,
+            floor=floor,
+            rest=np.zeros(joints),
+            rest_stiffness=law.nullspace_stiffness,
             torque_rate=limit.rate,
             force_n=gains.limits.force_n,
             power_w=gains.limits.force_n * gains.limits.speed_m_s,
+            damping=floor.copy(),
+            command_time=gains.command_time,
+            age=np.full(1, INERTIA_PERIOD_S),
+            manipulability=np.full(1, np.inf),
         )
-        self._damping = Lag(self._memory.floor, gains.command_time)
-        self._age = INERTIA_PERIOD_S
+
+    @property
+    def memory(self) -> ImpedanceMemory:
+        """What the law computes with."""
+        return self._memory
 
     @property
     def tool(self) -> Pose:
@@ -106,33 +122,35 @@ class Impedance:
     def reset(self, state: ArmState, q: Array, dq: Array) -> None:
         """Start with `q` (nv,) in rad as the rest posture; dq (nv,) in rad/s is not used."""
         self._memory.tool[0], self._memory.tool[1:] = state.tool.position, state.tool.rotation
-        self._age = INERTIA_PERIOD_S
-        self._damping.value[:] = self._memory.floor
+        self._memory.age[0] = INERTIA_PERIOD_S
+        self._memory.damping[:] = self._memory.floor
         self._memory.rest[:] = q
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Torque:
         """Return the joint torques (nv,) in N m for the next `period` s."""
-        self._update_damping(state, reference, compliance, period)
-        tau, posture = np.empty_like(state.q), self._posture
-        posture.manipulability = impedance_torque(
-            tau, self._memory, state, reference, compliance, posture.manipulability, period
-        )
+        tau = np.empty_like(state.q)
+        command_impedance(tau, self._memory, state, reference, compliance, period)
         return Torque(tau)
 
-    def _update_damping(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> None:
-        """Update inertia and damping if due; the damping follows with the command time."""
-        self._age += period
-        if self._age < INERTIA_PERIOD_S:
-            return
-        damping, rows = np.empty(6), self._memory.task.rows
-        design_damping(damping, self._memory, state, reference, compliance, FASTEST_DECAY / period)
-        rows[DAMPING] = self._damping.step(damping, self._age)
-        self._age = 0.0
+
+@inlined
+def impedance(
+    tau: Array, memory: ImpedanceMemory, state: ArmState, reference: Reference, compliance: Compliance, period: float
+) -> None:
+    """Update inertia and damping if due, which the damping follows, and compute the torques tau (nv,) in N m."""
+    memory.age[0] += period
+    if memory.age[0] >= INERTIA_PERIOD_S:
+        damping = np.empty(6)
+        design_damping(damping, memory, state, reference, compliance, FASTEST_DECAY / period)
+        step_lag(memory.damping, damping, lag_share(memory.age[0], memory.command_time), DAMPING_GRAIN)
+        copy_vector(memory.damping, memory.task.rows[DAMPING])
+        memory.age[0] = 0.0
+    impedance_torque(tau, memory, state, reference, compliance, period)
 
 
-@compiled
+@inlined
 def design_damping(
-    damping: OutVector,
+    damping: Array,
     memory: ImpedanceMemory,
     state: ArmState,
     reference: Reference,
@@ -190,25 +208,21 @@ def tool_torque(tau: Array, memory: ImpedanceMemory, state: ArmState, compliance
         tau *= memory.power_w / power
 
 
-@compiled
+@inlined
 def impedance_torque(
-    tau_out: OutVector,
+    tau_out: Array,
     memory: ImpedanceMemory,
     state: ArmState,
     reference: Reference,
     compliance: Compliance,
-    manipulability: float,
     period: float,
-) -> float:
+) -> None:
     """Compute the torques tau_out (nv,) in N m for the next `period` s; store tool and errors in the memory.
 
-    manipulability: of the period before. Return that of this one, which an arm with more than six joints uses to keep
-    its posture. The reference is in the base frame.
+    An arm with more than six joints keeps its posture.
     """
-    for i in range(3):
-        memory.tool[0, i] = state.tool.position[i]
-        for j in range(3):
-            memory.tool[1 + i, j] = state.tool.rotation[i, j]
+    copy_vector(state.tool.position, memory.tool[0])
+    copy_matrix(state.tool.rotation, memory.tool[1:])
     q, dq, J = state.q, state.dq, state.jacobian
     tau, velocity = np.empty(q.size), np.empty(6)
     times(J, dq, velocity)
@@ -216,7 +230,21 @@ def impedance_torque(
     tool_torque(tau, memory, state, compliance)
     if q.size > 6:
         posture = np.empty(q.size)
-        manipulability = posture_torque(posture, q, dq, J, memory.rest, memory.rest_stiffness, manipulability)
+        memory.manipulability[0] = posture_torque(
+            posture, q, dq, J, memory.rest, memory.rest_stiffness, memory.manipulability[0]
+        )
         tau += posture
     limit_torque(tau_out, memory.limits, tau, q, state.bias, memory.torque_rate * period)
-    return manipulability
+
+
+@compiled
+def command_impedance(
+    tau: OutVector,
+    memory: ImpedanceMemory,
+    state: ArmState,
+    reference: Reference,
+    compliance: Compliance,
+    period: float,
+) -> None:
+    """Compute the torques tau (nv,) in N m for the next `period` s; the reference is in the base frame."""
+    impedance(tau, memory, state, reference, compliance, period)

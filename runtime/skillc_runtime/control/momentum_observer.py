@@ -6,13 +6,14 @@ De Luca et al. 2006, with the mass matrix taken as constant within a window.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import exp
 
 import numpy as np
 
 from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.motion.arrays import Matrix, OutVector, Vector
-from skillc_runtime.motion.numerics.compiled import compiled
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, product, times, transposed_times
 from skillc_runtime.motion.pose import Array
 
@@ -29,37 +30,43 @@ MEASURING = 1e-5
 """lam^2 for forces that are averaged: what noise does to them matters less than what damping takes away."""
 
 
+@dataclass(frozen=True, slots=True)
+class ObserverMemory:
+    """What the observer keeps between control periods, for an arm.
+
+    dq, impulse, torque (nv,): rad/s at the start of the window, N m s in it, N m as estimated; elapsed (1,): s of it.
+    """
+
+    dq: OutVector
+    impulse: OutVector
+    torque: OutVector
+    elapsed: OutVector
+
+
 class MomentumObserver:
     """Estimates the wrench of the environment on the tool of one arm from its commands and its motion."""
 
     def __init__(self, state: ArmState) -> None:
         joints = state.q.size
-        self._dq, self._impulse, self._torque = state.dq.copy(), np.zeros(joints), np.zeros(joints)
+        self.memory = ObserverMemory(state.dq.copy(), np.zeros(joints), np.zeros(joints), np.zeros(1))
         self._wrench = np.zeros(6)
-        self._elapsed = 0.0
 
     def add_command(self, tau: Array, bias: Array, period: float) -> None:
         """Add the joint torques tau (nv,) in N m, bias included, of the next `period` s, and the bias (nv,)."""
-        add_impulse(self._impulse, tau, bias, period)
+        add_impulse(self.memory.impulse, tau, bias, period)
 
     def step(self, state: ArmState, period: float) -> None:
         """Update the estimate with the state measured at the end of a period of `period` s."""
-        self._elapsed += period
-        if self._elapsed > WINDOW_S - period / 2:
-            share = 1 - exp(-self._elapsed / LAG_S)
-            update_external_torque(
-                self._torque, self._impulse, self._dq, state.dq, state.mass_matrix, self._elapsed, share
-            )
-            self._elapsed = 0.0
+        observe(self.memory, state, period)
 
     def wrench(self, state: ArmState, damping: float = DAMPING) -> Array:
         """Return the wrench (6,) in N and N m, base axes, at the tool; the array is reused. `damping` is lam^2."""
-        estimate_wrench(self._wrench, self._torque, state.jacobian, damping)
+        estimate_wrench(self._wrench, self.memory.torque, state.jacobian, damping)
         return self._wrench
 
     def unexplained(self, state: ArmState) -> tuple[int, float]:
         """Return the joint with the greatest torque that no force on the tool explains, and that torque in N m."""
-        joint, torque = find_unexplained_torque(self._torque, state.jacobian)
+        joint, torque = find_unexplained_torque(self.memory.torque, state.jacobian)
         return int(joint), float(torque)
 
 
@@ -70,21 +77,22 @@ def add_impulse(impulse: OutVector, tau: Vector, bias: Vector, period: float) ->
         impulse[j] += (tau[j] - bias[j]) * period
 
 
-@compiled
-def update_external_torque(
-    torque: OutVector, impulse: OutVector, dq: OutVector, dq_now: Vector, mass: Matrix, elapsed: float, share: float
-) -> None:
-    """Let the external torque (nv,) in N m follow (M (dq_now - dq) - impulse) / elapsed; begin a new window.
-
-    impulse (nv,): N m s; dq, dq_now (nv,): rad/s, at start and end; mass (nv, nv): kg m^2; elapsed: s.
-    """
+@inlined
+def observe_momentum(memory: ObserverMemory, state: ArmState, period: float) -> None:
+    """At the end of a window, let the external torque (nv,) in N m follow (M (dq_now - dq) - impulse) / elapsed."""
+    torque, impulse, dq, elapsed = memory.torque, memory.impulse, memory.dq, memory.elapsed
+    elapsed[0] += period
+    if elapsed[0] <= WINDOW_S - period / 2:
+        return
+    share = 1 - exp(-elapsed[0] / LAG_S)
     faster, gained = np.empty(torque.size), np.empty(torque.size)
     for j in range(torque.size):
-        faster[j] = dq_now[j] - dq[j]
-    times(mass, faster, gained)
+        faster[j] = state.dq[j] - dq[j]
+    times(state.mass_matrix, faster, gained)
     for j in range(torque.size):
-        torque[j] += share * ((gained[j] - impulse[j]) / elapsed - torque[j])
-        dq[j], impulse[j] = dq_now[j], 0.0
+        torque[j] += share * ((gained[j] - impulse[j]) / elapsed[0] - torque[j])
+        dq[j], impulse[j] = state.dq[j], 0.0
+    elapsed[0] = 0.0
 
 
 @compiled
@@ -122,3 +130,12 @@ def find_unexplained_torque(torque: Vector, J: Matrix) -> tuple[int, float]:
         if left > greatest:
             joint, greatest = j, left
     return joint, greatest
+
+
+@compiled
+def observe(memory: ObserverMemory, state: ArmState, period: float) -> None:
+    """At the end of a window, let the external torque (nv,) in N m follow (M (dq_now - dq) - impulse) / elapsed.
+
+    The state is that at the end of a period in s.
+    """
+    observe_momentum(memory, state, period)

@@ -7,11 +7,20 @@ from math import inf, sqrt
 
 import numpy as np
 
-from skillc_runtime.control.momentum_observer import MEASURING, MomentumObserver
+from skillc_runtime.control.momentum_observer import (
+    DAMPING,
+    MEASURING,
+    MomentumObserver,
+    ObserverMemory,
+    add_impulse,
+    estimate_wrench,
+    find_unexplained_torque,
+    observe_momentum,
+)
 from skillc_runtime.devices.arm import ArmState, Capabilities, Command, Mode, Torque
-from skillc_runtime.motion.arrays import Matrix, Vector
-from skillc_runtime.motion.numerics.compiled import compiled
-from skillc_runtime.motion.numerics.linear import times, transposed_times
+from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
+from skillc_runtime.motion.numerics.linear import copy_vector, times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose
 
 CHECK_PERIOD_S = 0.005
@@ -45,37 +54,101 @@ class SafetyLimits:
     workspace: Workspace | None = None
 
 
+FORCE, TORQUE, SPEED, TAKES_TORQUES, MEASURES_EFFORT, OBSERVES, IN_SPACE = range(7)
+"""Entries of `SafetyMemory.limits`: the limits in N, N m and m/s, and what the arm is like, 0 or 1."""
+
+AGE, VIOLATED = 0, 1
+"""Entries of `SafetyMemory.clock`: s since the last check, and 1 if a limit was violated then."""
+
+
+@dataclass(frozen=True, slots=True)
+class SafetyMemory:
+    """The limits of one arm, and what is kept between control periods.
+
+    limits (7,), clock (2,): see above; middle (3,), axes (3, 3), size (3,): of the workspace, in m, in base.
+    """
+
+    limits: OutVector
+    middle: OutVector
+    axes: OutMatrix
+    size: OutVector
+    clock: OutVector
+    observer: ObserverMemory
+
+
+@inlined
+def check_limits(memory: SafetyMemory, state: ArmState, period: float) -> bool:
+    """Observe momentum, and tell once per violation that a limit is violated; to be called every control period."""
+    limits, clock = memory.limits, memory.clock
+    if limits[OBSERVES] != 0.0:
+        if limits[MEASURES_EFFORT] != 0.0:
+            add_impulse(memory.observer.impulse, state.effort, state.bias, period)
+        observe_momentum(memory.observer, state, period)
+    clock[AGE] += period
+    if clock[AGE] < CHECK_PERIOD_S:
+        return False
+    clock[AGE] = 0.0
+    before = clock[VIOLATED] != 0.0
+    found = is_beyond(memory, state)
+    clock[VIOLATED] = 1.0 if found else 0.0
+    return found and not before
+
+
+@inlined
+def is_beyond(memory: SafetyMemory, state: ArmState) -> bool:
+    """Tell whether a limit is violated."""
+    limits, felt = memory.limits, np.empty(6)
+    if limits[TAKES_TORQUES] != 0.0:
+        estimate_wrench(felt, memory.observer.torque, state.jacobian, DAMPING)
+    else:
+        copy_vector(state.wrench, felt)
+    if sqrt(felt[0] * felt[0] + felt[1] * felt[1] + felt[2] * felt[2]) > limits[FORCE]:
+        return True
+    if limits[OBSERVES] != 0.0:
+        _, torque = find_unexplained_torque(memory.observer.torque, state.jacobian)
+        if torque > limits[TORQUE]:
+            return True
+    if tool_speed(state.jacobian, state.dq) > limits[SPEED]:
+        return True
+    if limits[IN_SPACE] == 0.0:
+        return False
+    return distance_outside(state.tool.position, memory.middle, memory.axes, memory.size) > 0.0
+
+
 class SafetyMonitor:
-    """Monitors the limits of one arm; a violation is reported once, until the arm is within its limits again.
+    """Describes violated limits of one arm, which `check_limits` finds in `memory`, and what the arm feels.
 
     The force on the tool is the sensor's, or estimated for an arm that takes torques. Contacts of links are felt by the
     torques of the motors: those that are commanded, or measured ones.
     """
 
     def __init__(self, limits: SafetyLimits, state: ArmState, mode: Mode, able: Capabilities) -> None:
-        self.limits, self._feels_force, measures_effort = limits, able.feels_force, able.measures_effort
+        self._feels_force, measures_effort = able.feels_force, able.measures_effort
         self._takes_torques, self._measures_effort = mode == "torque", measures_effort and mode != "torque"
-        self.momentum_observer = MomentumObserver(state) if self._takes_torques or measures_effort else None
-        self._age, self._violated = 0.0, False
+        observer = MomentumObserver(state)
+        self.momentum_observer = observer if self._takes_torques or measures_effort else None
+        self.memory = SafetyMemory(np.zeros(7), np.zeros(3), np.eye(3), np.zeros(3), np.zeros(2), observer.memory)
+        self.limits = limits
+
+    @property
+    def limits(self) -> SafetyLimits:
+        """The limits."""
+        return self._limits
+
+    @limits.setter
+    def limits(self, limits: SafetyLimits) -> None:
+        self._limits, space, memory = limits, limits.workspace, self.memory
+        memory.limits[:] = (
+            limits.contact_force_n, limits.collision_torque_n_m, limits.tool_speed_m_s, self._takes_torques,
+            self._measures_effort, self.momentum_observer is not None, space is not None,
+        )  # fmt: skip
+        if space is not None:
+            memory.middle[:], memory.axes[:], memory.size[:] = space.middle.position, space.middle.rotation, space.size
 
     def add_command(self, command: Command, bias: Array, period: float) -> None:
         """Store the command for the next `period` s, and the bias (nv,) in N m."""
         if self.momentum_observer is not None and isinstance(command, Torque):
             self.momentum_observer.add_command(command.tau, bias, period)
-
-    def violation(self, state: ArmState, period: float) -> str | None:
-        """Return which limit is violated, once per violation; to be called every control period, of `period` s."""
-        if self.momentum_observer is not None:
-            if self._measures_effort:
-                self.momentum_observer.add_command(state.effort, state.bias, period)
-            self.momentum_observer.step(state, period)
-        self._age += period
-        if self._age < CHECK_PERIOD_S:
-            return None
-        self._age = 0.0
-        found = self._violated_limit(state)
-        news, self._violated = found is not None and not self._violated, found is not None
-        return found if news else None
 
     def felt_wrench(self, state: ArmState) -> Array | None:
         """Return the wrench (6,) on the tool, N and N m, base axes, by a sensor or by the torques; None if neither is.
@@ -86,7 +159,8 @@ class SafetyMonitor:
             return state.wrench
         return None if self.momentum_observer is None else self.momentum_observer.wrench(state, MEASURING)
 
-    def _violated_limit(self, state: ArmState) -> str | None:
+    def describe(self, state: ArmState) -> str | None:
+        """Describe the limit that is violated; None if there is none."""
         limits = self.limits
         observer = self.momentum_observer
         felt = observer.wrench(state) if observer is not None and self._takes_torques else state.wrench

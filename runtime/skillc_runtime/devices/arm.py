@@ -137,6 +137,14 @@ class Arm(Protocol):
         """Return the present state; its arrays are read-only and may be the arm's own, valid until the next call."""
         ...
 
+    @property
+    def lasting_state(self) -> ArmState | None:
+        """What every call of `state` returns, if it is always the same object; None if it returns new arrays.
+
+        The arrays of such a state keep their places in memory and are in C order, and `command` keeps no command.
+        """
+        return None
+
     def command(self, command: Command) -> None:
         """Take a command for the next control period; TypeError for another kind than `interface`."""
         ...

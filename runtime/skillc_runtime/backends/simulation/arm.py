@@ -147,6 +147,11 @@ class ModelledArm(Arm):
         """The velocity (3,) in m/s of the tool, in base, as it was measured last; not a copy."""
         return self._velocity
 
+    @property
+    def lasting_state(self) -> ArmState | None:
+        """The state, which is always the same object."""
+        return self._state
+
     def state(self) -> ArmState:
         """Return the present state, in the arm's base frame."""
         noise = self._speed_noise

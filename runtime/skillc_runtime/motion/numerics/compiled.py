@@ -36,7 +36,7 @@ def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Res
     Parameters may be dataclasses whose fields have these types or are such dataclasses; the fields are read-only, the
     contents of arrays are not. Such a function can only be called from Python. If only the first parameter is one, the
     function works on memory: all arrays there are in C order, and it is meant to be called as `bind` returns it.
-    Functions that it calls are `compiled` or `inlined` themselves.
+    Functions that it calls are `compiled` or `inlined` themselves, and stand above it.
     """
     if not COMPILES:
         return function
@@ -183,7 +183,8 @@ def _view(annotation: Any) -> str:
 def _names_in(function: Any) -> set[str]:
     """Return the names that a function, and the functions it calls, read from outside, attributes included."""
     found = set(function.__code__.co_names)
-    called = (inner for name in found if isfunction(inner := function.__globals__.get(name)))
+    named = (function.__globals__.get(name) for name in found)
+    called = (inner for each in named if isfunction(inner := getattr(each, "py_func", each)))
     return found.union(*map(_names_in, called))
 
 

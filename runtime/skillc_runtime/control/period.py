@@ -1,0 +1,125 @@
+"""One control period of an arm: from its measured state to its command, on memory that stays where it is.
+
+What has happened comes out as bits, so that nothing but numbers is touched in a period in which nothing has; Python
+acts on them. See `driver` for what it does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+from typing import Final
+
+import numpy as np
+
+from skillc_runtime.control.compliance_state import ComplianceMemory, follow_target
+from skillc_runtime.control.impedance import ImpedanceMemory, impedance
+from skillc_runtime.control.momentum_observer import add_impulse
+from skillc_runtime.control.safety import SafetyMemory, check_limits
+from skillc_runtime.devices.arm import ArmState
+from skillc_runtime.motion.arrays import OutVector
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
+from skillc_runtime.motion.numerics.linear import copy_vector, squared
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.reference_plan import ReferencePlan, sample_plan
+
+NOT_FINITE, TOOL_MOVED, BEYOND_LIMIT, BAD_COMMAND, OVERLAY_OVER = 1, 2, 4, 8, 16
+"""Bits of what has happened: the measurement is no number; the tool was moved on the hand; a safety limit was exceeded;
+the law yields no number; an overlay has faded out."""
+
+WATCHED: Final = NOT_FINITE | TOOL_MOVED | BEYOND_LIMIT
+"""What is found before a command is computed."""
+
+TOOL_JUMP_M_S = 3.0
+"""A tool that seems to move faster was moved on the hand, for example by grasping."""
+
+
+@dataclass(frozen=True, slots=True)
+class ArmMemory:
+    """What is measured of an arm, and what is kept of it between control periods.
+
+    holds (nv,): what holds it at its last known position, N m or rad; bias_holds (1,): 1 for the former. place (3,): of
+    the tool in the period before, m, in base.
+    """
+
+    state: ArmState
+    holds: OutVector
+    bias_holds: float
+    place: OutVector
+    safety: SafetyMemory
+
+
+@dataclass(frozen=True, slots=True)
+class ImpedancePeriod:
+    """All that a period under Cartesian impedance works on; tau (nv,): N m, the command."""
+
+    arm: ArmMemory
+    compliance: ComplianceMemory
+    plan: ReferencePlan
+    law: ImpedanceMemory
+    tau: OutVector
+
+
+@inlined
+def watch(arm: ArmMemory, period: float) -> int:
+    """Check the measured state; return bits. Nothing but the state is looked at if it is not finite."""
+    state, place, square = arm.state, arm.place, 0.0
+    at = state.tool.position
+    if not squared(state.q) + squared(state.dq) + squared(state.wrench) + squared(at) < inf:
+        return NOT_FINITE
+    if arm.bias_holds != 0.0:
+        copy_vector(state.bias, arm.holds)
+    else:
+        copy_vector(state.q, arm.holds)
+    for i in range(3):
+        square += (at[i] - place[i]) * (at[i] - place[i])
+        place[i] = at[i]
+    longest, events = TOOL_JUMP_M_S * period, 0
+    if square > longest * longest:
+        events = events | TOOL_MOVED
+    if check_limits(arm.safety, state, period):
+        events = events | BEYOND_LIMIT
+    return events
+
+
+@compiled
+def watch_arm(arm: ArmMemory, period: float) -> int:
+    """Check the measured state at the beginning of a period in s; return bits."""
+    return watch(arm, period)
+
+
+@compiled
+def control_by_impedance(memory: ImpedancePeriod, now: float, period: float, is_watched: bool) -> int:
+    """Compute the command of a period at `now`, both in s; return bits.
+
+    Nothing is commanded if something is found before; the caller acts on that, and calls again with `is_watched`.
+    """
+    arm = memory.arm
+    events = 0 if is_watched else watch(arm, period)
+    if events != 0:
+        return events
+    follow_target(memory.compliance, period)
+    if sample_plan(memory.plan, now):
+        events = events | OVERLAY_OVER
+    impedance(memory.tau, memory.law, arm.state, memory.plan, memory.compliance, period)
+    if not squared(memory.tau) < inf:
+        return events | BAD_COMMAND
+    add_impulse(arm.safety.observer.impulse, memory.tau, arm.holds, period)
+    return events
+
+
+def make_state(joints: int) -> ArmState:
+    """Return the state of an arm with so many joints, to be written."""
+    still = (np.zeros(joints) for _ in range(4))
+    jacobian, mass = np.zeros((6, joints)), np.zeros((joints, joints))
+    q, dq, bias, effort = still
+    return ArmState(q, dq, Pose(np.zeros(3), np.eye(3)), jacobian, mass, bias, np.zeros(6), effort)
+
+
+def copy_state(state: ArmState, out: ArmState) -> None:
+    """Copy all that is measured."""
+    out.q[:], out.dq[:], out.bias[:], out.effort[:], out.wrench[:] = (
+        state.q, state.dq, state.bias, state.effort, state.wrench,
+    )  # fmt: skip
+    out.tool.position[:], out.tool.rotation[:] = state.tool.position, state.tool.rotation
+    out.jacobian[:], out.mass_matrix[:] = state.jacobian, state.mass_matrix
