@@ -130,8 +130,9 @@ def measurements(count: int) -> list[list[float]]:
         q, dq, bias, noise = chance.uniform(-1, 1, (4, 7))
         velocity = np.zeros(3)
         sensing = ArmSensing(
-            joints, hand.in_base, hand.rotation, J, wrench, velocity, q, dq, bias, hand.on_link, axes, centre, Pose(position, link),
-            Pose(origin, base), weight, *chance.uniform(-9, 9, (4, 7)), chance.uniform(-1, 1, (6, 9)), readings,
+            joints, hand.in_base, hand.rotation, J, wrench, velocity, q, dq, bias, hand.on_link, axes, centre,
+            Pose(position, link), Pose(origin, base), weight, *chance.uniform(-9, 9, (4, 7)),
+            chance.uniform(-1, 1, (6, 9)), readings,
         )  # fmt: skip
         measure(sensing, noise)
         dose, tool, (place, origin) = np.zeros((20, 30)), np.array([0.1, 0.05]), chance.uniform(-0.1, 0.1, (2, 3))

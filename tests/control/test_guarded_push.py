@@ -1,25 +1,33 @@
 """Noticing contact: from the course of speed and force to one word."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
-from skillc_runtime.control.guarded_push import Pressing, advance_approach, advance_pressing, begin_approach
-from skillc_runtime.devices.guarded_push import Contact, GuardedPush, Standstill, Travel
+from skillc_runtime.control.push_memory import (
+    APPROACH,
+    GO_ON,
+    NO_CONTACT,
+    PRESS,
+    SIZE,
+    STEADY,
+    advance_approach,
+    advance_pressing,
+    write_push,
+)
+from skillc_runtime.devices.guarded_push import GuardedPush, Travel
 
 PUSH = GuardedPush(np.array([0.0, 0.0, 1.0]), 10.0, approach_m_s=0.05, travel=Travel(0.12))
 
 
-def outcome(approach):
-    """What is known by now, in a word."""
-    match approach.met:
-        case None:
-            return "approaching"
-        case Contact() | Standstill():
-            return "touching"
-        case Travel():
-            return "missing"
+OUTCOMES = {GO_ON: "approaching", PRESS: "touching", NO_CONTACT: "missing"}
+"""What is known by now, in a word."""
+
+
+def begun():
+    """The push as numbers, at its start."""
+    push = np.zeros(SIZE)
+    write_push(push, PUSH, PUSH.along)
+    return push
 
 
 COURSES = {
@@ -49,17 +57,18 @@ COURSES = {
 @pytest.mark.parametrize("name", COURSES)
 def test_course(name):
     samples, expected = COURSES[name]
-    approach = begin_approach(PUSH)
+    push = begun()
     for speed, force in samples:
-        approach = advance_approach(approach, speed, force, 0.001)
-    assert outcome(approach) == expected
+        action = advance_approach(push, speed, force, 0.001)
+    assert OUTCOMES[action] == expected
 
 
 def test_it_takes_as_long_at_every_rate():
     for period in (0.001, 0.002, 0.004):
-        approach, time = replace(begin_approach(PUSH), steady=1.0), 0.0
-        while approach.met is None:
-            approach, time = advance_approach(approach, 0.0, 0.0, period), time + period
+        push, action, time = begun(), GO_ON, 0.0
+        push[STEADY] = 1.0
+        while action == GO_ON:
+            action, time = advance_approach(push, 0.0, 0.0, period), time + period
         assert time == pytest.approx(0.02, abs=period)
 
 
@@ -77,7 +86,7 @@ PRESSED = {
 @pytest.mark.parametrize("name", PRESSED)
 def test_a_pressed_tool(name):
     speeds, falling = PRESSED[name]
-    pressed = Pressing(speed=0.05)
+    push = begun()
     for speed in speeds:
-        pressed = advance_pressing(pressed, speed, 0.001)
-    assert pressed.falling == falling
+        action = advance_pressing(push, speed, 0.001)
+    assert (action == APPROACH) == falling

@@ -5,8 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from skillc_runtime.control.push_force import PushForceMeter
-from skillc_runtime.devices.guarded_push import MeasuredForce
+from skillc_runtime.control.guarded_push import measured_force
+from skillc_runtime.control.push_memory import (
+    LASTED,
+    PHASE,
+    PRESSING,
+    SIZE,
+    STEADY,
+    add_sample,
+    is_sample_due,
+    write_push,
+)
+from skillc_runtime.devices.guarded_push import GuardedPush, MeasuredForce, Travel
 from skillc_runtime.primitives.push_force import find_doubt
 
 AXIS, PERIOD = np.array([0.0, 0.0, 1.0]), 0.001
@@ -14,15 +24,19 @@ AXIS, PERIOD = np.array([0.0, 0.0, 1.0]), 0.001
 
 def measure(bias_n: float, approach_s: float, press_s: float, touched_s: float = 0.0) -> MeasuredForce:
     """Approach, the last `touched_s` of it in contact already, and press with 8 N; the signal has a bias."""
-    force = [0.0]
-    meter = PushForceMeter(AXIS, lambda: np.array([0.0, 0.0, force[0] + bias_n, 0.0, 0.0, 0.0]))
+    push = np.zeros(SIZE)
+    write_push(push, GuardedPush(AXIS, 8.0, 0.05, Travel(1.0)), AXIS)
+    push[STEADY] = 1.0
     for step in range(round(approach_s / PERIOD)):
-        force[0] = 4.0 if step * PERIOD > approach_s - touched_s else 0.0
-        meter.approach(True, PERIOD)
-    force[0] = 8.0
+        touches = step * PERIOD > approach_s - touched_s
+        if is_sample_due(push, PERIOD):
+            add_sample(push, bias_n + (4.0 if touches else 0.0))
+    push[PHASE] = PRESSING
     for step in range(round(press_s / PERIOD)):
-        meter.press(step * PERIOD, PERIOD)
-    return meter.mean
+        push[LASTED] = step * PERIOD
+        if is_sample_due(push, PERIOD):
+            add_sample(push, bias_n + 8.0)
+    return measured_force(push)
 
 
 def test_a_bias_is_what_is_measured_of_nothing() -> None:

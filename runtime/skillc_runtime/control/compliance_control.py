@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import inf
-from typing import assert_never
 
 import numpy as np
 
+from skillc_runtime.control import push_memory
 from skillc_runtime.control.arm_task import ArmTask
-from skillc_runtime.control.guarded_push import FALL_SHARE, ActivePush, GivenUp
-from skillc_runtime.devices.arm import ArmState
+from skillc_runtime.control.guarded_push import ActivePush
+from skillc_runtime.control.push_memory import FALL_SHARE, MOST_PUSHES, SIZE
 from skillc_runtime.devices.guarded_push import GuardedPush, PushProgress
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import ROTATION
@@ -22,12 +22,13 @@ LIFT_M = 0.02
 class ComplianceControl:
     """Implements `ComplianceInterface`; directions (3,) are unit vectors in the world frame.
 
-    release_damping N s/m: force per speed of a released axis.
+    release_damping N s/m: force per speed of a released axis. pushes (n, m): a row for each active push.
     """
 
     def __init__(self, task: ArmTask, release_damping: float) -> None:
         self._task, self._release_damping = task, release_damping
         self.active_pushes: tuple[ActivePush, ...] = ()
+        self.pushes: Array = np.zeros((MOST_PUSHES, SIZE))
         self._paused = False
 
     @property
@@ -117,7 +118,7 @@ class ComplianceControl:
     def start_push(self, push: GuardedPush) -> ActivePush:
         """Begin to approach and then to push; the result gives the progress."""
         push = replace(push, approach_m_s=push.approach_m_s * self._task.speed)
-        active = ActivePush(push, self._task.measured.in_base(push.along), self._task.measured.felt_wrench)
+        active = ActivePush(push, self._task.measured.in_base(push.along), self._free_row())
         self._approach(push)
         self.active_pushes = (*self.active_pushes, active)
         return active
@@ -156,33 +157,36 @@ class ComplianceControl:
                 self._approach(active.push)
         self._paused = False
 
-    def evaluate(self, active: ActivePush, state: ArmState) -> str | None:
-        """Advance a push by a control period; return why it was abandoned and the arm must stop, or None."""
-        match active.step(state, self._task.contact_wrench, self._task.period):
-            case "approach" if self._paused:
-                self._hold()
-            case "approach":
-                self._approach(active.push)
-            case "press":
-                self._press(active.push, active.push.force_n)
-            case "go on":
-                pass
-            case GivenUp(reason=reason):
-                self._forget(active)
-                return reason
-            case never:
-                assert_never(never)
-        return None
+    def act(self) -> str | None:
+        """Do what pushes need after a control period; return why the arm must stop, or None."""
+        reason = None
+        for active in self.active_pushes:
+            travel_cm = 100 * active.push.travel.distance_m
+            match active.action:
+                case push_memory.APPROACH if self._paused:
+                    self._hold()
+                case push_memory.APPROACH:
+                    self._approach(active.push)
+                case push_memory.PRESS:
+                    self._press(active.push, active.push.force_n)
+                case push_memory.NO_CONTACT:
+                    self._forget(active)
+                    reason = f"nothing to push against within {travel_cm:.0f} cm"
+                case push_memory.SANK:
+                    self._forget(active)
+                    reason = f"contact was lost: the tool sank by {travel_cm:.0f} cm"
+        return reason
 
     def abandon(self) -> None:
         """Abandon all pushes and hold the tool along released axes, for an arm that stops by itself."""
-        self.active_pushes = ()
+        self._forget_all()
         self.push_off()
         self._hold()
 
     def secure(self) -> bool:
         """Stop pushing and restore all releases; tell whether any were left."""
-        self.active_pushes, self._paused = (), False
+        self._forget_all()
+        self._paused = False
         compliance, left = self._task.tool.compliance, not self._task.tool.compliance.stiff
         while compliance.released:
             self.restore()
@@ -207,8 +211,24 @@ class ComplianceControl:
         way = min(LIFT_M, push.travel.distance_m / 2) * self._task.measured.in_base(push.along)
         self._task.tool.lift(way, push.approach_m_s, self._task.now)
 
+    def _free_row(self) -> Array:
+        """Return a row for another push; ValueError if there is none."""
+        for row in self.pushes:
+            if row[push_memory.PHASE] == push_memory.NO_PUSH:
+                free: Array = row
+                return free
+        raise ValueError(f"an arm pushes in at most {MOST_PUSHES} ways at once")
+
     def _forget(self, push: PushProgress) -> None:
+        for each in self.active_pushes:
+            if each is push:
+                each.end()
         self.active_pushes = tuple(each for each in self.active_pushes if each is not push)
+
+    def _forget_all(self) -> None:
+        for each in self.active_pushes:
+            each.end()
+        self.active_pushes = ()
 
     def _approach(self, push: GuardedPush) -> None:
         """Push just hard enough to move the tool with the approach speed."""

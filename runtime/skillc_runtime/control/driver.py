@@ -7,7 +7,15 @@ from skillc_runtime.control.command_validator import CommandValidator
 from skillc_runtime.control.compliance_control import ComplianceControl
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.motion_control import MotionControl
-from skillc_runtime.control.period import BAD_COMMAND, BEYOND_LIMIT, NOT_FINITE, OVERLAY_OVER, TOOL_MOVED, WATCHED
+from skillc_runtime.control.period import (
+    BAD_COMMAND,
+    BEYOND_LIMIT,
+    NOT_FINITE,
+    OVERLAY_OVER,
+    PUSH_ACTS,
+    TOOL_MOVED,
+    WATCHED,
+)
 from skillc_runtime.control.period_memory import ControlPeriod
 from skillc_runtime.control.setup import ArmSetup
 from skillc_runtime.devices.arm import ArmState, Command
@@ -33,7 +41,7 @@ class CompliantArmDriver:
         self.compliance = ComplianceControl(self._task, setup.gains.law.release_damping)
         self._validator = CommandValidator(setup.arm, self.measured.state, setup.safety)
         self._safety = self._validator.safety
-        self._period = ControlPeriod(setup.arm, self._task, self._validator)
+        self._period = ControlPeriod(setup.arm, self._task, self._validator, self.compliance.pushes)
         self.measured.felt_wrench = lambda: self._safety.felt_wrench(self.measured.state)
         self.fault: str | None = None
         self.broken: str | None = None
@@ -74,16 +82,15 @@ class CompliantArmDriver:
         task.now = now - self._lost
         state = task.measured.state = self._period.measure()
         try:
-            self._command(state)
+            acts = self._command(state)
         except ControlError as fault:
             self.broken = str(fault)
             raise
-        for push in self.compliance.active_pushes:
-            if (reason := self.compliance.evaluate(push, state)) is not None:
-                self.abort(reason)
+        if acts and (reason := self.compliance.act()) is not None:
+            self.abort(reason)
 
-    def _command(self, state: ArmState) -> None:
-        """Check the measured state, and command the arm for a control period."""
+    def _command(self, state: ArmState) -> bool:
+        """Check the measured state, and command the arm for a control period; tell whether a push has an action."""
         task, period = self._task, self._period
         events = period.control(is_watched=False) if period.gives_torques else period.watch()
         if events & WATCHED:
@@ -95,12 +102,13 @@ class CompliantArmDriver:
             if events & OVERLAY_OVER:
                 task.tool.reference_generator.forget_faded(task.now)
             self._arm.command(period.torque)
-            return
+            return bool(events & PUSH_ACTS)
         try:
             command = task.command(state)
         except ControlError as fault:
             command = self._hold_joints(state, str(fault))
         self._validator.command(command, task.period)
+        return bool(self.compliance.active_pushes) and bool(period.advance_pushes())
 
     def _handle(self, events: int, state: ArmState) -> None:
         """Act on what was found in the measured state."""

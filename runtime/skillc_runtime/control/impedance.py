@@ -37,7 +37,7 @@ from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import copy_matrix, copy_vector, times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.reference import Compliance, Reference
+from skillc_runtime.motion.reference import AppliedCompliance, Compliance, Reference, SampledReference
 
 INERTIA_PERIOD_S = 0.01
 """Period with which inertia and damping, which change slowly, are computed."""
@@ -135,7 +135,12 @@ class Impedance:
 
 @inlined
 def impedance(
-    tau: Array, memory: ImpedanceMemory, state: ArmState, reference: Reference, compliance: Compliance, period: float
+    tau: Array,
+    memory: ImpedanceMemory,
+    state: ArmState,
+    reference: SampledReference,
+    compliance: AppliedCompliance,
+    period: float,
 ) -> None:
     """Update inertia and damping if due, which the damping follows, and compute the torques tau (nv,) in N m."""
     memory.age[0] += period
@@ -153,8 +158,8 @@ def design_damping(
     damping: Array,
     memory: ImpedanceMemory,
     state: ArmState,
-    reference: Reference,
-    compliance: Compliance,
+    reference: SampledReference,
+    compliance: AppliedCompliance,
     fastest: float,
 ) -> None:
     """Lam_C = (J_C M^-1 J_C^T)^-1; D_i = 2 zeta sqrt(K_i Lam_C,ii), at least the floor; B_i = rate / (Lam_C^-1)_ii.
@@ -180,7 +185,7 @@ def design_damping(
 
 
 @inlined
-def tool_torque(tau: Array, memory: ImpedanceMemory, state: ArmState, compliance: Compliance) -> None:
+def tool_torque(tau: Array, memory: ImpedanceMemory, state: ArmState, compliance: AppliedCompliance) -> None:
     """exerted (6,) = W - K sat(e) - D (J_C dq - nu_d) - B over, along C; tau (nv,) = J_C^T (exerted + Lam_C a_d).
 
     exerted: N and N m; tau: N m. The force of springs, dampers and brakes is limited to `force_n`, and all torques are
@@ -213,8 +218,8 @@ def impedance_torque(
     tau_out: Array,
     memory: ImpedanceMemory,
     state: ArmState,
-    reference: Reference,
-    compliance: Compliance,
+    reference: SampledReference,
+    compliance: AppliedCompliance,
     period: float,
 ) -> None:
     """Compute the torques tau_out (nv,) in N m for the next `period` s; store tool and errors in the memory.

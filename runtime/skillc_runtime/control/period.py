@@ -15,17 +15,19 @@ import numpy as np
 from skillc_runtime.control.compliance_state import ComplianceMemory, follow_target
 from skillc_runtime.control.impedance import ImpedanceMemory, impedance
 from skillc_runtime.control.momentum_observer import add_impulse
+from skillc_runtime.control.push_memory import advance_pushes
 from skillc_runtime.control.safety import SafetyMemory, check_limits
+from skillc_runtime.control.task_error import EXERTED
 from skillc_runtime.devices.arm import ArmState
-from skillc_runtime.motion.arrays import OutVector
+from skillc_runtime.motion.arrays import OutMatrix, OutVector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
-from skillc_runtime.motion.numerics.linear import copy_vector, squared
+from skillc_runtime.motion.numerics.linear import copy_vector, squared, times
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.reference_plan import ReferencePlan, sample_plan
 
-NOT_FINITE, TOOL_MOVED, BEYOND_LIMIT, BAD_COMMAND, OVERLAY_OVER = 1, 2, 4, 8, 16
+NOT_FINITE, TOOL_MOVED, BEYOND_LIMIT, BAD_COMMAND, OVERLAY_OVER, PUSH_ACTS = 1, 2, 4, 8, 16, 32
 """Bits of what has happened: the measurement is no number; the tool was moved on the hand; a safety limit was exceeded;
-the law yields no number; an overlay has faded out."""
+the law yields no number; an overlay has faded out; a push has come to an action."""
 
 WATCHED: Final = NOT_FINITE | TOOL_MOVED | BEYOND_LIMIT
 """What is found before a command is computed."""
@@ -51,12 +53,13 @@ class ArmMemory:
 
 @dataclass(frozen=True, slots=True)
 class ImpedancePeriod:
-    """All that a period under Cartesian impedance works on; tau (nv,): N m, the command."""
+    """All that a period under Cartesian impedance works on; pushes (n, m): a row each; tau (nv,): N m, the command."""
 
     arm: ArmMemory
     compliance: ComplianceMemory
     plan: ReferencePlan
     law: ImpedanceMemory
+    pushes: OutMatrix
     tau: OutVector
 
 
@@ -105,7 +108,29 @@ def control_by_impedance(memory: ImpedancePeriod, now: float, period: float, is_
     if not squared(memory.tau) < inf:
         return events | BAD_COMMAND
     add_impulse(arm.safety.observer.impulse, memory.tau, arm.holds, period)
+    contact = np.empty(3)
+    times(memory.law.task.axes, memory.law.task.rows[EXERTED, :3], contact)
+    for i in range(3):
+        contact[i] = -contact[i]
+    if advance_pushes(memory.pushes, contact, arm.safety, arm.state, period):
+        events = events | PUSH_ACTS
     return events
+
+
+@dataclass(frozen=True, slots=True)
+class PushPeriod:
+    """All that pushes under any law work on; contact (3,): N, the force on the tool, in base."""
+
+    arm: ArmMemory
+    pushes: OutMatrix
+    contact: OutVector
+
+
+@compiled
+def advance_all_pushes(memory: PushPeriod, period: float) -> int:
+    """Advance pushes by a period in s, after its command; return bits."""
+    acts = advance_pushes(memory.pushes, memory.contact, memory.arm.safety, memory.arm.state, period)
+    return PUSH_ACTS if acts else 0
 
 
 def make_state(joints: int) -> ArmState:

@@ -10,6 +10,8 @@ from skillc_runtime.control.impedance import Impedance
 from skillc_runtime.control.period import (
     ArmMemory,
     ImpedancePeriod,
+    PushPeriod,
+    advance_all_pushes,
     control_by_impedance,
     copy_state,
     make_state,
@@ -17,13 +19,15 @@ from skillc_runtime.control.period import (
 )
 from skillc_runtime.devices.arm import Arm, ArmState, Torque
 from skillc_runtime.motion.numerics.compiled import bind
+from skillc_runtime.motion.pose import Array
 
 
 class ControlPeriod:
     """Runs what of the control periods of one arm is computed on memory."""
 
-    def __init__(self, arm: Arm, task: ArmTask, validator: CommandValidator) -> None:
-        self._arm, self._task = arm, task
+    def __init__(self, arm: Arm, task: ArmTask, validator: CommandValidator, pushes: Array) -> None:
+        """Bind them; pushes (n, m): a row for each push of the arm."""
+        self._arm, self._task, self._pushes = arm, task, pushes
         state = task.measured.state
         self._lasts = getattr(arm, "lasting_state", None) is not None  # An arm need not be derived from `Arm`.
         self._memory = ArmMemory(
@@ -33,7 +37,8 @@ class ControlPeriod:
             task.place,
             validator.safety.memory,
         )
-        self._watch = bind(watch_arm, self._memory)
+        self._watch, self._contact = bind(watch_arm, self._memory), np.zeros(3)
+        self._advance = bind(advance_all_pushes, PushPeriod(self._memory, pushes, self._contact))
         self._tau = np.zeros_like(state.q)
         self._torque = Torque(self._tau)
         law = task.controllers.tool
@@ -69,8 +74,13 @@ class ControlPeriod:
         generator.prepare(task.now)
         return self._control(task.now, task.period, is_watched)
 
+    def advance_pushes(self) -> int:
+        """Advance pushes after a command of any law; return bits of `period`."""
+        self._contact[:] = self._task.contact_wrench()[:3]
+        return self._advance(self._task.period)
+
     def _bind(self) -> None:
         self._plan = self._task.tool.reference_generator.plan
         if self._law is not None:
-            parts = self._task.tool.compliance.memory, self._plan, self._law.memory, self._tau
+            parts = self._task.tool.compliance.memory, self._plan, self._law.memory, self._pushes, self._tau
             self._control = bind(control_by_impedance, ImpedancePeriod(self._memory, *parts))

@@ -54,7 +54,7 @@ class SafetyLimits:
     workspace: Workspace | None = None
 
 
-FORCE, TORQUE, SPEED, TAKES_TORQUES, MEASURES_EFFORT, OBSERVES, IN_SPACE = range(7)
+FORCE, TORQUE, SPEED, TAKES_TORQUES, MEASURES_EFFORT, OBSERVES, FEELS_FORCE, IN_SPACE = range(8)
 """Entries of `SafetyMemory.limits`: the limits in N, N m and m/s, and what the arm is like, 0 or 1."""
 
 AGE, VIOLATED = 0, 1
@@ -65,7 +65,7 @@ AGE, VIOLATED = 0, 1
 class SafetyMemory:
     """The limits of one arm, and what is kept between control periods.
 
-    limits (7,), clock (2,): see above; middle (3,), axes (3, 3), size (3,): of the workspace, in m, in base.
+    limits (8,), clock (2,): see above; middle (3,), axes (3, 3), size (3,): of the workspace, in m, in base.
     """
 
     limits: OutVector
@@ -127,7 +127,7 @@ class SafetyMonitor:
         self._takes_torques, self._measures_effort = mode == "torque", measures_effort and mode != "torque"
         observer = MomentumObserver(state)
         self.momentum_observer = observer if self._takes_torques or measures_effort else None
-        self.memory = SafetyMemory(np.zeros(7), np.zeros(3), np.eye(3), np.zeros(3), np.zeros(2), observer.memory)
+        self.memory = SafetyMemory(np.zeros(8), np.zeros(3), np.eye(3), np.zeros(3), np.zeros(2), observer.memory)
         self.limits = limits
 
     @property
@@ -140,7 +140,7 @@ class SafetyMonitor:
         self._limits, space, memory = limits, limits.workspace, self.memory
         memory.limits[:] = (
             limits.contact_force_n, limits.collision_torque_n_m, limits.tool_speed_m_s, self._takes_torques,
-            self._measures_effort, self.momentum_observer is not None, space is not None,
+            self._measures_effort, self.momentum_observer is not None, self._feels_force, space is not None,
         )  # fmt: skip
         if space is not None:
             memory.middle[:], memory.axes[:], memory.size[:] = space.middle.position, space.middle.rotation, space.size

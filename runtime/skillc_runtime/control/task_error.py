@@ -11,7 +11,7 @@ from skillc_runtime.motion.arrays import OutMatrix
 from skillc_runtime.motion.numerics.compiled import inlined
 from skillc_runtime.motion.numerics.linear import product, rotation_between
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.reference import Compliance, Reference
+from skillc_runtime.motion.reference import AppliedCompliance, SampledReference
 
 CLAMP_M, CLAMP_RAD = 0.05, 0.3
 """Greatest error that acts on a spring, so that a wrong goal cannot produce an unbounded force."""
@@ -46,7 +46,7 @@ def make_task_error(stiffness: Array) -> TaskError:
 
 @inlined
 def compute_task_error(
-    task: TaskError, tool: Pose, reference: Reference, compliance: Compliance, measured: Array
+    task: TaskError, tool: Pose, reference: SampledReference, compliance: AppliedCompliance, measured: Array
 ) -> None:
     """Compute axes and the first five rows of `task`; measured (6,), m/s and rad/s or N and N m, and tool in base.
 

@@ -60,6 +60,15 @@ def resting_reference(pose: Pose) -> Reference:
     return Reference.of(pose, np.zeros(6), np.zeros(6))
 
 
+class SampledReference(Protocol):
+    """A reference as a control law reads it."""
+
+    @property
+    def rows(self) -> Matrix:
+        """The rows (8, 3), as in `Reference`."""
+        ...
+
+
 UNLIMITED_SPEED: Array = np.full(3, np.inf)
 UNLIMITED_SPEED.flags.writeable = False
 
@@ -78,6 +87,35 @@ class Compliance:
     frame: Matrix
     damping_ratio: float = 1.0
     fastest: Vector = field(default_factory=lambda: UNLIMITED_SPEED)
+
+
+class AppliedCompliance(Protocol):
+    """A compliance as a control law reads it, as in `Compliance`."""
+
+    @property
+    def stiffness(self) -> Vector:
+        """The stiffness (6,), N/m and N m/rad."""
+        ...
+
+    @property
+    def wrench(self) -> Vector:
+        """The exerted wrench (6,), N and N m."""
+        ...
+
+    @property
+    def frame(self) -> Matrix:
+        """The axes (3, 3) of C in the reference tool frame."""
+        ...
+
+    @property
+    def damping_ratio(self) -> float:
+        """The damping ratio."""
+        ...
+
+    @property
+    def fastest(self) -> Vector:
+        """The greatest speed (3,) along the axes of C, m/s."""
+        ...
 
 
 class Trajectory(Protocol):

@@ -6,6 +6,7 @@ Without numba nothing of this is used.
 from __future__ import annotations
 
 import os
+from importlib import import_module
 from importlib.util import find_spec
 from typing import Annotated, Any
 
@@ -27,10 +28,11 @@ def find_place(array: Array) -> tuple[int, int, int]:
 
 
 if COMPILES:
-    from numba import carray, types
-    from numba.extending import intrinsic, register_jitable
+    _numba: Any = import_module("numba")
+    _extending: Any = import_module("numba.extending")
+    carray, types = _numba.carray, _numba.types
 
-    @intrinsic
+    @_extending.intrinsic  # type: ignore[untyped-decorator]
     def _pointer(typing_context: Any, address: Any) -> Any:
         """Return an address as a pointer."""
 
@@ -39,15 +41,16 @@ if COMPILES:
 
         return types.voidptr(types.int64), generate
 
-    @register_jitable
+    @_extending.register_jitable  # type: ignore[untyped-decorator]
     def vector_at(places: Any, row: int) -> Any:
         """Return the vector of a row of the table."""
         return carray(_pointer(places[row, 0]), (places[row, 1],), dtype=np.float64)
 
-    @register_jitable
+    @_extending.register_jitable  # type: ignore[untyped-decorator]
     def matrix_at(places: Any, row: int) -> Any:
         """Return the matrix of a row of the table."""
         return carray(_pointer(places[row, 0]), (places[row, 1], places[row, 2]), dtype=np.float64)
 
 else:
-    vector_at = matrix_at = find_place
+    vector_at: Any = None
+    matrix_at: Any = None
