@@ -10,6 +10,7 @@ from skillc_runtime.control.motion_control import MotionControl
 from skillc_runtime.control.period import (
     BAD_COMMAND,
     BEYOND_LIMIT,
+    BLOCKED,
     NOT_FINITE,
     OVERLAY_OVER,
     PUSH_ACTS,
@@ -92,23 +93,33 @@ class CompliantArmDriver:
     def _command(self, state: ArmState) -> bool:
         """Check the measured state, and command the arm for a control period; tell whether a push has an action."""
         task, period = self._task, self._period
-        events = period.control(is_watched=False) if period.gives_torques else period.watch()
+        events = period.control(is_watched=False) if period.is_computed else period.watch()
         if events & WATCHED:
             self._handle(events, state)
-            events = period.control(is_watched=True) if period.gives_torques else 0
-        if period.gives_torques:
-            if events & BAD_COMMAND:
-                self._validator.refuse_command()
-            if events & OVERLAY_OVER:
-                task.tool.reference_generator.forget_faded(task.now)
-            self._arm.command(period.torque)
-            return bool(events & PUSH_ACTS)
+            events = period.control(is_watched=True) if period.is_computed else 0
+        if period.is_computed:
+            return self._take(events, state)
         try:
             command = task.command(state)
         except ControlError as fault:
             command = self._hold_joints(state, str(fault))
         self._validator.command(command, task.period)
         return bool(self.compliance.active_pushes) and bool(period.advance_pushes())
+
+    def _take(self, events: int, state: ArmState) -> bool:
+        """Command the arm what was computed; tell whether a push has an action."""
+        if events & OVERLAY_OVER:
+            self._task.tool.reference_generator.forget_faded(self._task.now)
+        if events & BAD_COMMAND:
+            self._validator.refuse_command()
+        try:
+            if events & BLOCKED:
+                self._period.give_up(state)
+            command = self._period.command
+        except ControlError as fault:
+            command = self._hold_joints(state, str(fault))
+        self._arm.command(command)
+        return bool(events & PUSH_ACTS)
 
     def _handle(self, events: int, state: ArmState) -> None:
         """Act on what was found in the measured state."""

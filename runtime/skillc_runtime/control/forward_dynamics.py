@@ -28,10 +28,10 @@ from skillc_runtime.control.task_error import (
 from skillc_runtime.control.virtual_arm import VirtualArm, VirtualState
 from skillc_runtime.devices.arm import ArmState, Command
 from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
-from skillc_runtime.motion.numerics.compiled import compiled
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.reference import Compliance, Reference
+from skillc_runtime.motion.reference import AppliedCompliance, Compliance, Reference, SampledReference
 
 BRAKED = 0.9
 """Share of the excess of the tool's speed that is removed."""
@@ -42,7 +42,7 @@ class ForwardDynamicsMemory:
     """Parameters and state of the law of one arm, kept between control periods; C is the compliance frame.
 
     dq (nv,): rad/s, of the virtual arm; task: errors along C; limits (9, nv): see `JointLimit`; rate (6,): admittance
-    over its lag, 1/kg and 1/(kg m^2); lag: s.
+    over its lag, 1/kg and 1/(kg m^2); lag: s; felt (6,): the wrench on the tool, N and N m, base axes.
     """
 
     dq: OutVector
@@ -50,6 +50,7 @@ class ForwardDynamicsMemory:
     limits: OutMatrix
     rate: Vector
     lag: float
+    felt: OutVector
 
 
 class ForwardDynamics:
@@ -66,8 +67,23 @@ class ForwardDynamics:
             limits=limit.rows,
             rate=np.repeat([law.admittance, law.rotational_admittance], 3) / law.admittance_time,
             lag=law.admittance_time,
+            felt=np.zeros(6),
         )
-        self._felt = np.zeros(6)
+
+    @property
+    def memory(self) -> ForwardDynamicsMemory:
+        """What the law computes with."""
+        return self._memory
+
+    @property
+    def limit(self) -> JointLimit:
+        """The last stage of each command."""
+        return self._limit
+
+    @property
+    def arm(self) -> VirtualArm:
+        """The virtual arm."""
+        return self._arm
 
     @property
     def tool(self) -> Pose:
@@ -77,7 +93,7 @@ class ForwardDynamics:
     @property
     def contact_wrench(self) -> Array:
         """The measured wrench (6,) in N and N m, base axes; a copy."""
-        return self._felt.copy()
+        return self._memory.felt.copy()
 
     def reset(self, state: ArmState, q: Array, dq: Array) -> None:
         """Start from joint positions q (nv,) in rad and speeds dq (nv,) in rad/s."""
@@ -87,7 +103,7 @@ class ForwardDynamics:
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:
         """Return the joint positions or speeds to command for the next `period` s, within limits."""
-        self._felt[:] = state.wrench
+        self._memory.felt[:] = state.wrench
         arm, limit = self._arm, self._limit
         arm.update_kinematics(limit.q)
         arm.update_dynamics(self._memory.dq)
@@ -95,14 +111,14 @@ class ForwardDynamics:
         return limit.command_if_followed(followed, state)
 
 
-@compiled
-def virtual_motion(
+@inlined
+def move_virtual_arm(
     memory: ForwardDynamicsMemory,
     virtual: VirtualState,
     measured: Vector,
     felt: Vector,
-    reference: Reference,
-    compliance: Compliance,
+    reference: SampledReference,
+    compliance: AppliedCompliance,
     period: float,
 ) -> bool:
     """Compute dq (nv,) in rad/s, all scaled down if a joint would be too fast, and the limited command.
@@ -133,3 +149,17 @@ def virtual_motion(
         dq[j] /= excess
         wanted[j] = memory.limits[COMMANDED, j] + period * dq[j]
     return limit_joints(memory.limits, wanted, measured, period)
+
+
+@compiled
+def virtual_motion(
+    memory: ForwardDynamicsMemory,
+    virtual: VirtualState,
+    measured: Vector,
+    felt: Vector,
+    reference: Reference,
+    compliance: Compliance,
+    period: float,
+) -> bool:
+    """Compute dq (nv,) and the limited command; see `move_virtual_arm`."""
+    return move_virtual_arm(memory, virtual, measured, felt, reference, compliance, period)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from math import exp
+from typing import NoReturn
 
 import numpy as np
 
 from skillc_runtime.control.controller import ControlError
-from skillc_runtime.devices.arm import ArmLimits, ArmState, JointPosition, JointVelocity
+from skillc_runtime.devices.arm import ArmLimits, ArmState, JointPosition, JointVelocity, copy_command
 from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.pose import Array
@@ -83,8 +84,12 @@ class JointLimit:
 
         ControlError as of `step` otherwise.
         """
-        if followed:
-            return self._command()
+        if not followed:
+            self.give_up(state)
+        return copy_command(self.live)
+
+    def give_up(self, state: ArmState) -> NoReturn:
+        """Stay at the position of an arm that does not follow, and raise ControlError."""
         lag = np.abs(self.q - state.q).max()
         self._stay(state)
         raise ControlError(f"a joint is {lag:.2f} rad away from where it was commanded to be; is the arm blocked?")
@@ -93,8 +98,10 @@ class JointLimit:
         """Return the joints (nv,) in rad at which the arm is held if it must stop at once."""
         return self.q
 
-    def _command(self) -> JointPosition | JointVelocity:
-        return JointPosition(self.q.copy())
+    @property
+    def live(self) -> JointPosition | JointVelocity:
+        """The last command; its array changes with the next one."""
+        return JointPosition(self.q)
 
     def _stay(self, state: ArmState) -> None:
         self.q[:], self.dq[:] = state.q, 0.0
@@ -119,8 +126,10 @@ class SpeedLimit(JointLimit):
         self._stay(state)
         return self.q
 
-    def _command(self) -> JointPosition | JointVelocity:
-        return JointVelocity(self.rows[DRIVEN].copy())
+    @property
+    def live(self) -> JointPosition | JointVelocity:
+        """The last command; its array changes with the next one."""
+        return JointVelocity(self.rows[DRIVEN])
 
     def _stay(self, state: ArmState) -> None:
         self.q[:], self.dq[:] = state.q + self.rows[LAG] * state.dq, 0.0

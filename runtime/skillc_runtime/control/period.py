@@ -13,11 +13,15 @@ from typing import Final
 import numpy as np
 
 from skillc_runtime.control.compliance_state import ComplianceMemory, follow_target
+from skillc_runtime.control.forward_dynamics import ForwardDynamicsMemory, move_virtual_arm
 from skillc_runtime.control.impedance import ImpedanceMemory, impedance
+from skillc_runtime.control.limits import COMMANDED, DRIVEN
 from skillc_runtime.control.momentum_observer import add_impulse
 from skillc_runtime.control.push_memory import advance_pushes
 from skillc_runtime.control.safety import SafetyMemory, check_limits
 from skillc_runtime.control.task_error import EXERTED
+from skillc_runtime.control.virtual_arm import VirtualState
+from skillc_runtime.control.virtual_chain import VirtualChain, compute_virtual
 from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.motion.arrays import OutMatrix, OutVector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
@@ -25,9 +29,9 @@ from skillc_runtime.motion.numerics.linear import copy_vector, squared, times
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.reference_plan import ReferencePlan, sample_plan
 
-NOT_FINITE, TOOL_MOVED, BEYOND_LIMIT, BAD_COMMAND, OVERLAY_OVER, PUSH_ACTS = 1, 2, 4, 8, 16, 32
+NOT_FINITE, TOOL_MOVED, BEYOND_LIMIT, BAD_COMMAND, OVERLAY_OVER, PUSH_ACTS, BLOCKED = (1 << bit for bit in range(7))
 """Bits of what has happened: the measurement is no number; the tool was moved on the hand; a safety limit was exceeded;
-the law yields no number; an overlay has faded out; a push has come to an action."""
+the law yields no number; an overlay has faded out; a push has come to an action; the joints do not follow."""
 
 WATCHED: Final = NOT_FINITE | TOOL_MOVED | BEYOND_LIMIT
 """What is found before a command is computed."""
@@ -113,6 +117,43 @@ def control_by_impedance(memory: ImpedancePeriod, now: float, period: float, is_
     for i in range(3):
         contact[i] = -contact[i]
     if advance_pushes(memory.pushes, contact, arm.safety, arm.state, period):
+        events = events | PUSH_ACTS
+    return events
+
+
+@dataclass(frozen=True, slots=True)
+class ForwardDynamicsPeriod:
+    """All that a period of forward-dynamics compliance works on; pushes (n, m): a row each."""
+
+    arm: ArmMemory
+    compliance: ComplianceMemory
+    plan: ReferencePlan
+    law: ForwardDynamicsMemory
+    chain: VirtualChain
+    virtual: VirtualState
+    pushes: OutMatrix
+
+
+@compiled
+def control_by_forward_dynamics(memory: ForwardDynamicsPeriod, now: float, period: float, is_watched: bool) -> int:
+    """Compute the command of a period at `now`, both in s, which is in the limits of the law; as the one above."""
+    arm, law, virtual = memory.arm, memory.law, memory.virtual
+    events = 0 if is_watched else watch(arm, period)
+    if events != 0:
+        return events
+    follow_target(memory.compliance, period)
+    if sample_plan(memory.plan, now):
+        events = events | OVERLAY_OVER
+    copy_vector(arm.state.wrench, law.felt)
+    commanded, tool = law.limits[COMMANDED], virtual.tool
+    compute_virtual(
+        memory.chain, commanded, law.dq, tool.position, tool.rotation, virtual.jacobian, virtual.inertia, virtual.bias
+    )
+    if not move_virtual_arm(law, virtual, arm.state.q, law.felt, memory.plan, memory.compliance, period):
+        return events | BLOCKED
+    if not squared(commanded) + squared(law.limits[DRIVEN]) < inf:
+        return events | BAD_COMMAND
+    if advance_pushes(memory.pushes, law.felt, arm.safety, arm.state, period):
         events = events | PUSH_ACTS
     return events
 

@@ -2,24 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from skillc_runtime.control.arm_task import ArmTask
 from skillc_runtime.control.command_validator import CommandValidator
+from skillc_runtime.control.forward_dynamics import ForwardDynamics
 from skillc_runtime.control.impedance import Impedance
 from skillc_runtime.control.period import (
     ArmMemory,
+    ForwardDynamicsPeriod,
     ImpedancePeriod,
     PushPeriod,
     advance_all_pushes,
+    control_by_forward_dynamics,
     control_by_impedance,
     copy_state,
     make_state,
     watch_arm,
 )
-from skillc_runtime.devices.arm import Arm, ArmState, Torque
-from skillc_runtime.motion.numerics.compiled import bind
+from skillc_runtime.devices.arm import Arm, ArmState, Command, Torque, copy_command
+from skillc_runtime.motion.numerics.compiled import COMPILES, bind
 from skillc_runtime.motion.pose import Array
+
+Control = Callable[[float, float, bool], int]
+"""Computes the command of a period at a time, both in s; returns bits of `period`."""
 
 
 class ControlPeriod:
@@ -29,7 +37,8 @@ class ControlPeriod:
         """Bind them; pushes (n, m): a row for each push of the arm."""
         self._arm, self._task, self._pushes = arm, task, pushes
         state = task.measured.state
-        self._lasts = getattr(arm, "lasting_state", None) is not None  # An arm need not be derived from `Arm`.
+        # An arm need not be derived from `Arm`.
+        self._lasts = getattr(arm, "lasting_state", None) is not None
         self._memory = ArmMemory(
             state if self._lasts else make_state(state.q.size),
             validator.holds,
@@ -40,20 +49,19 @@ class ControlPeriod:
         self._watch, self._contact = bind(watch_arm, self._memory), np.zeros(3)
         self._advance = bind(advance_all_pushes, PushPeriod(self._memory, pushes, self._contact))
         self._tau = np.zeros_like(state.q)
-        self._torque = Torque(self._tau)
-        law = task.controllers.tool
-        self._law = law if isinstance(law, Impedance) else None
+        self._live: Command = Torque(self._tau)
+        self._control: Control | None = None
         self._bind()
 
     @property
-    def gives_torques(self) -> bool:
-        """Whether `torque` is the command of this period: the law is computed on memory, and the tool is controlled."""
-        return self._law is not None and self._task.joints is None
+    def is_computed(self) -> bool:
+        """Whether `command` is that of this period: the tool is controlled, by a law that is computed on memory."""
+        return self._control is not None and self._task.joints is None
 
     @property
-    def torque(self) -> Torque:
+    def command(self) -> Command:
         """The command of this period; the arrays of arms that keep their states change."""
-        return self._torque if self._lasts else Torque(self._tau.copy())
+        return self._live if self._lasts else copy_command(self._live)
 
     def measure(self) -> ArmState:
         """Return the present state of the arm."""
@@ -67,11 +75,12 @@ class ControlPeriod:
         return self._watch(self._task.period)
 
     def control(self, is_watched: bool) -> int:
-        """Compute `torque`, unless something is found before; return bits of `period`."""
+        """Compute `command`, unless something is found before; return bits of `period`."""
         task, generator = self._task, self._task.tool.reference_generator
         if generator.plan is not self._plan:
             self._bind()
         generator.prepare(task.now)
+        assert self._control is not None
         return self._control(task.now, task.period, is_watched)
 
     def advance_pushes(self) -> int:
@@ -79,8 +88,22 @@ class ControlPeriod:
         self._contact[:] = self._task.contact_wrench()[:3]
         return self._advance(self._task.period)
 
+    def give_up(self, state: ArmState) -> None:
+        """Raise ControlError, for joints that do not follow."""
+        law = self._task.controllers.tool
+        assert isinstance(law, ForwardDynamics)
+        law.limit.give_up(state)
+
     def _bind(self) -> None:
-        self._plan = self._task.tool.reference_generator.plan
-        if self._law is not None:
-            parts = self._task.tool.compliance.memory, self._plan, self._law.memory, self._pushes, self._tau
-            self._control = bind(control_by_impedance, ImpedancePeriod(self._memory, *parts))
+        """Bind the law, if it is one of those; without numba MuJoCo computes a virtual arm faster than Python does."""
+        self._plan, arm, pushes = self._task.tool.reference_generator.plan, self._memory, self._pushes
+        compliance = self._task.tool.compliance.memory
+        match self._task.controllers.tool:
+            case Impedance(memory=memory):
+                whole = ImpedancePeriod(arm, compliance, self._plan, memory, pushes, self._tau)
+                self._control = bind(control_by_impedance, whole)
+            case ForwardDynamics(memory=memory, arm=virtual, limit=limit) if COMPILES:
+                parts = arm, compliance, self._plan, memory, virtual.chain, virtual.state, pushes
+                self._control, self._live = bind(control_by_forward_dynamics, ForwardDynamicsPeriod(*parts)), limit.live
+            case _:
+                self._control = None

@@ -16,6 +16,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from skillc_runtime.control.virtual_chain import make_chain, place_body
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, Vector
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 
@@ -66,7 +67,8 @@ class VirtualState:
 class VirtualArm:
     """Kinematics and virtual inertia at joint positions q, in the arm's base frame. Arrays are reused.
 
-    `state` has all results. `virtual` is from `load_virtual_model`; it is copied, since the tool's pose in it changes.
+    `state` has all results; `chain` has the arm as numbers, for laws that compute the same. `virtual` is from
+    `load_virtual_model`; it is copied, since the tool's pose in it changes.
     """
 
     def __init__(self, virtual: mujoco.MjModel) -> None:
@@ -82,6 +84,7 @@ class VirtualArm:
         self._jacp, self._jacr = self.jacobian[:3], self.jacobian[3:]
         self.inertia = np.zeros((model.nv, model.nv))
         self.bias = np.zeros(model.nv)
+        self.chain = make_chain(model, self._body)
         self.state = VirtualState(Pose(self._position, self._rotation), self.jacobian, self.inertia, self.bias)
 
     @property
@@ -134,6 +137,7 @@ class VirtualArm:
     def _place_tool(self, mount: Pose) -> None:
         self._model.body_pos[self._body] = mount.position
         self._model.body_quat[self._body] = quaternion_from_rotation(mount.rotation)
+        place_body(self.chain, self._body, mount.position, self._model.body_quat[self._body])
 
     def update_kinematics(self, q: Array) -> None:
         """Update `tool` and `jacobian` (6, nv) for joint positions q (nv,) in rad."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, Protocol, TypeAlias, assert_never
+from typing import Literal, Protocol, TypeAlias, TypeVar, assert_never
 
 from skillc_runtime.motion.arrays import Matrix, Vector
 from skillc_runtime.motion.pose import Array, Pose
@@ -55,6 +55,9 @@ Mode: TypeAlias = Literal["torque", "position", "velocity"]
 """The kind of commands that an arm takes."""
 
 
+CommandT = TypeVar("CommandT", bound=Torque | JointPosition | JointVelocity)
+
+
 def command_values(command: Command) -> Array:
     """Return the values (nv,) of a command: N m, rad or rad/s."""
     match command:
@@ -66,6 +69,11 @@ def command_values(command: Command) -> Array:
             return dq
         case _:
             assert_never(command)
+
+
+def copy_command(command: CommandT) -> CommandT:
+    """Return a command of the same kind with a copy of its values."""
+    return type(command)(command_values(command).copy())
 
 
 class ModeRefused(Exception):

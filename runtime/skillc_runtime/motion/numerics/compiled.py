@@ -126,7 +126,8 @@ def _unpacking(function: Callable[Parameters, Result]) -> Callable[Parameters, R
         f"def flat({', '.join(flat)}):\n    return function({', '.join(packed)})\n"
         f"def call({', '.join(annotations)}):\n    return flat({', '.join(leaves)})\n"
     )
-    return _built(function, source, names, "flat", {**flat, "return": returns})
+    unpacking: Callable[Parameters, Result] = _built(function, source, names, "flat", {**flat, "return": returns})
+    return unpacking
 
 
 def _on_memory(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:

@@ -27,6 +27,8 @@ def find_place(array: Array) -> tuple[int, int, int]:
     return array.__array_interface__["data"][0], rows, columns
 
 
+vector_at: Any = None
+matrix_at: Any = None
 if COMPILES:
     _numba: Any = import_module("numba")
     _extending: Any = import_module("numba.extending")
@@ -42,15 +44,13 @@ if COMPILES:
         return types.voidptr(types.int64), generate
 
     @_extending.register_jitable  # type: ignore[untyped-decorator]
-    def vector_at(places: Any, row: int) -> Any:
+    def _vector_at(places: Any, row: int) -> Any:
         """Return the vector of a row of the table."""
         return carray(_pointer(places[row, 0]), (places[row, 1],), dtype=np.float64)
 
     @_extending.register_jitable  # type: ignore[untyped-decorator]
-    def matrix_at(places: Any, row: int) -> Any:
+    def _matrix_at(places: Any, row: int) -> Any:
         """Return the matrix of a row of the table."""
         return carray(_pointer(places[row, 0]), (places[row, 1], places[row, 2]), dtype=np.float64)
 
-else:
-    vector_at: Any = None
-    matrix_at: Any = None
+    vector_at, matrix_at = _vector_at, _matrix_at

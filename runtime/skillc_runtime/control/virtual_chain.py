@@ -1,0 +1,202 @@
+"""Kinematics and dynamics of a virtual arm as numbers: what `VirtualArm` lets MuJoCo compute, for compiled laws.
+
+Each body is a point of mass m at its origin with an isotropic inertia I, so with the Jacobians J_v, J_w of the origins
+M = sum m J_v^T J_v + I J_w^T J_w;  c = sum m J_v^T a + I J_w^T alpha, a and alpha without joint accelerations.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, sin
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.motion.arrays import Matrix, OutMatrix
+from skillc_runtime.motion.numerics.compiled import inlined
+from skillc_runtime.motion.numerics.linear import copy_matrix, copy_vector, cross, product, times
+from skillc_runtime.motion.pose import Array, rotation_from_quaternion
+
+PARENT, MASS, INERTIA, FIRST_JOINT, JOINTS = range(5)
+PLACE, AXES, BODY_SIZE = 5, 8, 17
+"""Columns of `VirtualChain.bodies`: parent, kg, kg m^2, first joint and number of joints; then the frame in that of the
+parent: position (3,) in m and rotation, row by row (9,)."""
+
+SLIDES, ZERO = 0, 1
+AXIS, ANCHOR, JOINT_SIZE = 2, 5, 8
+"""Columns of `VirtualChain.joints`: 1 if it slides, its value where the frame is that of the body; unit axis (3,) and
+anchor (3,) m, in the frame of the body."""
+
+POSITION, SPIN, TURNING, PULL = 0, 1, 2, 3
+"""Rows of the motion of a body: position in m, angular velocity in rad/s, angular acceleration, acceleration."""
+
+
+@dataclass(frozen=True, slots=True)
+class VirtualChain:
+    """A tree of bodies with joints, one a row, parents first; body 0 is the base. The tool is the origin of the last.
+
+    moved (n, nv): 1 where a joint moves a body. axes, anchors (nv, 3): in base, written by `compute_virtual`.
+    """
+
+    bodies: OutMatrix
+    joints: Matrix
+    moved: Matrix
+    axes: OutMatrix
+    anchors: OutMatrix
+
+
+def make_chain(model: Any, tool: int) -> VirtualChain:
+    """Return the chain of a virtual model, whose joints turn or slide; `tool` is its last body."""
+    assert tool == model.nbody - 1
+    bodies = np.zeros((model.nbody, BODY_SIZE))
+    bodies[:, PARENT], bodies[:, MASS], bodies[:, INERTIA] = (
+        model.body_parentid,
+        model.body_mass,
+        model.body_inertia[:, 0],
+    )
+    bodies[:, FIRST_JOINT], bodies[:, JOINTS] = model.body_jntadr, model.body_jntnum
+    joints, moved = np.zeros((model.nv, JOINT_SIZE)), np.zeros((model.nbody, model.nv))
+    joints[:, SLIDES], joints[:, ZERO] = model.jnt_type == mujoco.mjtJoint.mjJNT_SLIDE, model.qpos0
+    joints[:, AXIS:ANCHOR], joints[:, ANCHOR:] = model.jnt_axis, model.jnt_pos
+    for body in range(1, model.nbody):
+        moved[body] = moved[model.body_parentid[body]]
+        moved[body, model.jnt_bodyid == body] = 1.0
+    chain = VirtualChain(bodies, joints, moved, np.zeros((model.nv, 3)), np.zeros((model.nv, 3)))
+    for body in range(model.nbody):
+        place_body(chain, body, model.body_pos[body], model.body_quat[body])
+    return chain
+
+
+def place_body(chain: VirtualChain, body: int, position: Array, quaternion: Array) -> None:
+    """Place the frame of a body in that of its parent: position (3,) in m, quaternion (4,)."""
+    chain.bodies[body, PLACE:AXES] = position
+    chain.bodies[body, AXES:] = rotation_from_quaternion(quaternion).ravel()
+
+
+@inlined
+def _turn(rotation: Array, axis: Array, angle: float) -> None:
+    """Turn a frame (3, 3) about a unit axis (3,) in its own axes: R <- R Exp(angle axis)."""
+    turn, before = np.empty((3, 3)), rotation.copy()
+    s, c = sin(angle), cos(angle)
+    x, y, z = axis[0], axis[1], axis[2]
+    turn[0, 0], turn[0, 1], turn[0, 2] = c + x * x * (1 - c), x * y * (1 - c) - z * s, x * z * (1 - c) + y * s
+    turn[1, 0], turn[1, 1], turn[1, 2] = y * x * (1 - c) + z * s, c + y * y * (1 - c), y * z * (1 - c) - x * s
+    turn[2, 0], turn[2, 1], turn[2, 2] = z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c)
+    product(before, turn, rotation)
+
+
+@inlined
+def _carry(motion: Array, way: Array) -> None:
+    """Move the point of a body's motion by a way (3,) m that is fixed in the body: a += alpha x r + w x (w x r)."""
+    swung, across, inward = np.empty(3), np.empty(3), np.empty(3)
+    cross(motion[TURNING], way, swung)
+    cross(motion[SPIN], way, across)
+    cross(motion[SPIN], across, inward)
+    for i in range(3):
+        motion[POSITION, i] += way[i]
+        motion[PULL, i] += swung[i] + inward[i]
+
+
+@inlined
+def _move_joint(chain: VirtualChain, joint: int, motion: Array, rotation: Array, q: float, dq: float) -> None:
+    """Move a body by one of its joints, which turns or slides by q from its zero with the speed dq."""
+    numbers, axis, anchor = chain.joints[joint], chain.axes[joint], chain.anchors[joint]
+    way, bent, away = np.empty(3), np.empty(3), q - numbers[ZERO]
+    times(rotation, numbers[AXIS:ANCHOR], axis)
+    cross(motion[SPIN], axis, bent)
+    if numbers[SLIDES] != 0.0:
+        for i in range(3):
+            way[i] = away * axis[i]
+        _carry(motion, way)
+        for i in range(3):
+            motion[PULL, i] += 2 * dq * bent[i]
+            anchor[i] = motion[POSITION, i]
+        return
+    times(rotation, numbers[ANCHOR:], way)
+    _carry(motion, way)
+    for i in range(3):
+        anchor[i] = motion[POSITION, i]
+        motion[TURNING, i] += dq * bent[i]
+        motion[SPIN, i] += dq * axis[i]
+    _turn(rotation, numbers[AXIS:ANCHOR], away)
+    times(rotation, numbers[ANCHOR:], way)
+    for i in range(3):
+        way[i] = -way[i]
+    _carry(motion, way)
+
+
+@inlined
+def _fill_jacobian(chain: VirtualChain, body: int, point: Array, J: Array) -> None:
+    """Compute the Jacobian (6, nv) of a point (3,) m of a body, [linear; angular], in base."""
+    away, moved = np.empty(3), np.empty(3)
+    for j in range(chain.joints.shape[0]):
+        for i in range(3):
+            away[i] = point[i] - chain.anchors[j, i]
+        cross(chain.axes[j], away, moved)
+        slides = chain.joints[j, SLIDES] != 0.0
+        for i in range(3):
+            J[i, j] = chain.moved[body, j] * (chain.axes[j, i] if slides else moved[i])
+            J[3 + i, j] = 0.0 if slides else chain.moved[body, j] * chain.axes[j, i]
+
+
+@inlined
+def _add_body(chain: VirtualChain, body: int, motion: Array, J: Array, inertia: Array, bias: Array) -> None:
+    """Add what a body contributes to inertia (nv, nv) and bias (nv,)."""
+    mass, turning = chain.bodies[body, MASS], chain.bodies[body, INERTIA]
+    for i in range(bias.size):
+        if chain.moved[body, i] == 0.0:
+            continue
+        for k in range(3):
+            bias[i] += mass * J[k, i] * motion[PULL, k] + turning * J[3 + k, i] * motion[TURNING, k]
+        for j in range(i + 1):
+            total = 0.0
+            for k in range(3):
+                total += mass * J[k, i] * J[k, j] + turning * J[3 + k, i] * J[3 + k, j]
+            inertia[i, j] += total
+
+
+@inlined
+def _clear(inertia: Array, bias: Array) -> None:
+    for i in range(bias.size):
+        bias[i] = 0.0
+        for j in range(bias.size):
+            inertia[i, j] = 0.0
+
+
+@inlined
+def _move_body(chain: VirtualChain, body: int, motions: Array, rotations: Array, q: Array, dq: Array) -> None:
+    """Compute the motion (4, 3) and the rotation (3, 3) of a body, in base, from those of its parent."""
+    numbers, motion, turned, way = chain.bodies[body], motions[body], rotations[body], np.empty(3)
+    parent, first = int(numbers[PARENT]), int(numbers[FIRST_JOINT])
+    copy_matrix(motions[parent], motion)
+    times(rotations[parent], numbers[PLACE:AXES], way)
+    _carry(motion, way)
+    product(rotations[parent], numbers[AXES:].reshape(3, 3), turned)
+    for joint in range(first, first + int(numbers[JOINTS])):
+        _move_joint(chain, joint, motion, turned, q[joint], dq[joint])
+
+
+@inlined
+def compute_virtual(
+    chain: VirtualChain, q: Array, dq: Array, position: Array, rotation: Array, J: Array, inertia: Array, bias: Array
+) -> None:
+    """Compute the tool, position (3,) and rotation (3, 3), its Jacobian (6, nv), inertia (nv, nv) and bias (nv,).
+
+    All in base, for joints q (nv,) in rad with speeds dq (nv,) in rad/s; see `VirtualState`.
+    """
+    count = chain.bodies.shape[0]
+    motions, rotations = np.zeros((count, 4, 3)), np.zeros((count, 3, 3))
+    _clear(inertia, bias)
+    for i in range(3):
+        rotations[0, i, i] = 1.0
+    for body in range(1, count):
+        _move_body(chain, body, motions, rotations, q, dq)
+        if chain.bodies[body, MASS] > 0.0:
+            _fill_jacobian(chain, body, motions[body, POSITION], J)
+            _add_body(chain, body, motions[body], J, inertia, bias)
+    for i in range(bias.size):
+        for j in range(i):
+            inertia[j, i] = inertia[i, j]
+    copy_vector(motions[count - 1, POSITION], position)
+    copy_matrix(rotations[count - 1], rotation)
