@@ -15,7 +15,7 @@ import numpy as np
 
 from skillc_runtime.motion.arrays import Matrix, OutMatrix
 from skillc_runtime.motion.numerics.compiled import inlined
-from skillc_runtime.motion.numerics.linear import copy_matrix, copy_vector, cross, product, times
+from skillc_runtime.motion.numerics.linear import copy_matrix, copy_vector, product
 from skillc_runtime.motion.pose import Array, rotation_from_quaternion
 
 PARENT, MASS, INERTIA, FIRST_JOINT, JOINTS = range(5)
@@ -77,67 +77,80 @@ def place_body(chain: VirtualChain, body: int, position: Array, quaternion: Arra
 @inlined
 def _turn(rotation: Array, axis: Array, angle: float) -> None:
     """Turn a frame (3, 3) about a unit axis (3,) in its own axes: R <- R Exp(angle axis)."""
-    turn, before = np.empty((3, 3)), rotation.copy()
     s, c = sin(angle), cos(angle)
-    x, y, z = axis[0], axis[1], axis[2]
-    turn[0, 0], turn[0, 1], turn[0, 2] = c + x * x * (1 - c), x * y * (1 - c) - z * s, x * z * (1 - c) + y * s
-    turn[1, 0], turn[1, 1], turn[1, 2] = y * x * (1 - c) + z * s, c + y * y * (1 - c), y * z * (1 - c) - x * s
-    turn[2, 0], turn[2, 1], turn[2, 2] = z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c)
-    product(before, turn, rotation)
+    x, y, z, d = axis[0], axis[1], axis[2], 1 - c
+    for i in range(3):
+        a, b, e = rotation[i, 0], rotation[i, 1], rotation[i, 2]
+        along = d * (a * x + b * y + e * z)
+        rotation[i, 0] = c * a + along * x + s * (b * z - e * y)
+        rotation[i, 1] = c * b + along * y + s * (e * x - a * z)
+        rotation[i, 2] = c * e + along * z + s * (a * y - b * x)
 
 
 @inlined
-def _carry(motion: Array, way: Array) -> None:
-    """Move the point of a body's motion by a way (3,) m that is fixed in the body: a += alpha x r + w x (w x r)."""
-    swung, across, inward = np.empty(3), np.empty(3), np.empty(3)
-    cross(motion[TURNING], way, swung)
-    cross(motion[SPIN], way, across)
-    cross(motion[SPIN], across, inward)
-    for i in range(3):
-        motion[POSITION, i] += way[i]
-        motion[PULL, i] += swung[i] + inward[i]
+def _carry(motion: Array, x: float, y: float, z: float) -> None:
+    """Move the point of a body's motion by a way r in m that is fixed in the body: a += alpha x r + w x (w x r)."""
+    p, q, r = motion[SPIN, 0], motion[SPIN, 1], motion[SPIN, 2]
+    a, b, c = motion[TURNING, 0], motion[TURNING, 1], motion[TURNING, 2]
+    u, v, w = q * z - r * y, r * x - p * z, p * y - q * x
+    motion[POSITION, 0] += x
+    motion[POSITION, 1] += y
+    motion[POSITION, 2] += z
+    motion[PULL, 0] += b * z - c * y + (q * w - r * v)
+    motion[PULL, 1] += c * x - a * z + (r * u - p * w)
+    motion[PULL, 2] += a * y - b * x + (p * v - q * u)
+
+
+@inlined
+def _rotated(rotation: Array, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return a vector of a frame with a rotation (3, 3) along the axes of its parent."""
+    return (
+        rotation[0, 0] * x + rotation[0, 1] * y + rotation[0, 2] * z,
+        rotation[1, 0] * x + rotation[1, 1] * y + rotation[1, 2] * z,
+        rotation[2, 0] * x + rotation[2, 1] * y + rotation[2, 2] * z,
+    )
 
 
 @inlined
 def _move_joint(chain: VirtualChain, joint: int, motion: Array, rotation: Array, q: float, dq: float) -> None:
     """Move a body by one of its joints, which turns or slides by q from its zero with the speed dq."""
     numbers, axis, anchor = chain.joints[joint], chain.axes[joint], chain.anchors[joint]
-    way, bent, away = np.empty(3), np.empty(3), q - numbers[ZERO]
-    times(rotation, numbers[AXIS:ANCHOR], axis)
-    cross(motion[SPIN], axis, bent)
+    away, spin, turning = q - numbers[ZERO], motion[SPIN], motion[TURNING]
+    x, y, z = _rotated(rotation, numbers[AXIS], numbers[AXIS + 1], numbers[AXIS + 2])
+    axis[0], axis[1], axis[2] = x, y, z
+    u, v, w = spin[1] * z - spin[2] * y, spin[2] * x - spin[0] * z, spin[0] * y - spin[1] * x
     if numbers[SLIDES] != 0.0:
-        for i in range(3):
-            way[i] = away * axis[i]
-        _carry(motion, way)
-        for i in range(3):
-            motion[PULL, i] += 2 * dq * bent[i]
-            anchor[i] = motion[POSITION, i]
+        _carry(motion, away * x, away * y, away * z)
+        motion[PULL, 0] += 2 * dq * u
+        motion[PULL, 1] += 2 * dq * v
+        motion[PULL, 2] += 2 * dq * w
         return
-    times(rotation, numbers[ANCHOR:], way)
-    _carry(motion, way)
+    to_x, to_y, to_z = _rotated(rotation, numbers[ANCHOR], numbers[ANCHOR + 1], numbers[ANCHOR + 2])
+    _carry(motion, to_x, to_y, to_z)
     for i in range(3):
         anchor[i] = motion[POSITION, i]
-        motion[TURNING, i] += dq * bent[i]
-        motion[SPIN, i] += dq * axis[i]
+        spin[i] += dq * axis[i]
+    turning[0] += dq * u
+    turning[1] += dq * v
+    turning[2] += dq * w
     _turn(rotation, numbers[AXIS:ANCHOR], away)
-    times(rotation, numbers[ANCHOR:], way)
-    for i in range(3):
-        way[i] = -way[i]
-    _carry(motion, way)
+    to_x, to_y, to_z = _rotated(rotation, -numbers[ANCHOR], -numbers[ANCHOR + 1], -numbers[ANCHOR + 2])
+    _carry(motion, to_x, to_y, to_z)
 
 
 @inlined
 def _fill_jacobian(chain: VirtualChain, body: int, point: Array, J: Array) -> None:
     """Compute the Jacobian (6, nv) of a point (3,) m of a body, [linear; angular], in base."""
-    away, moved = np.empty(3), np.empty(3)
     for j in range(chain.joints.shape[0]):
-        for i in range(3):
-            away[i] = point[i] - chain.anchors[j, i]
-        cross(chain.axes[j], away, moved)
-        slides = chain.joints[j, SLIDES] != 0.0
-        for i in range(3):
-            J[i, j] = chain.moved[body, j] * (chain.axes[j, i] if slides else moved[i])
-            J[3 + i, j] = 0.0 if slides else chain.moved[body, j] * chain.axes[j, i]
+        x, y, z = chain.axes[j, 0], chain.axes[j, 1], chain.axes[j, 2]
+        moves = chain.moved[body, j]
+        if chain.joints[j, SLIDES] != 0.0:
+            J[0, j], J[1, j], J[2, j] = moves * x, moves * y, moves * z
+            J[3, j], J[4, j], J[5, j] = 0.0, 0.0, 0.0
+            continue
+        a, b, c = point[0] - chain.anchors[j, 0], point[1] - chain.anchors[j, 1], point[2] - chain.anchors[j, 2]
+        J[0, j], J[1, j], J[2, j] = moves * (y * c - z * b), moves * (z * a - x * c), moves * (x * b - y * a)
+        J[3, j], J[4, j], J[5, j] = moves * x, moves * y, moves * z
 
 
 @inlined
@@ -167,11 +180,11 @@ def _clear(inertia: Array, bias: Array) -> None:
 @inlined
 def _move_body(chain: VirtualChain, body: int, motions: Array, rotations: Array, q: Array, dq: Array) -> None:
     """Compute the motion (4, 3) and the rotation (3, 3) of a body, in base, from those of its parent."""
-    numbers, motion, turned, way = chain.bodies[body], motions[body], rotations[body], np.empty(3)
+    numbers, motion, turned = chain.bodies[body], motions[body], rotations[body]
     parent, first = int(numbers[PARENT]), int(numbers[FIRST_JOINT])
     copy_matrix(motions[parent], motion)
-    times(rotations[parent], numbers[PLACE:AXES], way)
-    _carry(motion, way)
+    x, y, z = _rotated(rotations[parent], numbers[PLACE], numbers[PLACE + 1], numbers[PLACE + 2])
+    _carry(motion, x, y, z)
     product(rotations[parent], numbers[AXES:].reshape(3, 3), turned)
     for joint in range(first, first + int(numbers[JOINTS])):
         _move_joint(chain, joint, motion, turned, q[joint], dq[joint])
