@@ -31,7 +31,10 @@ Control = Callable[[float, float, bool], int]
 
 
 class ControlPeriod:
-    """Runs what of the control periods of one arm is computed on memory."""
+    """Runs what of the control periods of one arm is computed on memory.
+
+    `memory` is all of it, for a law that is; it is replaced when the tool follows another path.
+    """
 
     def __init__(self, arm: Arm, task: ArmTask, validator: CommandValidator, pushes: Array) -> None:
         """Bind them; pushes (n, m): a row for each push of the arm."""
@@ -51,6 +54,7 @@ class ControlPeriod:
         self._tau = np.zeros_like(state.q)
         self._live: Command = Torque(self._tau)
         self._control: Control | None = None
+        self.memory: ImpedancePeriod | ForwardDynamicsPeriod | None = None
         self._bind()
 
     @property
@@ -100,10 +104,11 @@ class ControlPeriod:
         compliance = self._task.tool.compliance.memory
         match self._task.controllers.tool:
             case Impedance(memory=memory):
-                whole = ImpedancePeriod(arm, compliance, self._plan, memory, pushes, self._tau)
-                self._control = bind(control_by_impedance, whole)
+                self.memory = ImpedancePeriod(arm, compliance, self._plan, memory, pushes, self._tau)
+                self._control = bind(control_by_impedance, self.memory)
             case ForwardDynamics(memory=memory, arm=virtual, limit=limit) if COMPILES:
                 parts = arm, compliance, self._plan, memory, virtual.chain, virtual.state, pushes
-                self._control, self._live = bind(control_by_forward_dynamics, ForwardDynamicsPeriod(*parts)), limit.live
+                self.memory, self._live = ForwardDynamicsPeriod(*parts), limit.live
+                self._control = bind(control_by_forward_dynamics, self.memory)
             case _:
                 self._control = None

@@ -157,7 +157,7 @@ def _on_memory(function: Callable[Parameters, Result]) -> Callable[Parameters, R
     )  # fmt: skip
     types = {"places": PLACES, **{each: annotations[each] for each in others}, "return": returns}
     call: Any = _built(function, source, names, "at_places", types)
-    call.bind = names["bind"]
+    call.bind, call.__wrapped__ = names["bind"], function
     on_memory: Callable[Parameters, Result] = call
     return on_memory
 
