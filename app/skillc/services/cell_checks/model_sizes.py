@@ -19,6 +19,9 @@ from skillc_runtime.world.state.world_state import WorldState
 HANDLE = "handle"
 """What the fingers hold of a tool; it is not part of the size of a tool."""
 
+ROUND_ENDED = 3
+"""The number of capsules among the types of geoms of MuJoCo."""
+
 TOLERANCE_M = 0.002
 SHARE_OF_WEIGHT = 0.1
 
@@ -69,7 +72,9 @@ def _extents(model: object, data: object) -> tuple[Array, Array]:
     middle, half = model.geom_aabb[:, :3], model.geom_aabb[:, 3:]  # type: ignore[attr-defined]
     rotation = data.geom_xmat.reshape(-1, 3, 3)  # type: ignore[attr-defined]
     centre = data.geom_xpos + np.einsum("nij,nj->ni", rotation, middle)  # type: ignore[attr-defined]
-    reach = np.einsum("nij,nj->ni", np.abs(rotation), half)
+    # Round ends reach as far in all directions, which the box around a capsule that is turned does not.
+    round_m = np.where(model.geom_type == ROUND_ENDED, model.geom_size[:, 0], 0.0)[:, None]  # type: ignore[attr-defined]
+    reach = np.einsum("nij,nj->ni", np.abs(rotation), half - round_m) + round_m
     return centre - reach, centre + reach
 
 
