@@ -74,7 +74,7 @@ class Films:
     def wait(self, show: ShowProgress) -> None:
         """Wait until all films are made."""
         for each in self._making:
-            while (result := each.worker.wait(LOOK_S)) is None:  # wait ends: with the process
+            while (result := each.worker.wait(LOOK_S)) is None:
                 show(each.order.name, each.worker.report or 0.0)
             show(each.order.name, 1.0)
             each.worker.kill()
