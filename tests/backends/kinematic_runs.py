@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
@@ -25,9 +25,7 @@ from skillc_runtime.world.state.model import WorldModel
 @cache
 def library(name: str) -> SkillLibrary:
     """Return a shipped library."""
-    outcome = libraries.compile_library(find_library(SHIPPED / name))
-    assert outcome.ok, outcome.diagnostics
-    return outcome.value
+    return compile_valid(find_library(SHIPPED / name))
 
 
 def shipped_tasks() -> dict[str, str]:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from backends.kinematic_runs import prepare
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc_compiler.goals.parsing import parse_call
 from skillc_model.skills import SkillLibrary
@@ -47,9 +47,7 @@ def place(part: str, to: str) -> str:
 
 
 def library() -> SkillLibrary:
-    outcome = libraries.compile_library(find_library(FOLDER))
-    assert outcome.ok, outcome.diagnostics
-    return outcome.value
+    return compile_valid(find_library(FOLDER))
 
 
 def written(folder: Path, edits: list[tuple[str, str]]) -> Path:

@@ -8,7 +8,7 @@ import pytest
 
 from backends.kinematic_runs import prepare
 from bodies.test_sorting import FOLDER, LAB
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.kinematic.cell import KinematicCell
@@ -35,9 +35,7 @@ PART, OTHER, BIN = LAB + "Part-A", LAB + "Part-B", LAB + "Bin-A"
 
 @cache
 def library() -> SkillLibrary:
-    outcome = libraries.compile_library(find_library(FOLDER))
-    assert outcome.ok, outcome.diagnostics
-    return outcome.value
+    return compile_valid(find_library(FOLDER))
 
 
 def sized(thing: str, *size: float) -> list[Change]:

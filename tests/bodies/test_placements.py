@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from backends.kinematic_runs import library, prepare
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc_ontology import catalogue
 from skillc_runtime.backends.kinematic.cell import KinematicCell
@@ -21,7 +21,7 @@ FOLDER = Path(__file__).parent / "sorting"
 
 @pytest.mark.slow
 def test_each_thing_that_was_moved_is_listed_with_its_true_place() -> None:
-    compiled = libraries.compile_library(find_library(FOLDER)).value
+    compiled = compile_valid(find_library(FOLDER))
     prepared = prepare(compiled, "sort_parts", FOLDER / "cell.ttl")
     cell = KinematicCell(WorldModel(prepared.assignment.state))
     assert measure_placements(cell.world, cell.ground_truth) == ()

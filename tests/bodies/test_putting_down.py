@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from bodies.test_own_cells import BACKENDS, CELLS, FOLDER, LAB, PICK_A, failure_of, place, written
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc_compiler.goals.parsing import parse_call
 from skillc_model.skills import SkillLibrary
@@ -99,9 +99,7 @@ def library(folder: Path) -> SkillLibrary:
     (folder / "sorting").mkdir()
     text = (FOLDER / "sorting.skill").read_text(encoding="utf-8").replace("task sort_parts", OWN + "task sort_parts")
     (folder / "sorting" / "sorting.skill").write_text(text, encoding="utf-8")
-    outcome = libraries.compile_library(find_library(folder / "sorting"))
-    assert outcome.ok, outcome.diagnostics
-    return outcome.value
+    return compile_valid(find_library(folder / "sorting"))
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ import pytest
 
 from backends.kinematic_runs import prepare
 from bodies.test_sorting import FOLDER, LAB
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
@@ -53,9 +53,7 @@ DISPLACED: list[Change] = [
 
 @cache
 def library() -> SkillLibrary:
-    outcome = libraries.compile_library(find_library(FOLDER))
-    assert outcome.ok, outcome.diagnostics
-    return outcome.value
+    return compile_valid(find_library(FOLDER))
 
 
 def sorted_parts(changes: list[Change], seed: int) -> tuple[Execution, SimulatedCell]:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from backends.kinematic_runs import prepare
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.kinematic.cell import KinematicCell
@@ -28,9 +28,7 @@ PART, TRAY, SHELF = lab("Part-A"), lab("Tray-1"), lab("Shelf-1")
 
 @cache
 def library() -> SkillLibrary:
-    outcome = libraries.compile_library(find_library(FOLDER))
-    assert outcome.ok, outcome.diagnostics
-    return outcome.value
+    return compile_valid(find_library(FOLDER))
 
 
 def run_task(task: str, backend: type[SimulatedCell | KinematicCell], *changes: Change) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from pathlib import Path
 from msgspec import structs
 
 from own_backend import OwnBackend
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc_compiler.goals.parsing import parse_call, parse_goal
 from skillc_model.skills import SkillLibrary
@@ -45,9 +45,7 @@ RPARTS = "http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#"
 
 @cache
 def library() -> SkillLibrary:
-    outcome = libraries.compile_library(find_library(Path(__file__).with_name("bench.skill")))
-    assert outcome.ok, outcome.diagnostics
-    return outcome.value
+    return compile_valid(find_library(Path(__file__).with_name("bench.skill")))
 
 
 def iri(name: str) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from backends.kinematic_runs import prepare
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.kinematic.cell import KinematicCell
@@ -30,9 +30,7 @@ IN_BIN = Pose.of((0.45, 0.15, 0.634))
 
 @cache
 def library() -> SkillLibrary:
-    outcome = libraries.compile_library(find_library(FOLDER))
-    assert outcome.ok, outcome.diagnostics
-    return outcome.value
+    return compile_valid(find_library(FOLDER))
 
 
 @cache

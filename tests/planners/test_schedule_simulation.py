@@ -12,7 +12,7 @@ from random import Random
 import pytest
 
 from plans import depot
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
@@ -92,9 +92,7 @@ def test_planted_mistakes_are_found(name: str) -> None:
 
 @cache
 def shop() -> SkillLibrary:
-    outcome = libraries.compile_library(find_library(Path(__file__).with_name("shop.skill")))
-    assert outcome.ok, outcome.diagnostics
-    return outcome.value
+    return compile_valid(find_library(Path(__file__).with_name("shop.skill")))
 
 
 def shopping(leaves_at_s: float, goal: str = "lab:a contain lab:box") -> tuple[Schedule, WorldState, Condition]:

@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 
 from own_backend import OwnBackend
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc_compiler.goals.parsing import parse_goal
 from skillc_model.conditions import Condition
@@ -29,9 +29,7 @@ AT, CONTAIN = SKIROS + "at", SKIROS + "contain"
 
 @cache
 def library() -> SkillLibrary:
-    outcome = libraries.compile_library(find_library(Path(__file__).with_name("depot.skill")))
-    assert outcome.ok, outcome.diagnostics
-    return outcome.value
+    return compile_valid(find_library(Path(__file__).with_name("depot.skill")))
 
 
 def iri(name: str) -> str:

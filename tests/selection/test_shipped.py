@@ -7,7 +7,7 @@ from functools import cache
 
 import pytest
 
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_model import tree
 from skillc_model.conditions import Individual
@@ -29,7 +29,7 @@ HERE = Position("task.skill", 3, 1)
 @cache
 def library() -> SkillLibrary:
     """Compile the shipped library."""
-    return libraries.compile_library(find_library(SHIPPED / "wiping")).value
+    return compile_valid(find_library(SHIPPED / "wiping"))
 
 
 @cache

@@ -6,7 +6,7 @@ from functools import cache
 
 from cells import LAB, world
 
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_model import tree
 from skillc_model.conditions import Individual
@@ -24,7 +24,7 @@ ROBOT, DOCK, STORE = LAB + "Heron-1", LAB + "Dock", LAB + "Store"
 
 @cache
 def library() -> SkillLibrary:
-    return libraries.compile_library(find_library(SHIPPED / "wiping")).value
+    return compile_valid(find_library(SHIPPED / "wiping"))
 
 
 def test_a_drive_halted_half_way_has_left_and_not_arrived() -> None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_ontology import catalogue
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import read_with_sheets
 
-VOCABULARY = libraries.compile_library(find_library(SHIPPED / "wiping")).value.vocabulary
+VOCABULARY = compile_valid(find_library(SHIPPED / "wiping")).vocabulary
 SCENE = catalogue.scene_path("iiwa_outlet").read_text(encoding="utf-8")
 STRAIGHT = "PositionX 0.02"
 PATCH = "skillc:hasPatch lab:Outlet-1 ; skillc:hasHole lab:Label-1"

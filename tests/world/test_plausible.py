@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services import libraries
+from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import SHIPPED, find_library
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import load_scene
 
-SHIPPED = libraries.compile_library(find_library(SHIPPED / "wiping")).value.vocabulary
+SHIPPED = compile_valid(find_library(SHIPPED / "wiping")).vocabulary
 SCENE = catalogue.scene_path("iiwa_table").read_text(encoding="utf-8")
 
 
