@@ -1,20 +1,13 @@
-"""Inverse kinematics by damped least squares, from several seeds that are the same in each call."""
+"""Inverse kinematics of an arm with the tool that it holds, and the steps by which a motion of the tool is followed."""
 
 from __future__ import annotations
-
-from math import pi
 
 import numpy as np
 
 from skillc_runtime.control.limits import range_margin
 from skillc_runtime.control.virtual_arm import VirtualArm
+from skillc_runtime.kinematics.inverse import find_posture
 from skillc_runtime.motion.pose import Array, Pose, log
-
-STEPS, SEEDS = 150, 16
-LONGEST_STEP_RAD = 0.3
-CLOSE_M, CLOSE_RAD = 1e-5, 1e-5
-PULL = 0.05
-"""Share of the distance to the seed that a redundant arm moves in each step, without moving the tool."""
 
 
 def solve_inverse_kinematics(arm: VirtualArm, target: Pose, seed: Array, limits: Array) -> Array | None:
@@ -27,28 +20,7 @@ def solve_inverse_kinematics(arm: VirtualArm, target: Pose, seed: Array, limits:
         return None
     margin = range_margin(limits)
     free = np.stack([limits[:, 0] + margin, limits[:, 1] - margin], axis=1)
-    direct = descend(arm, target, seed, seed, free)
-    if direct is not None:
-        return direct
-    draw = np.random.default_rng(0)
-    low, high = np.maximum(limits[:, 0], seed - pi), np.minimum(limits[:, 1], seed + pi)
-    starts = [draw.uniform(low, high) for _ in range(SEEDS)]
-    found = [q for start in starts if (q := descend(arm, target, start, seed, free)) is not None]
-    return min(found, key=lambda q: float(np.abs(q - seed).max()), default=None)
-
-
-def descend(arm: VirtualArm, target: Pose, start: Array, seed: Array, limits: Array) -> Array | None:
-    """Return joints (nv,) in rad with the tool at `target` in base, found from `start` alone, near `seed`; or None."""
-    q = np.clip(start, limits[:, 0], limits[:, 1])
-    for _ in range(STEPS):
-        arm.update_kinematics(q)
-        error = pose_error(arm.tool, target)
-        if np.abs(error[:3]).max() < CLOSE_M and np.abs(error[3:]).max() < CLOSE_RAD:
-            return np.where(arm.turning, _unwind(q, seed, limits), q)
-        step = step_towards(arm.jacobian, error, PULL * (seed - q))
-        longest = float(np.abs(step).max())
-        q = np.clip(q + step * min(1.0, LONGEST_STEP_RAD / longest), limits[:, 0], limits[:, 1])
-    return None
+    return find_posture(arm.read_chain(), target, free, seed)
 
 
 def pose_error(tool: Pose, target: Pose) -> Array:
@@ -66,9 +38,3 @@ def step_towards(J: Array, error: Array, pull: Array) -> Array:
     if J.shape[1] == 6:
         return J.T @ np.linalg.solve(gram, error)
     return pull + J.T @ np.linalg.solve(gram, error - J @ pull)
-
-
-def _unwind(q: Array, seed: Array, limits: Array) -> Array:
-    """Return joints changed by whole turns so that they are nearest to the seed, within their range."""
-    turned = q - 2 * pi * np.round((q - seed) / (2 * pi))
-    return np.where((turned >= limits[:, 0]) & (turned <= limits[:, 1]), turned, q)

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillc_runtime.control.virtual_chain import make_chain, place_body
+from skillc_runtime.kinematics.chain import Chain, read_chain
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, Vector
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 
@@ -91,6 +92,10 @@ class VirtualArm:
     def tool(self) -> Pose:
         """The tool centre point in base; a copy."""
         return Pose(self._position.copy(), self._rotation.copy())
+
+    def read_chain(self) -> Chain:
+        """Return its joints as numbers, with the tool as it is mounted now."""
+        return read_chain(self._model, "tool")
 
     def may_reach(self, target: Pose) -> bool:
         """Return False if the tool cannot be at `target` in base, since the links are too short for the hand there.

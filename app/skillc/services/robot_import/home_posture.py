@@ -11,8 +11,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.control.inverse_kinematics import descend
 from skillc_runtime.control.virtual_arm import VirtualArm, load_virtual_model
+from skillc_runtime.kinematics.inverse import find_posture
 from skillc_runtime.motion.pose import Array, Pose, exp
 
 AHEAD = (0.5, 0.6)
@@ -52,6 +52,7 @@ class HomeSearch:
         self._model = spec.compile()
         self._data = mujoco.MjData(self._model)
         self._arm = VirtualArm(load_virtual_model(mjcf))
+        self._chain = self._arm.read_chain()
         self._limits: Array = self._model.jnt_range.copy()
         self._slides = self._model.jnt_type == mujoco.mjtJoint.mjJNT_SLIDE
         self._second = int(self._model.jnt_bodyid[np.flatnonzero(~self._slides)[1]])
@@ -72,7 +73,7 @@ class HomeSearch:
         for ahead, above, turn, start in product(AHEAD, ABOVE, range(TURNS), starts):
             down = exp(np.array([0.0, 0.0, 2 * np.pi * turn / TURNS])) @ np.diag([1.0, -1.0, -1.0])
             place = self.shape.carried + self.shape.turned_m * np.array([ahead, 0.0, above])
-            q = descend(self._arm, Pose(place, down), start, start, self._limits)
+            q = find_posture(self._chain, Pose(place, down), self._limits, start, seeds=0)
             if q is not None:
                 yield q
 

@@ -1,0 +1,56 @@
+"""Inverse kinematics of the shipped arms: the share of poses that are solved, and what one posture and all cost.
+
+Poses are those of random postures all over the ranges; times are processor times, beside MuJoCo's forward kinematics.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from statistics import mean, median
+from time import process_time
+
+import mujoco
+import numpy as np
+
+from skillc_ontology import catalogue
+from skillc_runtime.kinematics.chain import read_chain
+from skillc_runtime.kinematics.inverse import find_posture, find_postures
+
+ARMS = ("panda", "fr3", "iiwa14", "ur5e")
+
+
+def measure(arm: str, poses: int) -> str:
+    """Return the figures of an arm for as many random poses."""
+    model = mujoco.MjModel.from_xml_path(str(Path(catalogue.__file__).parent / "robots" / f"{arm}.xml"))
+    chain, limits, draw = read_chain(model, "flange"), model.jnt_range.copy(), np.random.default_rng(1)
+    low, high = np.maximum(limits[:, 0], -np.pi), np.minimum(limits[:, 1], np.pi)
+    rest = limits.mean(axis=1)
+    find_postures(chain, chain.place_tool(rest), limits, rest)
+    one, every, counts, solved = list[float](), list[float](), list[int](), 0
+    for _ in range(poses):
+        target = chain.place_tool(draw.uniform(low, high))
+        began = process_time()
+        solved += find_posture(chain, target, limits, rest) is not None
+        one.append(process_time() - began)
+        began = process_time()
+        counts.append(len(find_postures(chain, target, limits, rest)))
+        every.append(process_time() - began)
+    forward = _forward_s(model)
+    return (
+        f"{arm}: {solved} of {poses} poses solved; one posture {1e3 * median(one):.3f} ms in the median, "
+        f"{1e3 * mean(one):.3f} in the mean ({mean(one) / forward:.0f} x mj_kinematics); "
+        f"{mean(counts):.1f} postures a pose in {1e3 * median(every):.2f} ms"
+    )
+
+
+def _forward_s(model: mujoco.MjModel) -> float:
+    data, began = mujoco.MjData(model), process_time()
+    for _ in range(5000):
+        mujoco.mj_kinematics(model, data)
+    return (process_time() - began) / 5000
+
+
+if __name__ == "__main__":
+    for name in ARMS:
+        print(measure(name, int(sys.argv[1]) if len(sys.argv) > 1 else 1000))
