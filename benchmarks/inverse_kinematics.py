@@ -1,4 +1,4 @@
-"""Inverse kinematics of the shipped arms: the share of poses that are solved, and what one posture and all cost.
+"""Inverse kinematics of the shipped arms: the share of poses that are solved, what they and the lanes of a wipe cost.
 
 Poses are those of random postures all over the ranges; times are processor times, beside MuJoCo's forward kinematics.
 """
@@ -14,8 +14,11 @@ import mujoco
 import numpy as np
 
 from skillc_ontology import catalogue
-from skillc_runtime.kinematics.chain import read_chain
+from skillc_runtime.kinematics.chain import read_chain, unpack
 from skillc_runtime.kinematics.inverse import find_posture, find_postures
+from skillc_runtime.kinematics.sweep import JointLoad, find_best_sweep, sample_poses
+from skillc_runtime.motion.lanes import plan_lanes
+from skillc_runtime.motion.pose import Pose, exp
 
 ARMS = ("panda", "fr3", "iiwa14", "ur5e")
 
@@ -44,6 +47,25 @@ def measure(arm: str, poses: int) -> str:
     )
 
 
+def measure_wipe(arm: str) -> str:
+    """Return what it costs to look at the lanes of a door of 0.4 m x 0.6 m, with circles, from all postures."""
+    model = mujoco.MjModel.from_xml_path(str(Path(catalogue.__file__).parent / "robots" / f"{arm}.xml"))
+    chain, limits = read_chain(model, "flange"), model.jnt_range.copy()
+    surface = Pose(np.array([0.5, 0.0, 0.2]), exp(np.array([0.0, -np.radians(20), 0.0])))
+    lanes = [surface @ each for each in plan_lanes(np.array([0.4, 0.6]), np.array([0.1, 0.06]), 0.2)]
+    poses = sample_poses(lanes, 0.01, 0.015 * np.array([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]))
+    load = JointLoad(limits, np.full(model.nv, 80.0), -12.0 * surface.rotation[:, 2], model.opt.gravity)
+    for _ in range(2):
+        began = process_time()
+        starts = find_postures(chain, unpack(poses[0]), limits, limits.mean(axis=1))
+        best = find_best_sweep(chain, poses, starts, load)
+        seconds = process_time() - began
+    share = 0.0 if best is None else best.rank[0]
+    return (
+        f"{arm}: {len(poses)} poses of lanes from {len(starts)} postures in {1e3 * seconds:.0f} ms, {share:.0%} reached"
+    )
+
+
 def _forward_s(model: mujoco.MjModel) -> float:
     data, began = mujoco.MjData(model), process_time()
     for _ in range(5000):
@@ -54,3 +76,4 @@ def _forward_s(model: mujoco.MjModel) -> float:
 if __name__ == "__main__":
     for name in ARMS:
         print(measure(name, int(sys.argv[1]) if len(sys.argv) > 1 else 1000))
+        print(measure_wipe(name))

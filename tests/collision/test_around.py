@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-
 import numpy as np
 import pytest
 
@@ -55,7 +53,6 @@ def test_straight_it_would_hit(scene: str) -> None:
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_it_goes_around(scene: str) -> None:
-    pytest.importorskip("ompl", reason="the extra `motion` is not installed")
     there = stage(scene)
     assert min(gaps(there, scene, take(there, scene, "aside"))) > 0.005
     assert there.arm(ARM[scene]).measured.at_joints(aside(scene))
@@ -63,7 +60,6 @@ def test_it_goes_around(scene: str) -> None:
 
 @pytest.mark.sim
 def test_a_pose_behind_it_is_reached_too() -> None:
-    pytest.importorskip("ompl", reason="the extra `motion` is not installed")
     there = stage("iiwa_table")
     arm = there.arm(ARM["iiwa_table"])
     target = arm._task.kinematics.tool_at(aside("iiwa_table"), arm.measured.state)[0]
@@ -74,7 +70,7 @@ def test_a_pose_behind_it_is_reached_too() -> None:
 
 
 def test_without_search_it_goes_over_a_posture_of_its_sheet(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "ompl", None)
+    monkeypatch.setattr(ways, "SEARCHES", ())
     there = stage("iiwa_table", *posture("iiwa_table", "upright", UPRIGHT))
     assert min(gaps(there, "iiwa_table", take(there, "iiwa_table", "aside"))) > 0.005
     assert there.arm(ARM["iiwa_table"]).measured.at_joints(aside("iiwa_table"))
@@ -82,8 +78,7 @@ def test_without_search_it_goes_over_a_posture_of_its_sheet(monkeypatch: pytest.
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_where_no_way_is_known_nothing_moves(scene: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "ompl", None)
-    monkeypatch.setattr(ways, "DRAWN", 0)
+    monkeypatch.setattr(ways, "SEARCHES", ())
     there = stage(scene)
     q = there.arm(ARM[scene]).measured.q
     with pytest.raises(SkillFailure, match="would touch lab:Pillar"):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from itertools import pairwise
 
 import numpy as np
@@ -26,11 +25,6 @@ EXAMPLES = int(os.environ.get("SKILLC_WAYS", "6"))
 UPRIGHT = [0.7, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
 
 places = st.tuples(st.floats(0.25, 0.6), st.floats(-2.0, 2.0), st.floats(0.7, 1.3))
-
-
-@pytest.fixture
-def without_ompl(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "ompl", None)
 
 
 def finely(postures: list[Array], step: float = 0.005) -> list[Array]:
@@ -80,7 +74,6 @@ def test_whatever_way_is_found_is_free(scene: str, where: tuple[float, float, fl
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_a_way_around_is_found_the_same_each_time(scene: str) -> None:
-    pytest.importorskip("ompl", reason="the extra `motion` is not installed")
     (of, known), start, goal = contacts(scene, pillar(scene)), home(scene), aside(scene)
     found = plan_joint_path(of, start, [goal], known)
     assert len(found) > 1
@@ -90,33 +83,13 @@ def test_a_way_around_is_found_the_same_each_time(scene: str) -> None:
     assert all((one == other).all() for one, other in zip(found, again, strict=True))
 
 
-@pytest.mark.usefixtures("without_ompl")
-@pytest.mark.parametrize("scene", SCENES)
-def test_without_search_it_is_said_what_is_in_the_way(scene: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ways, "DRAWN", 0)
-    of, known = contacts(scene, pillar(scene))
-    with pytest.raises(
-        NoPath, match=r"straight way lab:\S+.* would touch lab:Pillar; .* extra `motion` searches longer"
-    ):
-        plan_joint_path(of, home(scene), [aside(scene)], known)
-
-
-@pytest.mark.usefixtures("without_ompl")
-def test_without_search_it_goes_over_a_posture_that_is_known() -> None:
+def test_without_search_it_goes_over_a_posture_that_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ways, "SEARCHES", ())
     changes = [*pillar("iiwa_table"), *posture("iiwa_table", "upright", UPRIGHT)]
     of, known = contacts("iiwa_table", changes)
     found = plan_joint_path(of, home("iiwa_table"), [aside("iiwa_table")], known)
     assert [q.tolist() for q in found] == [UPRIGHT, aside("iiwa_table").tolist()]
     is_free(of, home("iiwa_table"), found)
-
-
-@pytest.mark.usefixtures("without_ompl")
-@pytest.mark.parametrize("scene", SCENES)
-def test_without_the_extra_drawn_postures_lead_around_what_is_simple(scene: str) -> None:
-    (of, known), start = contacts(scene, pillar(scene)), home(scene)
-    found = plan_joint_path(of, start, [aside(scene)], known)
-    assert len(found) == 2
-    is_free(of, start, found)
 
 
 def test_where_nothing_is_in_the_way_it_goes_straight() -> None:
@@ -135,10 +108,10 @@ def test_a_goal_that_touches_is_told_and_another_one_taken() -> None:
 
 
 def test_a_search_ends_after_so_many_looks(monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("ompl", reason="the extra `motion` is not installed")
-    monkeypatch.setattr(ways, "MAX_CHECKS", 1)
-    monkeypatch.setattr(ways, "DRAWN", 0)
+    monkeypatch.setattr(ways, "SEARCHES", ())
     of, known = contacts("ur5e_whiteboard", pillar("ur5e_whiteboard"))
-    with pytest.raises(NoPath, match=r"no way around was found in \d+ looks"):
+    with pytest.raises(
+        NoPath, match=r"straight way lab:\S+.* would touch lab:Pillar; no way around was found in \d+ looks"
+    ):
         plan_joint_path(of, home("ur5e_whiteboard"), [aside("ur5e_whiteboard")], known)
     assert of.checks < 2000

@@ -17,7 +17,7 @@ def run_slowly(seconds: float) -> None:
         time.sleep(seconds)
         return plan_joint_path(*arguments)  # type: ignore[arg-type]
 
-    path_planning.MAX_CHECKS = path_planning.DRAWN = 1
+    path_planning.SEARCHES = ()
     motion_search.plan_joint_path = search  # type: ignore[assignment]
     main()
 

@@ -16,7 +16,6 @@ _OTHERS = {
     "run": ("av", "films are written as MP4"),
     "robots": ("pin", "models of robots are read"),
     "server": ("starlette", "cells are served"),
-    "motion": ("ompl", "arms find ways around obstacles"),
     "meshes": ("coacd", "meshes are cut into convex pieces"),
     "data": ("pyarrow", "signals are written as Parquet"),
 }

@@ -8,12 +8,17 @@ from math import inf
 from typing import TypeAlias
 
 import mujoco
+import numpy as np
 
 from skillc_runtime.collision.collision_model import MOVES, CollisionModel
+from skillc_runtime.collision.free_motion import find_advance, read_part_motions
 from skillc_runtime.motion.pose import Array
 
 SLACK_M = 0.001
 """Tolerance of distances: their uncertainty."""
+
+MIN_STEP_M = 0.01
+"""Motion of the arm between two checks if its clearance is smaller."""
 
 Pair: TypeAlias = tuple[int, int]
 """Two geoms of a model."""
@@ -44,16 +49,16 @@ class CollisionChecker:
         self._data.qpos[body.joints :] = body.fingers
         self._arm, self._contact = self._data.qpos[: body.joints], self._data.contact
         self._moves: list[bool] = (body.compiled.geom_contype == MOVES).tolist()
+        self._parts = read_part_motions(body, max(body.margin, MIN_STEP_M))
+        self._usual = self._least = self._usual_distances()
         self._touching_at_home = frozenset(filter(self._within, self.overlapping_pairs(home)))
-        self._allowed, self._ignored = dict[Pair, float](), frozenset[str]()
+        for pair in self._touching_at_home:
+            self._allow_distance(pair, -inf)
 
     def near_pairs(self, q: Array) -> dict[Pair, float]:
-        """Return the pairs of geoms that are closer than the clearance at joints q (nv,), with their distances in m."""
-        self._arm[:] = q
-        mujoco.mj_kinematics(self.model.compiled, self._data)
-        mujoco.mj_collision(self.model.compiled, self._data)
-        self.checks += 1
+        """Return the pairs of geoms that are near each other at joints q (nv,), with their distances in m."""
         found = dict[Pair, float]()
+        self._look(q)
         if self._data.ncon == 0:
             return found
         for (one, other), distance in zip(self._contact.geom.tolist(), self._contact.dist.tolist(), strict=True):
@@ -75,32 +80,37 @@ class CollisionChecker:
         Pairs that overlap at the start may overlap twice as much on the way out. An overlap deeper than the clearance
         cannot be real, so the pose of such an obstacle is wrong and it is ignored.
         """
-        begin = {
-            pair: max(far - SLACK_M, 0.0) if far > 0 else 2 * far - SLACK_M
-            for pair, far in self.near_pairs(start).items()
-        }
-        end = {pair: max(far - SLACK_M, 0.0) for pair, far in self.near_pairs(goal).items()}
-        deep = [pair for pair, far in begin.items() if far < -2 * self.model.margin and not self._within(pair)]
-        self._ignored = frozenset(self._obstacle(pair) for pair in deep)
-        self._allowed = {
-            pair: min(self._allowed_distance(pair), begin.get(pair, inf), end.get(pair, inf))
-            for pair in {**begin, **end}
-        }
+        begin, end = self.near_pairs(start), self.near_pairs(goal)
+        deep = [pair for pair, far in begin.items() if far < SLACK_M / 2 - self.model.margin and not self._within(pair)]
+        wrong, self._least = {self._obstacle(pair) for pair in deep}, self._usual.copy()
+        for pair, far in begin.items():
+            self._allow_distance(pair, max(far - SLACK_M, 0.0) if far > 0 else 2 * far - SLACK_M)
+        for pair, far in end.items():
+            self._allow_distance(pair, max(far - SLACK_M, 0.0))
+        for geom, name in enumerate(self.model.names):
+            if not self._moves[geom] and name in wrong:
+                self._least[geom, :] = self._least[:, geom] = -inf
 
     def find_collision(self, q: Array) -> Collision | None:
         """Return the worst collision at joints q (nv,), None if there is none."""
-        wrong = [
-            (far, pair)
-            for pair, far in self.near_pairs(q).items()
-            if far < self._allowed.get(pair, self._allowed_distance(pair)) and self._is_relevant(pair)
-        ]
-        if not wrong:
-            return None
-        return self._collision(*min(wrong))
+        wrong = [(far, pair) for pair, far in self.near_pairs(q).items() if far < self._least[pair]]
+        return self._collision(*min(wrong)) if wrong else None
 
     def first_collision(self, way: Iterable[Array]) -> Collision | None:
         """Return the first collision along postures (nv,), None if there is none."""
         return next((touch for q in way if (touch := self.find_collision(q)) is not None), None)
+
+    def find_free_share(self, start: Array, goal: Array) -> float:
+        """Return which share of the straight way from a posture that is free to another (nv,) is free: 1 for all."""
+        change, share, before = goal - start, 0.0, 0.0
+        while True:
+            self._look(start + share * change)
+            ahead = find_advance(self._parts, self._least, self._data, change)
+            if ahead < 0.0:
+                return before
+            if share == 1.0:
+                return 1.0
+            before, share = share, min(1.0, share + ahead)
 
     def worst_collision(self, way: Iterable[Array]) -> Collision | None:
         """Return the worst collision along postures (nv,), None if there is none."""
@@ -140,9 +150,18 @@ class CollisionChecker:
         """Return the name of the obstacle of a pair."""
         return self.model.names[pair[1] if self._moves[pair[0]] else pair[0]]
 
-    def _is_relevant(self, pair: Pair) -> bool:
-        """Whether a small distance of a pair counts as a collision."""
-        return pair not in self._touching_at_home and (self._within(pair) or self._obstacle(pair) not in self._ignored)
+    def _look(self, q: Array) -> None:
+        """Find the contacts at joints q (nv,)."""
+        self._arm[:] = q
+        mujoco.mj_kinematics(self.model.compiled, self._data)
+        mujoco.mj_collision(self.model.compiled, self._data)
+        self.checks += 1
 
-    def _allowed_distance(self, pair: Pair) -> float:
-        return 0.0 if self._within(pair) else max(self.model.margin - SLACK_M, 0.0)
+    def _usual_distances(self) -> Array:
+        """Return how close in m each pair of geoms may be, (geoms, geoms)."""
+        moves = np.array(self._moves)
+        return np.where(np.outer(moves, moves), 0.0, max(self.model.margin - SLACK_M, 0.0))
+
+    def _allow_distance(self, pair: Pair, distance_m: float) -> None:
+        """Let a pair of geoms be as close as that from now on."""
+        self._least[pair] = self._least[pair[::-1]] = min(self._least[pair], distance_m)

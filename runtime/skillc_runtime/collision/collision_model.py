@@ -23,6 +23,9 @@ ARM, HAND, HELD = "arm/", "hand/", "held/"
 """Prefixes of the names of an arm's links, of its gripper's parts and of held objects."""
 
 
+SEEN_BEYOND_M = 0.04
+"""How much farther than its clearance distances are computed: an arm that is far from everything needs fewer looks."""
+
 ORIGIN = Pose.of((0.0, 0.0, 0.0))
 
 
@@ -32,7 +35,7 @@ class CollisionModel:
 
     names: of each geom, for messages; links, palm: geoms of the arm, and of the gripper without its fingers and what
     it holds; levers (nv,): m, the greatest distance of any part of the arm from each joint;
-    margin: m, the distance below which contacts are computed.
+    margin: m, the clearance that the arm keeps.
     """
 
     compiled: Any
@@ -43,6 +46,11 @@ class CollisionModel:
     fingers: Array
     levers: Array
     margin: float
+
+    @property
+    def seen_m(self) -> float:
+        """Up to which distance in m pairs of geoms are reported."""
+        return self.margin + SEEN_BEYOND_M
 
 
 @lru_cache(maxsize=8)
@@ -58,7 +66,7 @@ def build_collision_model(assembly: ArmAssembly, scenery: Scenery) -> CollisionM
     _exclude_touching(spec)
     model = spec.compile()
     model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_OVERRIDE)
-    model.opt.o_margin = assembly.clearance_m
+    model.opt.o_margin = assembly.clearance_m + SEEN_BEYOND_M
     names = tuple(_name(model, geom, assembly, scenery) for geom in range(model.ngeom))
     fingers, levers = _fingers(model, joints, assembly.hand), _levers(model, joints)
     links, palm = _geoms(model, ARM), _geoms(model, HAND)
@@ -146,13 +154,13 @@ def _levers(model: Any, joints: int) -> Array:
     """Return the greatest distance (joints,) in m of a point from each joint that moves it, all links aligned."""
     levers = np.zeros(joints)
     for geom in np.flatnonzero(model.geom_contype == MOVES).tolist():
-        for joint, far in _joints_of(model, geom):
+        for joint, far in joints_of(model, geom):
             if joint < joints:
                 levers[joint] = max(levers[joint], far)
     return levers
 
 
-def _joints_of(model: Any, geom: int) -> Iterator[tuple[int, float]]:
+def joints_of(model: Any, geom: int) -> Iterator[tuple[int, float]]:
     """Yield each joint that moves a geom, and the greatest distance in m of the geom from it."""
     far = float(np.linalg.norm(model.geom_pos[geom]) + model.geom_rbound[geom])
     for link in _chain(model, int(model.geom_bodyid[geom])):

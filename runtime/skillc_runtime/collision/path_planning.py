@@ -1,37 +1,27 @@
 """Plans collision-free joint paths from one posture to another: straight if possible, else around obstacles.
 
-Between two checked postures no point of the arm moves farther than its clearance, so it keeps at least half of it:
-sum_j |dq_j| r_j <= clearance, r_j (nv,) m the longest lever of joint j.
+Between two checked postures no point of the arm moves farther than it is away from anything, so that it keeps at least
+half of its clearance.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice, pairwise
+from itertools import pairwise
 
 import numpy as np
 
-from skillc_runtime.collision.collision_checker import Collision, CollisionChecker
-from skillc_runtime.collision.rrt_connect import SamplerMissing, sample_path
+from skillc_runtime.collision.collision_checker import MIN_STEP_M, Collision, CollisionChecker
+from skillc_runtime.collision.rrt_connect import sample_path
 from skillc_runtime.motion.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array
 
-MIN_STEP_M = 0.01
-"""Motion of the arm between two checks if its clearance is smaller."""
-
-AROUND_RAD = 1.6
-"""How far beyond start and goal joints may move on a path around obstacles."""
-
-SEEDS = (1, 2, 3)
-MAX_CHECKS = 20_000
-"""Seeds of the searches for a path, of which the shortest is used, and the greatest number of checks of each."""
-
-DRAWN, ENOUGH = 400, 4
-"""Number of random postures through which a path is tried, and number of paths found that is enough."""
+SEARCHES = ((1.6, 2_000), (1.0, 4_000), (1.0, 8_000), (1.6, 4_000), (3.2, 4_000))
+"""How far beyond start and goal joints may move in the searches for a path, in rad, and the random postures in each."""
 
 MAX_SEARCHES = 2
-"""Number of goals for which a path around obstacles is searched."""
+"""Number of goals for which a path around obstacles is searched for."""
 
 SAMPLE_S = 0.005
 """Time between samples of a motion."""
@@ -63,12 +53,15 @@ def plan_joint_path(
         if (touch := contacts.find_collision(goal)) is not None:
             reasons.append(f"where it shall go {touch}")
             continue
-        if find_path_collision(contacts, (start, goal)) is None:
+        if is_path_free(contacts, (start, goal)):
             return (goal,)
-        found, missing = _around(contacts, start, goal, space)
-        if found:
-            return tuple(min(found, key=lambda postures: _length(contacts, postures))[1:])
-        reasons.append(f"on the straight way {contacts.worst_collision(interpolate(contacts, start, goal))}; {missing}")
+        before = contacts.checks
+        found = _sample_path(contacts, start, goal, space.range) or _go_through(contacts, start, goal, space.safe)
+        if found is not None:
+            return found
+        touch = contacts.worst_collision(interpolate(contacts, start, goal))
+        looks = contacts.checks - before
+        reasons.append(f"on the straight way {touch}; no way around was found in {looks} looks")
         searched += 1
         if searched == MAX_SEARCHES:
             break
@@ -90,9 +83,9 @@ def find_motion_collision(contacts: CollisionChecker, motion: JointTrajectory) -
     return contacts.first_collision(samples())
 
 
-def find_path_collision(contacts: CollisionChecker, postures: Sequence[Array]) -> Collision | None:
-    """Return the first collision on the straight segments between postures (nv,), None if there is none."""
-    return contacts.first_collision(q for piece in pairwise(postures) for q in interpolate(contacts, *piece))
+def is_path_free(contacts: CollisionChecker, postures: Sequence[Array]) -> bool:
+    """Whether the straight pieces between postures (nv,) are free, the first of which is."""
+    return all(contacts.find_free_share(*piece) == 1.0 for piece in pairwise(postures))
 
 
 def interpolate(contacts: CollisionChecker, start: Array, goal: Array) -> Iterator[Array]:
@@ -102,56 +95,35 @@ def interpolate(contacts: CollisionChecker, start: Array, goal: Array) -> Iterat
     yield from (start + change * (index / pieces) for index in range(1, pieces + 1))
 
 
-def _around(contacts: CollisionChecker, start: Array, goal: Array, space: JointSpace) -> tuple[list[list[Array]], str]:
-    """Return paths around obstacles, and the message if there are none."""
-    before, missing = contacts.checks, ""
-    try:
-        found = _sampled_paths(contacts, start, goal, space.range)
-    except SamplerMissing:
-        found, missing = [], "; the extra `motion` searches longer"
-    found = found or _through(contacts, start, goal, space.safe)
-    found = found or _through(contacts, start, goal, _random_postures(start, goal, space.range))
-    return found, f"no way around was found in {contacts.checks - before} looks{missing}"
+def _go_through(
+    contacts: CollisionChecker, start: Array, goal: Array, postures: Iterable[Array]
+) -> tuple[Array, ...] | None:
+    """Return the first collision-free path through one of the postures."""
+    ways = ((over, goal) for over in postures)
+    return next((way for way in ways if is_path_free(contacts, (start, *way))), None)
 
 
-def _through(contacts: CollisionChecker, start: Array, goal: Array, postures: Iterable[Array]) -> list[list[Array]]:
-    """Return the first collision-free paths through one of the postures."""
-    ways = ([start, over, goal] for over in postures)
-    return list(islice((way for way in ways if find_path_collision(contacts, way) is None), ENOUGH))
-
-
-def _random_postures(start: Array, goal: Array, limits: Array) -> Iterator[Array]:
-    """Yield random postures around start and goal, the same in each call, at first near the straight line."""
-    draw, (low, high) = np.random.default_rng(0), _bounds(start, goal, limits)
-    for share in np.linspace(0.1, 1.0, DRAWN).tolist():
-        between = start + (goal - start) * draw.uniform()
-        yield between + share * (draw.uniform(low, high) - between)
-
-
-def _bounds(start: Array, goal: Array, limits: Array) -> tuple[Array, Array]:
-    """Return the bounds (nv,) of joints on a path: beyond start and goal, but within their range."""
+def _bounds(start: Array, goal: Array, limits: Array, more_rad: float) -> tuple[Array, Array]:
+    """Return the bounds (nv,) of joints on a path: up to `more_rad` beyond start and goal, but within their range."""
     low, high = np.minimum(start, goal), np.maximum(start, goal)
-    low = np.minimum(low, np.maximum(low - AROUND_RAD, limits[:, 0]))
-    return low, np.maximum(high, np.minimum(high + AROUND_RAD, limits[:, 1]))
+    low = np.minimum(low, np.maximum(low - more_rad, limits[:, 0]))
+    return low, np.maximum(high, np.minimum(high + more_rad, limits[:, 1]))
 
 
-def _sampled_paths(contacts: CollisionChecker, start: Array, goal: Array, limits: Array) -> list[list[Array]]:
-    """Return paths by sampling, with joints scaled to m by their longest levers."""
+def _sample_path(contacts: CollisionChecker, start: Array, goal: Array, limits: Array) -> tuple[Array, ...] | None:
+    """Return a path by sampling, with joints scaled to m by their longest levers: first near start and goal."""
     levers = contacts.model.levers
-    bounds = np.column_stack(_bounds(start, goal, limits)) * levers[:, None]
-    step = _step(contacts) / np.sqrt(len(levers))
 
-    def free(point: Array) -> bool:
-        return contacts.find_collision(point / levers) is None
+    def reach(one: Array, other: Array) -> float:
+        return contacts.find_free_share(one / levers, other / levers)
 
-    ways = [sample_path(free, start * levers, goal * levers, bounds, step, MAX_CHECKS, seed) for seed in SEEDS]
-    found = [[start, *(x / levers for x in way[1:-1]), goal] for way in ways if way is not None]
-    return [way for way in found if find_path_collision(contacts, way) is None]
-
-
-def _length(contacts: CollisionChecker, postures: Sequence[Array]) -> float:
-    """Return the length of a path in m, with joints scaled by their longest levers."""
-    return sum(float(np.linalg.norm((other - one) * contacts.model.levers)) for one, other in pairwise(postures))
+    for seed, (more_rad, rounds) in enumerate(SEARCHES):
+        bounds = np.column_stack(_bounds(start, goal, limits, more_rad)) * levers[:, None]
+        way = sample_path(reach, start * levers, goal * levers, bounds, rounds, seed)
+        found = () if way is None else (*(x / levers for x in way[1:-1]), goal)
+        if found and is_path_free(contacts, (start, *found)):
+            return found
+    return None
 
 
 def _step(contacts: CollisionChecker) -> float:

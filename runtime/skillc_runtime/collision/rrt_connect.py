@@ -1,96 +1,133 @@
-"""A path around obstacles by RRT-Connect of OMPL, shortened; the extra `motion` installs OMPL.
+"""A path around obstacles by two trees that grow towards each other, and then as short as it gets in a few attempts.
 
-J. J. Kuffner, S. M. LaValle, RRT-Connect: an efficient approach to single-query path planning, ICRA 2000. It ends
-after a number of checks, not after a time, so the same seed gives the same path on every machine.
+J. J. Kuffner, S. M. LaValle, RRT-Connect: an efficient approach to single-query path planning, ICRA 2000. It ends after
+a number of looks, not after a time, so the same seed gives the same path on every machine.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TypeAlias
 
 import numpy as np
 
 from skillc_runtime.motion.pose import Array
 
-ROUNDS = 4
-"""Number of times a path is shortened."""
+Reach: TypeAlias = Callable[[Array, Array], float]
+"""How far the straight way from one point (n,) to another is free, as a share of it: 1 for all of it."""
+
+LONGEST = 0.35
+"""How long one piece of a tree is at most, as a share of the diagonal of the bounds."""
+
+LEAST = 0.05
+"""A piece of which less than this share is free is not kept."""
+
+SHORTCUTS = 12
+"""How often a random shortcut is tried."""
 
 
-class SamplerMissing(Exception):
-    """OMPL is not installed."""
+def sample_path(reach: Reach, start: Array, goal: Array, bounds: Array, rounds: int, seed: int) -> list[Array] | None:
+    """Return the points (n,) of a path from start to goal whose straight pieces are free; None if none was found.
 
-
-def sample_path(
-    free: Callable[[Array], bool], start: Array, goal: Array, bounds: Array, step: float, most: int, seed: int
-) -> list[Array] | None:
-    """Return the points (n,) of a path from start to goal whose straight segments are free, None if none was found.
-
-    bounds (n, 2) contain start and goal; segments are checked every `step`, in the units of the points, with `most`
-    checks in total; seed > 0. Raises SamplerMissing without OMPL.
+    bounds (n, 2) contain start and goal. At most `rounds` random points are drawn.
     """
-    try:
-        from ompl import base, geometric, util
-    except ImportError as missing:
-        raise SamplerMissing from missing
-    util.setLogLevel(util.LogLevel.LOG_NONE)
-    util.RNG.setSeed(seed)
-    size, looks = len(start), _Checks(free, most)
-    space = base.RealVectorStateSpace(size)
-    space.setBounds(_bounds(base.RealVectorBounds(size), bounds))
-    known = base.SpaceInformation(space)
-    known.setStateValidityChecker(lambda state: looks.free(_point(state, size)))
-    known.setStateValidityCheckingResolution(step / space.getMaximumExtent())
-    known.setup()
-    problem, planner = base.ProblemDefinition(known), geometric.RRTConnect(known)
-    problem.setStartAndGoalStates(_state(space, start), _state(space, goal))
-    planner.setProblemDefinition(problem)
-    planner.setup()
-    planner.solve(base.PlannerTerminationCondition(looks.spent))
-    if not problem.hasExactSolution():
+    draw = np.random.default_rng(seed)
+    low, span = bounds[:, 0], bounds[:, 1] - bounds[:, 0]
+    longest = LONGEST * float(np.linalg.norm(span))
+    one, other = _Tree(start, longest), _Tree(goal, longest)
+    for _ in range(rounds):
+        new = one.grow(reach, low + span * draw.random(len(start)))
+        if new is not None:
+            met = other.connect(reach, one.points[new])
+            if met is not None:
+                ways = one.way_to(new), other.way_to(met)
+                there, back = ways if one.points[0] is start else ways[::-1]
+                return shorten([*there, *back[-2::-1]], reach, draw)
+        one, other = other, one
+    return None
+
+
+def shorten(points: list[Array], reach: Reach, draw: np.random.Generator) -> list[Array]:
+    """Return a path from the first to the last of the points (n,) of one, with shortcuts where the way is free."""
+    points = _skip(points, reach)
+    for _ in range(SHORTCUTS):
+        if len(points) < 3:
+            break
+        lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
+        ends = np.concatenate([[0.0], np.cumsum(lengths)])
+        first, last = np.sort(draw.random(2)) * ends[-1]
+        i, j = (int(np.searchsorted(ends, each, side="right")) - 1 for each in (first, last))
+        if i == j:
+            continue
+        a, b = (
+            points[k] + (points[k + 1] - points[k]) * ((each - ends[k]) / lengths[k])
+            for k, each in ((i, first), (j, last))
+        )
+        if reach(a, b) == 1.0:
+            points = _skip([*points[: i + 1], a, b, *points[j + 1 :]], reach)
+    return points
+
+
+def _skip(points: list[Array], reach: Reach) -> list[Array]:
+    """Return the path without the points that can be left out, first as many as possible at once."""
+    kept, here = [points[0]], 0
+    while here < len(points) - 1:
+        there = next(
+            (k for k in range(len(points) - 1, here + 1, -1) if reach(points[here], points[k]) == 1.0), here + 1
+        )
+        kept.append(points[there])
+        here = there
+    return kept
+
+
+class _Tree:
+    """Points that are joined by free pieces, each with the one before it."""
+
+    def __init__(self, root: Array, longest: float) -> None:
+        self.points, self._before, self._longest = [root], [-1], longest
+        self._all = np.empty((64, len(root)))
+        self._all[0] = root
+
+    def grow(self, reach: Reach, towards: Array) -> int | None:
+        """Add a point in the direction of another, as far as the way is free; return its number, None without one."""
+        near = self._nearest(towards)
+        here, way = self.points[near], towards - self.points[near]
+        far = float(np.linalg.norm(way))
+        if far < 1e-9:
+            return near
+        share = min(1.0, self._longest / far)
+        there = towards if share == 1.0 else here + share * way
+        free = reach(here, there)
+        if free < LEAST:
+            return None
+        return self._add(there if free == 1.0 else here + free * (there - here), near)
+
+    def connect(self, reach: Reach, point: Array) -> int | None:
+        """Grow to a point as long as the way is free; return the number of that point, None if it is not reached."""
+        while (new := self.grow(reach, point)) is not None:
+            if self.points[new] is point:
+                return new
+            if float(np.linalg.norm(self.points[new] - self.points[self._before[new]])) < 0.99 * self._longest:
+                return None
         return None
-    path = problem.getSolutionPath()
-    _shorten(geometric.PathSimplifier(known), path)
-    inner = [_point(state, size) for state in path.getStates()[1:-1]]
-    return [start, *inner, goal]
 
+    def way_to(self, number: int) -> list[Array]:
+        """Return the points from the root to the one with a number."""
+        way: list[Array] = []
+        while number >= 0:
+            way.append(self.points[number])
+            number = self._before[number]
+        return way[::-1]
 
-class _Checks:
-    """Checks points, and counts the checks."""
+    def _nearest(self, point: Array) -> int:
+        away = self._all[: len(self.points)] - point
+        return int(np.einsum("ij,ij->i", away, away).argmin())
 
-    def __init__(self, free: Callable[[Array], bool], most: int) -> None:
-        self._free, self._left = free, most
-
-    def free(self, point: Array) -> bool:
-        """Return whether a point is free."""
-        self._left -= 1
-        return self._free(point)
-
-    def spent(self) -> bool:
-        """Return whether all checks have been used."""
-        return self._left <= 0
-
-
-def _shorten(simplifier: Any, path: Any) -> None:
-    for _ in range(ROUNDS):
-        simplifier.reduceVertices(path)
-        simplifier.partialShortcutPath(path)
-    simplifier.reduceVertices(path)
-
-
-def _bounds(bounds: Any, limits: Array) -> Any:
-    for index, (low, high) in enumerate(limits.tolist()):
-        bounds.setLow(index, low)
-        bounds.setHigh(index, high)
-    return bounds
-
-
-def _state(space: Any, point: Array) -> Any:
-    state = space.allocState()
-    for index, value in enumerate(point.tolist()):
-        state[index] = value
-    return state
-
-
-def _point(state: Any, size: int) -> Array:
-    return np.array([state[index] for index in range(size)])
+    def _add(self, point: Array, before: int) -> int:
+        number = len(self.points)
+        if number == len(self._all):
+            self._all = np.concatenate([self._all, np.empty_like(self._all)])
+        self._all[number] = point
+        self.points.append(point)
+        self._before.append(before)
+        return number

@@ -129,7 +129,7 @@ def descend(frames: Array, slides: Array, tool: Array, target: Array, limits: Ar
         q[i] = min(max(q[i], limits[i, 0]), limits[i, 1])
     for round_ in range(STEPS):
         place(frames, slides, tool, q, at)
-        size = _find_error(at, target, here, there, error)
+        size = find_error(at, target, here, there, error)
         if size < CLOSE * CLOSE:
             return True
         history[round_] = size
@@ -140,7 +140,7 @@ def descend(frames: Array, slides: Array, tool: Array, target: Array, limits: Ar
             held[i] = 0.0
             pull[i] = PULL * (rest[i] - q[i]) if n > 6 else 0.0
         for _ in range(3):
-            _solve(J, error, pull, held, LEAST_DAMPING + DAMPING * size, gram, sides, step)
+            damped_step(J, error, pull, held, LEAST_DAMPING + DAMPING * size, gram, sides, step)
             if not _hold_at_ends(q, step, limits, held):
                 break
         longest = LONGEST_STEP
@@ -152,7 +152,7 @@ def descend(frames: Array, slides: Array, tool: Array, target: Array, limits: Ar
 
 
 @inlined
-def _find_error(at: Array, target: Array, here: Array, there: Array, error: Array) -> float:
+def find_error(at: Array, target: Array, here: Array, there: Array, error: Array) -> float:
     """error (6,) = [m; rad] from the tool to its target in base; return its square."""
     n = at.shape[0] - 1
     for r in range(3):
@@ -168,7 +168,7 @@ def _find_error(at: Array, target: Array, here: Array, there: Array, error: Arra
 
 
 @inlined
-def _solve(
+def damped_step(
     J: Array, error: Array, pull: Array, held: Array, damping: float, gram: Array, sides: Array, step: Array
 ) -> None:
     """step (nv,) = J^T (J J^T + damping I)^-1 (error - J pull) + pull over the joints that are not held."""
