@@ -8,6 +8,7 @@ from typing import assert_never
 
 from skillc.services.planning import Answer
 from skillc.services.reporting import format_count
+from skillc.services.space_claims import SpaceClaim
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.planning.plan import GaveUp, Solved, Step, Unsolvable, describe_quality
 from skillc_runtime.planning.schedule import Scheduled
@@ -16,8 +17,16 @@ NAMED = 3
 """How many of the things that a planner left out are named in text."""
 
 
-def format_plan(answer: Answer, loaded: LoadedTask) -> str:
-    """Return the steps, one per line (those of a schedule with their times), or why there is no plan."""
+def format_plan(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None = None) -> str:
+    """Return the steps, one per line (those of a schedule with their times), or why there is no plan.
+
+    `space` is what is known about them in space.
+    """
+    text = _format(answer, loaded)
+    return text if space is None else f"{text}\n{space.text}"
+
+
+def _format(answer: Answer, loaded: LoadedTask) -> str:
     match answer:
         case Solved(plan=plan, planner=planner):
             lines = [f"{number}  {_call(step, loaded)}" for number, step in enumerate(plan.steps, 1)]
@@ -62,9 +71,10 @@ def _left_out(answer: Solved | Scheduled, loaded: LoadedTask) -> Iterator[str]:
             yield f"planned without {names}: {each.why}; {needed} {them}"
 
 
-def plan_as_json(answer: Answer, loaded: LoadedTask) -> str:
-    """Return one JSON object: status, steps with source lines, optimality, planner, or the reason."""
-    return json.dumps(describe_answer(answer, loaded), indent=2)
+def plan_as_json(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None = None) -> str:
+    """Return one JSON object: status, steps with source lines, optimality, planner, space, or the reason."""
+    described = describe_answer(answer, loaded)
+    return json.dumps(described if space is None else {**described, "space": space.data}, indent=2)
 
 
 def describe_answer(answer: Answer, loaded: LoadedTask) -> dict[str, object]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from skillc_runtime.control.limits import range_margin
 from skillc_runtime.control.virtual_arm import VirtualArm
-from skillc_runtime.kinematics.inverse import find_posture
+from skillc_runtime.kinematics.inverse import find_posture, rank_postures
 from skillc_runtime.motion.pose import Array, Pose, log
 
 
@@ -18,9 +18,23 @@ def solve_inverse_kinematics(arm: VirtualArm, target: Pose, seed: Array, limits:
     """
     if not arm.may_reach(target):
         return None
+    return find_posture(arm.read_chain(), target, _free_range(limits), seed)
+
+
+def rank_arm_postures(arm: VirtualArm, target: Pose, rest: Array, limits: Array) -> Array:
+    """Return postures (n, nv) in rad, within limits (nv, 2), with the tool at `target` in base, the best first.
+
+    The first one is the one of `solve_inverse_kinematics` from `rest` (nv,).
+    """
+    if not arm.may_reach(target):
+        return np.empty((0, len(rest)))
+    return rank_postures(arm.read_chain(), target, _free_range(limits), rest)
+
+
+def _free_range(limits: Array) -> Array:
+    """Return the ranges (nv, 2) in which no joint is pushed back."""
     margin = range_margin(limits)
-    free = np.stack([limits[:, 0] + margin, limits[:, 1] - margin], axis=1)
-    return find_posture(arm.read_chain(), target, free, seed)
+    return np.stack([limits[:, 0] + margin, limits[:, 1] - margin], axis=1)
 
 
 def pose_error(tool: Pose, target: Pose) -> Array:

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.control.feasibility import check_overlay_feasible, slow_to_feasible
-from skillc_runtime.control.inverse_kinematics import solve_inverse_kinematics
+from skillc_runtime.control.inverse_kinematics import rank_arm_postures, solve_inverse_kinematics
 from skillc_runtime.control.measured import NEAR_JOINT_RAD
 from skillc_runtime.control.virtual_arm import VirtualArm
 from skillc_runtime.devices.arm import ArmLimits, ArmState
@@ -107,3 +107,8 @@ class Kinematics:
         """
         self._arm.mount_tool(state.q, state.tool)
         return solve_inverse_kinematics(self._arm, target, seed, limits)
+
+    def rank_postures(self, target: Pose, rest: Array, limits: Array, state: ArmState) -> Array:
+        """Return postures (n, nv) in rad, within limits (nv, 2), with the tool at `target` in base, the best first."""
+        self._arm.mount_tool(state.q, state.tool)
+        return rank_arm_postures(self._arm, target, rest, limits)

@@ -38,6 +38,11 @@ class ArmMotionModel:
         in_base = self.base.inverse() @ target
         return self.kinematics.inverse_kinematics(in_base, seed, self.limits.range, self.state)
 
+    def rank_postures(self, target: Pose, rest: Array) -> Array:
+        """Return postures (n, nv) in rad with the tool at a pose in the world, the best first: near `rest` (nv,)."""
+        in_base = self.base.inverse() @ target
+        return self.kinematics.rank_postures(in_base, rest, self.limits.range, self.state)
+
     def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
         """Return the motion of the joints from `start` through the postures `way`, each (nv,) in rad.
 

@@ -101,6 +101,10 @@ class MotionModel(Protocol):
         """The joints (nv,) in rad where a new motion of the joints starts."""
         ...
 
+    def rank_postures(self, target: Pose, rest: Array) -> Array:
+        """Return postures (n, nv) in rad with the tool at a pose in the world, the best first: near `rest` (nv,)."""
+        ...
+
     def inverse_kinematics(self, target: Pose, seed: Array) -> Array | None:
         """Return joints (nv,) in rad, near `seed`, with the tool at a pose in the world; None if there are none."""
         ...

@@ -15,7 +15,7 @@ from skillc_runtime.motion.pose import Array, Pose
 SEEDS = 64
 """From how many postures all over the ranges others are searched for."""
 
-STEPS, LONGEST_STEP = 60, 0.6
+STEPS, LONGEST_STEP = 80, 0.3
 """Steps of one descent at most, and how far a joint moves in one, in rad or m."""
 
 CLOSE = 1e-5
@@ -29,6 +29,9 @@ STALLED_AFTER, STALLED = 12, 0.97
 
 APART_RAD = 0.2
 """Postures count as different if a joint differs by more."""
+
+ROOM_RAD = 0.3
+"""A joint that is nearer to the end of its range has little room."""
 
 PULL = 0.05
 """Share of the distance to a posture of rest that a redundant arm moves in each step, without moving the tool."""
@@ -54,6 +57,23 @@ def find_posture(chain: Chain, target: Pose, limits: Array, rest: Array, seeds: 
     direct = find_postures(chain, target, limits, rest, 0)
     found = direct if len(direct) or not seeds else find_postures(chain, target, limits, rest, seeds)
     return np.asarray(found[0]) if len(found) else None
+
+
+def rank_postures(chain: Chain, target: Pose, limits: Array, rest: Array) -> Array:
+    """Return postures (n, nv) with the tool at `target` in base in the order in which they are to be tried.
+
+    First the one that is found from `rest` (nv,) or nearest to it, then those with room to the ends of the ranges
+    (nv, 2), then the others, since a line from there may leave the range.
+    """
+    first = find_posture(chain, target, limits, rest, seeds=0)
+    found = find_postures(chain, target, limits, rest)
+    if first is None:
+        first, found = (found[0], found[1:]) if len(found) else (None, found)
+    if first is None:
+        return found
+    others = found[np.abs(found - first).max(axis=1) > APART_RAD]
+    room = np.minimum(others - limits[:, 0], limits[:, 1] - others).min(axis=1)
+    return np.concatenate([first[None], others[room >= ROOM_RAD], others[room < ROOM_RAD]])
 
 
 def spread_seeds(slides: Array, limits: Array, rest: Array, count: int) -> Array:

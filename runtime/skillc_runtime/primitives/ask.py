@@ -25,6 +25,7 @@ class Ask(Primitive):
     """
 
     moves = NOTHING
+    stays_put = True
     uses_devices = False
 
     def __init__(self, cell: Cell, *, text: str, choices: str, default: str | None, limit: float) -> None:

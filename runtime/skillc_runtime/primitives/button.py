@@ -23,6 +23,7 @@ class AwaitSwitch(Primitive):
     """Waits up to `patience` s until the button that the arm presses has switched; writes that and the force in N."""
 
     moves = NOTHING
+    stays_put = True
     highlights = (("ends", "button", "pressed"),)
 
     def __init__(self, cell: Cell, *, arm: str, button: str, patience: float) -> None:

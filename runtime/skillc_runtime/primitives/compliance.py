@@ -15,6 +15,7 @@ from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.known_limits import find_excess
 from skillc_runtime.primitives.primitive import NOTHING, Activity, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.push_force import write_push_force
+from skillc_runtime.primitives.space_needs import Press, SpaceNeed
 from skillc_runtime.primitives.surface_location import write_surface_pose
 from skillc_runtime.primitives.time_limits import approach_limit_s
 from skillc_runtime.world.state.labelled import Quantity
@@ -44,6 +45,7 @@ class ReleaseAxis(Primitive):
     """Makes the arm compliant along `along` (3,) with `stiffness` N/m until the scope ends."""
 
     moves = NOTHING
+    stays_put = True
 
     def __init__(self, cell: Cell, *, arm: str, along: Array, stiffness: float) -> None:
         super().__init__(cell)
@@ -89,6 +91,14 @@ class Push(Primitive):
     def find_problem(cls, arguments: Mapping[str, Value], state: WorldState) -> str | None:
         """Return that the force is more than the arm allows."""
         return find_excess(arguments, "force", "N", ("arm", "forceLimit"), state)
+
+    @classmethod
+    def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:
+        """Return that the tool presses."""
+        arm, along, force = arguments.get("arm"), arguments.get("along"), arguments.get("force")
+        if not isinstance(arm, str) or not isinstance(along, np.ndarray) or not isinstance(force, float):
+            return None
+        return (Press(arm, -force * along),)
 
     def __init__(
         self, cell: Cell, *, arm: str, along: Array, force: float, travel: float, approach: float = APPROACH_M_S
@@ -176,6 +186,7 @@ class Align(Primitive):
     """Lets the pushed tool turn for at most `settle` s until it is flush with `surface`; writes the surface's pose."""
 
     moves = NOTHING
+    stays_put = True
 
     def __init__(self, cell: Cell, *, arm: str, surface: str, settle: float) -> None:
         super().__init__(cell)

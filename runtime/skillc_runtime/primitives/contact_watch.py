@@ -25,6 +25,7 @@ class KeepContact(Primitive):
     """
 
     moves = NOTHING
+    stays_put = True
 
     def __init__(self, cell: Cell, *, arm: str, surface: str, over: float) -> None:
         super().__init__(cell)

@@ -22,6 +22,7 @@ class DriveBase(Primitive):
     """Drives to a workstation and writes the place that the base reports; the arms on it hold their posture."""
 
     moves = MappingProxyType({"robot": "to"})
+    stays_put = True
 
     def __init__(self, cell: Cell, *, robot: str, to: str) -> None:
         super().__init__(cell)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from types import MappingProxyType
 
 from skillc_runtime.devices.cell import Cell
@@ -10,6 +11,7 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.primitives.contradiction import contradict_place
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.space_needs import Hold, Leave, SpaceNeed
 from skillc_runtime.primitives.support import SupportCheck
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
@@ -22,6 +24,7 @@ from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity
 from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, GRASP_WIDTH, HELD_SIDEWAYS, WIDTH_TOLERANCE
+from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
 FREE_CLEARANCE_M = 0.005
@@ -48,6 +51,14 @@ class Grasp(Primitive):
 
     moves = MappingProxyType({"object": None})
     highlights = (("ends", "object", "grasped"),)
+
+    @classmethod
+    def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:
+        """Return that the gripper holds the object."""
+        gripper, thing, at = (arguments.get(each) for each in ("gripper", "object", "at"))
+        if not isinstance(gripper, str) or not isinstance(thing, str) or not isinstance(at, Pose):
+            return None
+        return (Hold(gripper, thing, at),)
 
     def __init__(self, cell: Cell, *, arm: str, gripper: str, object: str, at: Pose, place: str) -> None:
         super().__init__(cell)
@@ -120,6 +131,14 @@ class Release(Primitive):
 
     moves = MappingProxyType({"object": None})
     highlights = (("ends", "object", "released"),)
+
+    @classmethod
+    def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:
+        """Return that the object is left at the place."""
+        arm, gripper, thing, to = (arguments.get(each) for each in ("arm", "gripper", "object", "to"))
+        if not isinstance(arm, str) or not isinstance(gripper, str):
+            return None
+        return (Leave(arm, gripper, thing, to),) if isinstance(thing, str) and isinstance(to, str) else None
 
     def __init__(self, cell: Cell, *, arm: str, gripper: str, object: str, to: str) -> None:
         super().__init__(cell)

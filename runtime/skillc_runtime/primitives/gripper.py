@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
+from skillc_runtime.primitives.space_needs import Open, SpaceNeed
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity
@@ -29,6 +30,12 @@ class ParallelGripper(Primitive):
             return None
         widest = sheet_of(state, gripper).number("maxOpening")
         return str(_too_wide(label(gripper, state.vocabulary), widest, opening)) if _is_wider(opening, widest) else None
+
+    @classmethod
+    def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:
+        """Return how far the fingers open."""
+        opening, gripper = arguments.get("opening"), arguments.get("gripper")
+        return (Open(gripper, opening),) if isinstance(gripper, str) and isinstance(opening, float) else None
 
     def __init__(self, cell: Cell, *, gripper: str, opening: float, force: float) -> None:
         super().__init__(cell)

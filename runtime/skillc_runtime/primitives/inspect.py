@@ -15,6 +15,7 @@ class Inspect(Primitive):
     """
 
     moves = NOTHING
+    stays_put = True
 
     def __init__(self, cell: Cell, *, surface: str) -> None:
         super().__init__(cell)

@@ -20,6 +20,7 @@ class SetOutput(Primitive):
     """Sets an output to a level, waits until the controller reports that, and writes it. Its stop leaves the output."""
 
     moves = NOTHING
+    stays_put = True
 
     def __init__(self, cell: Cell, *, output: str, level: float) -> None:
         super().__init__(cell)
@@ -53,6 +54,7 @@ class AwaitInput(Primitive):
     """Waits up to `patience` s until an input is at `least` and at `most` what is wanted; writes its level."""
 
     moves = NOTHING
+    stays_put = True
 
     def __init__(
         self, cell: Cell, *, point: str, least: float | None = None, most: float | None = None, patience: float

@@ -48,6 +48,7 @@ class Locate(Primitive):
     """
 
     moves = NOTHING
+    stays_put = True
 
     def __init__(self, cell: Cell, *, camera: str, object: str, patience: float) -> None:
         super().__init__(cell)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from types import MappingProxyType
@@ -19,6 +19,7 @@ from skillc_runtime.primitives.collision_free_motion import move_collision_free,
 from skillc_runtime.primitives.computation import Computing
 from skillc_runtime.primitives.known_limits import CORRECTION_M
 from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.primitives.space_needs import Follow, Reach, SpaceNeed, Take
 from skillc_runtime.primitives.touch_guard import RESISTANCE_N
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
@@ -29,15 +30,13 @@ from skillc_runtime.world.state.terms import HAS_GRIPPER, HAS_POSTURE, HAS_SHEET
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
+    from skillc_runtime.world.state.values import Value
     from skillc_runtime.world.state.world_state import WorldState
 
 HOME = "home"
 
-RANDOM_SEEDS = 8
-"""How many other postures are searched for if the one nearest to home is in collision."""
-
-ROOM_RAD = 0.3
-"""How far from the ends of their ranges the joints of these postures are, if there are such."""
+MOST_POSTURES = 8
+"""How many postures of a pose are tried, of which the first ones are in collision."""
 
 GENTLE_M_S, GENTLE_M = 0.03, CORRECTION_M + 0.01
 """The greatest speed of a tool, and from how far before the end of a line, where it may touch what is nearer than it is
@@ -61,6 +60,12 @@ class MoveJoints(ArmMotion):
 
     targets = ("target",)
 
+    @classmethod
+    def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:
+        """Return that the tool gets to the target."""
+        arm, target = arguments.get("arm"), arguments.get("target")
+        return (Reach(arm, target),) if isinstance(arm, str) and isinstance(target, Pose) else None
+
     def __init__(self, cell: Cell, *, arm: str, target: Pose, pace: float) -> None:
         super().__init__(cell, arm)
         self._individual, self._target, self._pace = arm, target, pace
@@ -74,39 +79,20 @@ class MoveJoints(ArmMotion):
             target=LabelledVector((x, y, z), "m"),
             far=Quantity(float(np.linalg.norm(self._target.position - now.pose.position)), "m"),
         )
-        goals = _PoseGoal(self._target, home, now.q, self.arm.limits.range)
+        goals = _PoseGoal(self._target, home)
         yield from move_collision_free(self.cell, self._individual, goals, self._pace, unreachable)
 
 
 @dataclass(frozen=True, slots=True)
 class _PoseGoal:
-    """The postures that put the tool at a target in the world; home, now (nv,), limits (nv, 2): rad."""
+    """The postures that put the tool at a target in the world, those near home (nv,), in rad, first."""
 
     target: Pose
     home: Array
-    now: Array
-    limits: Array
 
     def find(self, model: MotionModel) -> Iterator[Array]:
-        """Yield the posture nearest to home, then others: near the current one, then over all joint ranges.
-
-        Those near the end of a joint's range come last, since a line from there may leave it.
-        """
-        if (nearest := model.inverse_kinematics(self.target, self.home)) is None:
-            return
-        yield nearest
-        draw, limits = np.random.default_rng(0), self.limits
-        low, high = np.maximum(limits[:, 0], self.home - np.pi), np.minimum(limits[:, 1], self.home + np.pi)
-        cramped = list[Array]()
-        for seed in (self.now, *(draw.uniform(low, high) for _ in range(RANDOM_SEEDS))):
-            q = model.inverse_kinematics(self.target, seed)
-            if q is None:
-                continue
-            if np.minimum(q - limits[:, 0], limits[:, 1] - q).min() < ROOM_RAD:
-                cramped.append(q)
-            else:
-                yield q
-        yield from cramped
+        """Yield them, the best first."""
+        yield from model.rank_postures(self.target, self.home)[:MOST_POSTURES]
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +110,14 @@ class TakePosture(ArmMotion):
     """Moves the arm to a posture of its data sheet, around the obstacles in the world model."""
 
     text_names = MappingProxyType({"posture": ("arm", HAS_SHEET, HAS_POSTURE, POSTURE_NAME)})
+
+    @classmethod
+    def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:
+        """Return that the arm takes the posture."""
+        arm, posture = arguments.get("arm"), arguments.get("posture")
+        if not isinstance(arm, str) or not isinstance(posture, str):
+            return None
+        return (Take(arm, sheet_of(state, arm).posture(posture)),)
 
     def __init__(self, cell: Cell, *, arm: str, posture: str, pace: float) -> None:
         super().__init__(cell, arm)
@@ -143,6 +137,12 @@ class MoveLinear(ArmMotion):
     """
 
     targets = ("target",)
+
+    @classmethod
+    def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:
+        """Return that the tool follows the line."""
+        arm, target = arguments.get("arm"), arguments.get("target")
+        return (Follow(arm, (target,)),) if isinstance(arm, str) and isinstance(target, Pose) else None
 
     def __init__(self, cell: Cell, *, arm: str, target: Pose, speed: float, resistance: float = RESISTANCE_N) -> None:
         super().__init__(cell, arm, resistance)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import pi
 from typing import TYPE_CHECKING
 
@@ -13,10 +14,13 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay
 from skillc_runtime.primitives.arm_motion import infeasible_motion
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
+from skillc_runtime.primitives.space_needs import SpaceNeed, Spread
 from skillc_runtime.world.state.labelled import Quantity
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
+    from skillc_runtime.world.state.values import Value
+    from skillc_runtime.world.state.world_state import WorldState
 
 FADE_TIME_S = 0.5
 """Time in which an overlay fades in and out."""
@@ -72,6 +76,15 @@ class AddedMotion(Primitive):
 class OverlayCircle(AddedMotion):
     """A circle in the plane with the normal `plane` (3,): `radius` m, `rate` turns per s."""
 
+    @classmethod
+    def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:
+        """Return that the tool is anywhere on the circle."""
+        arm, plane, radius = (arguments.get(each) for each in ("arm", "plane", "radius"))
+        if not isinstance(arm, str) or not isinstance(plane, np.ndarray) or not isinstance(radius, float):
+            return None
+        x, y, _ = axes_with_normal(plane).T
+        return (Spread(arm, radius * np.array([x, y, -x, -y])),)
+
     def __init__(self, cell: Cell, *, arm: str, plane: Array, radius: float, rate: float) -> None:
         circle = Circle(radius, rate)
         name = f"a circle of {1000 * radius:g} mm at {rate:g} Hz"
@@ -80,6 +93,14 @@ class OverlayCircle(AddedMotion):
 
 class OverlaySine(AddedMotion):
     """A sine along `along` (3,): `amplitude` m to either side, `rate` periods per s."""
+
+    @classmethod
+    def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:
+        """Return that the tool is on both ends of the sine."""
+        arm, along, amplitude = (arguments.get(each) for each in ("arm", "along", "amplitude"))
+        if not isinstance(arm, str) or not isinstance(along, np.ndarray) or not isinstance(amplitude, float):
+            return None
+        return (Spread(arm, amplitude * np.array([along, -along])),)
 
     def __init__(self, cell: Cell, *, arm: str, along: Array, amplitude: float, rate: float) -> None:
         sine = Lissajous(np.array([0.0, 0.0, amplitude]), np.full(3, rate), np.zeros(3))

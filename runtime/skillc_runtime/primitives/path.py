@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from skillc_runtime.motion.path import path_through as path_through
@@ -10,10 +10,13 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.collision_free_motion import move_tool_along
 from skillc_runtime.primitives.computation import Computing
+from skillc_runtime.primitives.space_needs import Follow, SpaceNeed
 from skillc_runtime.primitives.touch_guard import RESISTANCE_N
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
+    from skillc_runtime.world.state.values import Value
+    from skillc_runtime.world.state.world_state import WorldState
 
 
 class FollowPath(ArmMotion):
@@ -21,6 +24,14 @@ class FollowPath(ArmMotion):
 
     activity = "follow-path"
     targets = ("path",)
+
+    @classmethod
+    def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:
+        """Return that the tool follows the path."""
+        arm, path = arguments.get("arm"), arguments.get("path")
+        if not isinstance(arm, str) or not isinstance(path, tuple | list):
+            return None
+        return (Follow(arm, tuple(each for each in path if isinstance(each, Pose))),)
 
     def __init__(
         self,

@@ -16,6 +16,7 @@ class InspectPolish(Primitive):
     """
 
     moves = NOTHING
+    stays_put = True
 
     def __init__(self, cell: Cell, *, surface: str) -> None:
         super().__init__(cell)

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
     from skillc_runtime.devices.prompts import Prompt
     from skillc_runtime.primitives.computation import Computing
+    from skillc_runtime.primitives.space_needs import SpaceNeed
     from skillc_runtime.world.state.values import Value
     from skillc_runtime.world.state.world_state import WorldState
 
@@ -77,6 +78,8 @@ class Primitive:
     parameter, the parameter of the place where its individual is then, or None where that is not known. A primitive
     that does not declare it may move anything.
 
+    `stays_put` is True where a run moves neither an arm, but for what it yields, nor what it holds: it needs no space.
+
     `uses_devices` is False where a run needs nothing of the cell but its clock: it goes on beside others that use all.
 
     While `prompt` is not None, it is put to an operator; `answer` is called once with one of its choices.
@@ -91,6 +94,7 @@ class Primitive:
     text_names: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({})
     moves: ClassVar[Mapping[str, str | None] | None] = None
     uses_devices: ClassVar[bool] = True
+    stays_put: ClassVar[bool] = False
 
     @classmethod
     def find_problem(cls, arguments: Mapping[str, Value], state: WorldState) -> str | None:
@@ -100,6 +104,15 @@ class Primitive:
         to be then; a pose in it may be corrected when it is sensed. FrameError and SheetError count as not known.
         """
         return None
+
+    @classmethod
+    def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:
+        """Return what a run with these arguments needs of space, in order; None if that is not known.
+
+        So it is known before anything moves whether the arm gets there. `arguments` and `state` are those with which a
+        run would start. FrameError and SheetError count as not known.
+        """
+        return () if cls.stays_put else None
 
     def __init__(self, cell: Cell) -> None:
         self.cell = cell

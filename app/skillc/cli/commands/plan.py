@@ -49,9 +49,10 @@ skillc plan wiping:clean_both --minimise makespan --json
     show_default=True,
     help="The time limit of the planner.",
 )
+@grouped_option(PLANNING, "--geometry/--no-geometry", default=True, help="Look whether the arms can do it.")
 @cell_options
 @json_option
-def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, as_json: bool) -> int:
+def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, geometry: bool, as_json: bool) -> int:
     """Plan for TASK, or for --goal in --scene, and print the steps.
 
     TASK is the name of a task of the project here or of a shipped one, or LIBRARY:NAME; `skillc tasks` lists them. In a
@@ -63,6 +64,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, as_json:
     from skillc.cli.console import Terminal, print_text, remark_default
     from skillc.services.plan_text import format_plan, plan_as_json
     from skillc.services.planning import plan_goal, prepare_planners
+    from skillc.services.space_claims import check_answer_in_space
     from skillc.services.stores import StoreChoice
     from skillc.services.task_loading import check_request, fill_in, load_task
     from skillc_runtime.cancellation import CancelToken
@@ -87,8 +89,9 @@ def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, as_json:
         ):
             planners, cancel = prepare_planners(wanted.plan_cache), CancelToken(limit_s)
             answer = plan_goal(loaded, measure, planners, cancel, progress.append)
+            space = check_answer_in_space(loaded, answer) if geometry else None
         if as_json:
-            click.echo(plan_as_json(answer, loaded))
+            click.echo(plan_as_json(answer, loaded, space))
         else:
-            print_text(format_plan(answer, loaded))
+            print_text(format_plan(answer, loaded, space))
     return 3 if isinstance(answer, Unsolvable | GaveUp) else 0

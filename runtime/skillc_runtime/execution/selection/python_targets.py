@@ -81,8 +81,9 @@ def _check_declarations(cls: type[Primitive], python: str) -> str | None:
         return f"`highlights` of `{python}` is not ((begins or ends, parameter, word), ..)"
     if not _is_valid_moves(cls.moves):
         return f"`moves` of `{python}` is neither None nor {{parameter: parameter of the place or None}}"
-    if not isinstance(cls.uses_devices, bool):
-        return f"`uses_devices` of `{python}` is not True or False"
+    for name in ("uses_devices", "stays_put"):
+        if not isinstance(getattr(cls, name), bool):
+            return f"`{name}` of `{python}` is not True or False"
     return None
 
 

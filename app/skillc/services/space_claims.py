@@ -1,0 +1,64 @@
+"""Looks at a plan in space, and says which of its steps the arms can carry out, and why not the others."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from skillc.extras import missing_extras
+from skillc.services.planning import Answer
+from skillc.services.task_loading import LoadedTask
+from skillc_runtime.planning.plan import GaveUp, Unsolvable
+
+if TYPE_CHECKING:
+    from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement
+
+
+@dataclass(frozen=True, slots=True)
+class SpaceClaim:
+    """How many steps of a plan go in space, of how many; calls that were not looked at, by step; why the next fails."""
+
+    checked: int
+    steps: int
+    unseen: tuple[tuple[int, str], ...] = ()
+    failure: str | None = None
+
+    @property
+    def text(self) -> str:
+        """The claim, with a line for each step that was not looked at or does not go."""
+        looked = self.checked - len({number for number, _ in self.unseen})
+        of = f"all {self.steps}" if looked == self.steps else f"{looked} of {self.steps}"
+        lines = [f"{of} checked in space: reach, joints, torques, paths, room; the arms begin at home"]
+        lines += (f"step {number}: nobody says what {what} needs of space" for number, what in self.unseen)
+        if self.failure is not None:
+            lines.append(f"step {self.checked + 1} does not go: {self.failure}")
+        return "\n".join(lines)
+
+    @property
+    def data(self) -> dict[str, object]:
+        """The claim as plain data."""
+        unseen = [{"step": number, "what": what} for number, what in self.unseen]
+        return {"checked": self.checked, "steps": self.steps, "unseen": unseen, "failure": self.failure}
+
+
+def check_answer_in_space(loaded: LoadedTask, answer: Answer) -> SpaceClaim | None:
+    """Return what is known about the steps of a plan in space.
+
+    None if there is no plan, or that is not installed which looks at it.
+    """
+    if isinstance(answer, Unsolvable | GaveUp) or missing_extras("run"):
+        return None
+    # The simulator is slow to import.
+    from skillc_runtime.execution.refinement.plan_refinement import refine_plan
+
+    steps = answer.plan.steps
+    return make_claim(refine_plan(loaded.library, loaded.assignment.state, steps), len(steps))
+
+
+def make_claim(found: PlanRefinement, steps: int) -> SpaceClaim:
+    """Return what a refinement of so many steps says."""
+    unseen = tuple((number, call) for number, each in enumerate(found.steps, 1) for call in each.unseen)
+    failure = None
+    if found.failed is not None:
+        failure = "no way was found" if found.failure is None else found.failure.message
+    return SpaceClaim(len(found.steps), steps, unseen, failure)

@@ -1,0 +1,110 @@
+"""An arm in a situation, as kinematics and collisions see it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.collision.arm_assembly import read_arm_assembly
+from skillc_runtime.collision.collision_checker import CollisionChecker
+from skillc_runtime.collision.collision_model import ARM, HAND, build_collision_model
+from skillc_runtime.collision.path_planning import JointSpace
+from skillc_runtime.collision.scenery import read_scenery
+from skillc_runtime.execution.refinement.situation import Situation
+from skillc_runtime.kinematics.chain import Chain, read_chain
+from skillc_runtime.kinematics.sweep import JointLoad
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.working_face import working_face
+from skillc_runtime.world.space.frame_tree import MissingFact, frame_tree_of
+from skillc_runtime.world.space.frames import frame_name, pose, size
+from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
+from skillc_runtime.world.state.terms import BASE_FRAME_ID, CONTAIN, HAS_GRIPPER, MANIPULATABLE
+from skillc_runtime.world.state.world_state import WorldState
+
+ROOM_RAD, ROOM_SHARE = 0.05, 0.1
+"""How far joints keep from the ends of their ranges, where they are pushed back; at most this share of their range."""
+
+GRAVITY = np.array([0.0, 0.0, -9.81])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ArmView:
+    """An arm: its base in the world, its chain of joints to the tool that it has now, and what it may touch.
+
+    home, q (nv,): rad; `movable` are the names of things that the palm may touch on the way of a tool.
+    """
+
+    arm: str
+    base: Pose
+    chain: Chain
+    space: JointSpace
+    free_range: Array
+    effort: Array
+    home: Array
+    q: Array
+    checker: CollisionChecker
+    movable: frozenset[str]
+
+    @property
+    def tool(self) -> Pose:
+        """Where its tool is in the world."""
+        return self.base @ self.chain.place_tool(self.q)
+
+    def load(self, force: Array) -> JointLoad:
+        """Return what its joints bear while the tool exerts a force (3,) in N in the world."""
+        inward = self.base.rotation.T
+        return JointLoad(self.space.range, self.effort, inward @ force, inward @ GRAVITY)
+
+
+def view_arm(here: Situation, arm: str) -> ArmView:
+    """Return an arm in a situation; SheetError or FrameError if facts about it are missing."""
+    state, base = here.state, pose(here.state, arm)
+    if arm not in here.postures:
+        raise SheetError(f"{state.vocabulary.short(arm)} has no posture `home`")
+    assembly = read_arm_assembly(state, arm, dict(here.openings))
+    model = build_collision_model(assembly, read_scenery(state, base))
+    sheet = sheet_of(state, arm)
+    chain = read_chain(model.compiled, f"{ARM}flange" if assembly.hand is None else f"{HAND}tcp")
+    held = _held_tool(state, arm)
+    if held is not None:
+        chain = chain.with_tool(chain.place_tool(np.zeros(chain.joints)) @ held)
+    limits = model.compiled.jnt_range[: model.joints].copy()
+    room = np.minimum(ROOM_RAD, ROOM_SHARE * (limits[:, 1] - limits[:, 0]))
+    home = sheet.posture("home")
+    return ArmView(
+        arm=arm,
+        base=base,
+        chain=chain,
+        space=JointSpace(limits, tuple(sheet.posture(name) for name in sheet.posture_names)),
+        free_range=np.column_stack([limits[:, 0] + room, limits[:, 1] - room]),
+        effort=_read_effort(assembly.model),
+        home=home,
+        q=np.asarray(here.postures[arm], dtype=float),
+        checker=CollisionChecker(model, home),
+        movable=frozenset(map(state.vocabulary.short, state.instances(MANIPULATABLE))),
+    )
+
+
+def _held_tool(state: WorldState, arm: str) -> Pose | None:
+    """Return the working face of what the arm's gripper holds, in the frame of the hand; None if it holds nothing."""
+    for gripper in sorted(state.objects(arm, HAS_GRIPPER)):
+        frame = frame_name(state, gripper)
+        for thing in sorted(state.objects(gripper, CONTAIN)):
+            if state.value(thing, BASE_FRAME_ID) == frame:
+                try:
+                    return frame_tree_of(state).own_pose(thing) @ working_face(size(state, thing))
+                except MissingFact:
+                    return None
+    return None
+
+
+@lru_cache(maxsize=16)
+def _read_effort(model: str) -> Array:
+    """Return the greatest torques (nv,) in N m of the motors in an arm's MJCF; infinite if it does not limit them."""
+    loaded = mujoco.MjModel.from_xml_path(model)
+    force, control = loaded.actuator_forcerange[:, 1], loaded.actuator_ctrlrange[:, 1]
+    most = np.where(loaded.actuator_forcelimited > 0, force, control)
+    return np.where(most[: loaded.nv] > 0.0, most[: loaded.nv], np.inf) if loaded.nu else np.full(loaded.nv, np.inf)

@@ -1,0 +1,29 @@
+"""Why something does not go in space."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+Cause: TypeAlias = Literal[
+    "out-of-reach", "joint-range", "torque", "in-the-way", "no-path", "no-grasp-or-place", "nothing-fits"
+]
+
+
+@dataclass(frozen=True, slots=True)
+class SpaceFailure:
+    """Why a primitive does not get what it needs, as a sentence without its subject.
+
+    `depth` is how many needs were met before; `blockers` are the short names of what is in the way.
+    """
+
+    cause: Cause
+    why: str
+    depth: int = 0
+    within: tuple[str, ...] = ()
+    blockers: frozenset[str] = frozenset()
+
+    @property
+    def message(self) -> str:
+        """The failure as a sentence that begins with the innermost skill."""
+        return f"{self.within[-1]}: {self.why}" if self.within else self.why

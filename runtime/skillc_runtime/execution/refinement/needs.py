@@ -1,0 +1,170 @@
+"""Looks for ways in which a primitive gets what it needs of space: the best first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TypeAlias, assert_never
+
+import numpy as np
+
+from skillc_runtime.collision.collision_checker import Collision
+from skillc_runtime.collision.path_planning import NoPath, plan_joint_path
+from skillc_runtime.execution.refinement.arm_view import ArmView, view_arm
+from skillc_runtime.execution.refinement.failure import SpaceFailure
+from skillc_runtime.execution.refinement.situation import ArmMotion, Situation
+from skillc_runtime.kinematics.inverse import rank_postures
+from skillc_runtime.kinematics.sweep import (
+    ERROR_M,
+    ERROR_RAD,
+    FAR_M,
+    FAR_RAD,
+    TORQUE,
+    Sweep,
+    follow,
+    sample_poses,
+)
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.working_face import working_face
+from skillc_runtime.primitives.move import MOST_POSTURES
+from skillc_runtime.primitives.space_needs import Follow, Hold, Leave, Open, Press, Reach, SpaceNeed, Spread, Take
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
+from skillc_runtime.world.space.grasp_geometry import is_sideways
+from skillc_runtime.world.space.hollow import gap_below
+from skillc_runtime.world.space.occupants import read_occupants
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.terms import HELD_SIDEWAYS
+
+Outcome: TypeAlias = Situation | SpaceFailure
+
+SAMPLE_M = 0.02
+"""The distance of poses along a path of the tool that are looked at."""
+
+LOWERED_M = 0.03
+"""How far a thing is lowered at most until it stands on something."""
+
+AIMLESS = np.zeros(3)
+
+
+def meet(need: SpaceNeed, here: Situation) -> Iterator[Outcome]:
+    """Yield the situations in which a need is met, the best first, and why other ways do not go.
+
+    FrameError or SheetError if facts are missing.
+    """
+    match need:
+        case Reach(arm=arm, tool=tool):
+            yield from _reach(view_arm(here, arm), tool, here)
+        case Take(arm=arm, q=q):
+            yield _take(view_arm(here, arm), q, here)
+        case Follow(arm=arm, poses=poses):
+            yield _follow(view_arm(here, arm), poses, here)
+        case Press(arm=arm, force=force):
+            yield replace(here, forces={**here.forces, arm: force})
+        case Spread(arm=arm, offsets=offsets):
+            yield replace(here, spreads={**here.spreads, arm: offsets})
+        case Open(gripper=gripper, opening_m=opening_m):
+            yield replace(here, openings={**here.openings, gripper: opening_m})
+        case Hold():
+            yield _hold(need, here)
+        case Leave():
+            yield _leave(need, here)
+        case _:
+            assert_never(need)
+
+
+def _reach(view: ArmView, tool: Pose, here: Situation) -> Iterator[Outcome]:
+    found = rank_postures(view.chain, view.base.inverse() @ tool, view.free_range, view.home)
+    if not len(found):
+        yield SpaceFailure("out-of-reach", f"no posture of {_name(view, here)} brings its tool to {_place(tool)}")
+    yield from (_take(view, q, here) for q in found[:MOST_POSTURES])
+
+
+def _take(view: ArmView, q: Array, here: Situation) -> Outcome:
+    """Return the situation after a motion of the joints to a posture (nv,) in rad, or what is in its way."""
+    try:
+        way = plan_joint_path(view.checker, view.q, [q], view.space)
+    except NoPath as why:
+        touch = view.checker.find_collision(q)
+        cause, other = ("no-path", frozenset[str]()) if touch is None else ("in-the-way", frozenset((touch.other,)))
+        return SpaceFailure(cause, str(why), blockers=other)  # type: ignore[arg-type]
+    return here.with_motion(ArmMotion(view.arm, way, along=False))
+
+
+def _follow(view: ArmView, poses: tuple[Pose, ...], here: Situation) -> Outcome:
+    """Return the situation after the tool has followed lines through poses in the world, or why it cannot."""
+    inward = view.base.inverse()
+    corners = [inward @ each for each in (view.tool, *poses)]
+    offsets = here.spreads.get(view.arm)
+    local = None if offsets is None else offsets @ view.base.rotation
+    sampled = sample_poses(corners, SAMPLE_M, local)
+    load = view.load(here.forces.get(view.arm, AIMLESS))
+    sweep = follow(view.chain, sampled, view.q, load)
+    if not sweep.reached.all():
+        return _explain(view, sweep, sampled, here)
+    touch = view.checker.find_overlap(view.q, sweep.postures, view.movable)
+    if touch is not None:
+        return _overlap(touch)
+    return here.with_motion(ArmMotion(view.arm, tuple(sweep.postures), along=True))
+
+
+def _explain(view: ArmView, sweep: Sweep, sampled: Array, here: Situation) -> SpaceFailure:
+    """Return why the first pose of a path that is not reached is not."""
+    first = int(np.argmin(sweep.reached))
+    q, measured = sweep.postures[first], sweep.measures[first]
+    at = _place(view.base @ Pose(sampled[first, :3], np.eye(3)))
+    limits = view.space.range
+    outside = np.maximum(limits[:, 0] - q, q - limits[:, 1])
+    joint = int(outside.argmax())
+    if outside[joint] > 0.0:
+        low, high = limits[joint]
+        why = f"joint {joint + 1} would be at {q[joint]:.2f}, outside its range from {low:.2f} to {high:.2f}, at {at}"
+        return SpaceFailure("joint-range", f"{_name(view, here)}: {why}")
+    if measured[ERROR_M] > FAR_M or measured[ERROR_RAD] > FAR_RAD:
+        return SpaceFailure("out-of-reach", f"the tool of {_name(view, here)} does not get to {at}")
+    share = float(measured[TORQUE])
+    why = f"a joint of {_name(view, here)} would need {share:.0%} of its greatest torque at {at}"
+    return SpaceFailure("torque", why)
+
+
+def _overlap(touch: Collision) -> SpaceFailure:
+    why = f"on the way of the tool {touch} and overlap it by {-1e3 * touch.distance_m:.0f} mm"
+    return SpaceFailure("in-the-way", why, blockers=frozenset((touch.other,)))
+
+
+def _hold(need: Hold, here: Situation) -> Situation:
+    state = here.state
+    in_hand = need.at.inverse() @ pose(state, need.thing)
+    changes = relocation_changes(state, need.thing, in_hand, frame_name(state, need.gripper))
+    return here.with_changes([*changes, SetProperty(need.thing, HELD_SIDEWAYS, is_sideways(need.at))])
+
+
+def _leave(need: Leave, here: Situation) -> Situation:
+    state = here.state
+    left_at = view_arm(here, need.arm).tool @ working_face(size(state, need.thing)).inverse()
+    there = here.with_changes(put_down_changes(state, need.thing, left_at, need.to))
+    down = Pose(left_at.position - np.array([0.0, 0.0, _gap_m(there, need.thing)]), left_at.rotation)
+    return here.with_changes(put_down_changes(state, need.thing, down, need.to))
+
+
+def _gap_m(here: Situation, thing: str) -> float:
+    """Return how far a thing is above what it comes to stand on, in m, at most LOWERED_M; 0 if that is not known."""
+    gaps = [LOWERED_M]
+    for each in read_occupants(here.state):
+        if each.individual != thing:
+            try:
+                gap = gap_below(here.state, thing, each.individual)
+            except FrameError:
+                continue
+            gaps += [] if gap is None or gap < 0.0 else [gap]
+    least = min(gaps)
+    return least if least < LOWERED_M else 0.0
+
+
+def _name(view: ArmView, here: Situation) -> str:
+    return here.state.vocabulary.short(view.arm)
+
+
+def _place(at: Pose) -> str:
+    x, y, z = at.position
+    return f"({x:.2f}, {y:.2f}, {z:.2f}) m"

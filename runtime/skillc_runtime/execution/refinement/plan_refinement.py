@@ -1,0 +1,81 @@
+"""Looks at the steps of a plan in space, one after another: whether the arms can carry them out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from skillc_model import tree
+from skillc_model.conditions import Individual
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.execution.refinement.failure import SpaceFailure
+from skillc_runtime.execution.refinement.situation import ArmMotion, Situation, begin_at_home
+from skillc_runtime.execution.refinement.walk import Scope, Walk
+from skillc_runtime.planning.plan import Step
+from skillc_runtime.planning.validation import apply_effects
+from skillc_runtime.world.state.model import WorldError
+from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.world_state import WorldState
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RefinedStep:
+    """A step that goes, with the motions of the arms in it; `unseen` are calls in it that nobody could look at."""
+
+    step: Step
+    motions: tuple[ArmMotion, ...]
+    unseen: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlanRefinement:
+    """The steps that go in space, in order, and why the next one does not; None if all go."""
+
+    steps: tuple[RefinedStep, ...]
+    failed: Step | None = None
+    failure: SpaceFailure | None = None
+
+
+def refine_plan(library: SkillLibrary, state: WorldState, steps: Sequence[Step]) -> PlanRefinement:
+    """Return how the arms carry out steps in order, beginning at home in a version of the world."""
+    return _Refiner(library).refine(tuple(steps), begin_at_home(state))
+
+
+class _Refiner:
+    def __init__(self, library: SkillLibrary) -> None:
+        self._library = library
+        self._furthest = PlanRefinement(())
+
+    def refine(self, steps: tuple[Step, ...], here: Situation) -> PlanRefinement:
+        found = next(self._go(steps, here, ()), None)
+        return self._furthest if found is None else PlanRefinement(found)
+
+    def _go(
+        self, left: tuple[Step, ...], here: Situation, done: tuple[RefinedStep, ...]
+    ) -> Iterator[tuple[RefinedStep, ...]]:
+        """Yield the refined steps; of the ways to do a step the next one is tried if a later step does not go."""
+        if not left:
+            yield done
+            return
+        step, walk = left[0], Walk(self._library)
+        call = tree.Call(
+            skill=step.skill,
+            implementation=None,
+            arguments={name: Individual(iri) for name, iri in step.arguments.items()},
+            out=None,
+            source=self._library.skills[step.skill].source,
+        )
+        for after in walk.go(call, here, Scope({})):
+            motions = after.motions[len(here.motions) :]
+            refined = RefinedStep(step, motions, tuple(walk.unseen))
+            yield from self._go(left[1:], self._with_effects(step, after), (*done, refined))
+        if len(done) >= len(self._furthest.steps) and self._furthest.failed is None:
+            self._furthest = PlanRefinement(done, step, walk.furthest)
+
+    def _with_effects(self, step: Step, after: Situation) -> Situation:
+        """Return the situation after a step with all that its skill promises."""
+        try:
+            state = apply_effects(step, self._library, after.state)
+        except (EvaluationError, WorldError):
+            return after
+        return Situation(state, after.postures, after.openings, motions=after.motions)

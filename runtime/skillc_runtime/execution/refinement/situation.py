@@ -1,0 +1,59 @@
+"""Where everything is at a place of a body: the world model, the posture of each arm, its fingers, what it presses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import ARM_DEVICE, HAS_GRIPPER
+from skillc_runtime.world.state.world_state import WorldState
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ArmMotion:
+    """A motion of an arm through postures, each (nv,) in rad; `along` if its tool follows a path."""
+
+    arm: str
+    postures: tuple[Array, ...]
+    along: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Situation:
+    """The world as it is believed to be then, and the devices in it.
+
+    postures: of arms, (nv,) in rad; openings: of grippers, in m; forces: of tools that press, (3,) in N in the world;
+    spreads: offsets (n, 3) in m in the world of tools with a motion that is added; motions: all so far.
+    """
+
+    state: WorldState
+    postures: Mapping[str, Array]
+    openings: Mapping[str, float]
+    forces: Mapping[str, Array] = field(default_factory=dict)
+    spreads: Mapping[str, Array] = field(default_factory=dict)
+    motions: tuple[ArmMotion, ...] = ()
+
+    def with_changes(self, changes: tuple[Change, ...] | list[Change]) -> Situation:
+        """Return the situation after changes of the world; WorldError if they contradict it."""
+        return replace(self, state=WorldModel(self.state).commit(changes).after) if changes else self
+
+    def with_motion(self, motion: ArmMotion) -> Situation:
+        """Return the situation after a motion."""
+        postures = {**self.postures, motion.arm: motion.postures[-1]}
+        return replace(self, postures=postures, motions=(*self.motions, motion))
+
+
+def begin_at_home(state: WorldState) -> Situation:
+    """Return the situation in which all arms that have a data sheet are at home, their fingers open."""
+    postures, openings = dict[str, Array](), dict[str, float]()
+    for arm in sorted(state.instances(ARM_DEVICE)):
+        with suppress(SheetError):
+            postures[arm] = sheet_of(state, arm).posture("home")
+            for gripper in state.objects(arm, HAS_GRIPPER):
+                openings[gripper] = sheet_of(state, gripper).number("maxOpening")
+    return Situation(state, postures, openings)

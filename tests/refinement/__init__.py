@@ -1,0 +1,1 @@
+"""Plans looked at in space: what goes, and why not the rest."""

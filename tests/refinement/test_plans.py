@@ -1,0 +1,78 @@
+"""Plans of shipped tasks go in space; surfaces and things that arms cannot work at are refused with the cause."""
+
+import json
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from skillc.cli.main import skillc
+from skillc_ontology import catalogue
+
+DESK = catalogue.scene_path("panda_desk").read_text()
+LARGE = ("SizeX 0.30 ; skiros:SizeY 0.40", "SizeX 0.40 ; skiros:SizeY 0.60")
+
+
+def plan(*arguments):
+    ran = CliRunner().invoke(skillc, ["plan", *arguments, "--json", "--no-plan-cache"])
+    return json.loads(ran.stdout)
+
+
+def plan_door(tmp_path: Path, x: float, pitch_deg: float, z: float, **extra: str):
+    place = "PositionX 0.5 ; skiros:PositionY 0.05 ; skiros:PositionZ 0.75 ;"
+    tilted = f"PositionX {x} ; skiros:PositionY 0.05 ; skiros:PositionZ {z} ; skillc:pitch {pitch_deg} ;"
+    text = DESK.replace(*LARGE).replace(place, tilted).replace("normalForce 10.0", "normalForce 12.0")
+    assert tilted in text
+    scene = tmp_path / "door.ttl"
+    scene.write_text(text + "".join(extra.values()))
+    return plan("--library", "wiping", "--scene", str(scene), "--goal", "lab:Desk-1.isClean == true")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("task", ["wiping:clean_table", "wiping:clean_whiteboard", "sorting:sort_parts"])
+def test_shipped_plans_are_checked_whole(task):
+    answer = plan(task)
+    assert answer["space"] == {
+        "checked": len(answer["plan"]),
+        "steps": len(answer["plan"]),
+        "unseen": [],
+        "failure": None,
+    }
+    assert len(answer["plan"]) >= 2
+
+
+@pytest.mark.slow
+def test_a_door_that_the_arm_can_wipe_and_one_at_which_a_joint_would_leave_its_range(tmp_path):
+    assert plan_door(tmp_path, 0.55, -20.0, 0.95)["space"]["failure"] is None
+    near = plan_door(tmp_path, 0.45, -20.0, 0.75)["space"]
+    assert near["checked"] == 1
+    assert near["failure"].startswith("FollowPath: lab:Panda-1: joint 4 would be at -3.")
+    far = plan_door(tmp_path, 0.55, 0.0, 0.75)["space"]
+    assert "the tool of lab:Panda-1 does not get to (0.7" in far["failure"]
+
+
+@pytest.mark.slow
+def test_what_nobody_looked_at_is_said():
+    space = plan("contact:insert_peg")["space"]
+    assert {each["what"] for each in space["unseen"]} >= {"Insert > SinkBelow"}
+    assert {each["step"] for each in space["unseen"]} == {2}
+
+
+def test_without_geometry_nothing_is_said_about_space():
+    assert "space" not in plan("wiping:clean_table", "--no-geometry")
+
+
+@pytest.mark.slow
+def test_what_is_planned_is_where_the_arms_go():
+    """Each motion begins where the last one of its arm ended, and tools are where the steps bring them."""
+    from refinement.loading import refined
+
+    found = refined("sorting:sort_parts")
+    assert found.failed is None
+    motions = [motion for step in found.steps for motion in step.motions]
+    assert len(motions) > 12
+    assert sum(motion.along for motion in motions) > 6
+    for one, other in pairwise(motions):
+        assert np.abs(one.postures[-1] - other.postures[0]).max() < (0.3 if other.along else np.inf)
