@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Literal, TypeAlias
@@ -12,7 +13,7 @@ from skillc_dsl import cache
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
-from skillc_runtime.planning.plan import PlanResult
+from skillc_runtime.planning.plan import Excluded, PlanResult
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW, PROVING
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
@@ -53,10 +54,11 @@ def plan_goal(
     planners: Planners,
     cancel: CancelToken,
     report: ReportProgress = ignore_progress,
+    without: Sequence[Excluded] = (),
 ) -> Answer:
     """Plan for the goal of a task: with little work, with work proved minimal in the whole scene, or a short makespan.
 
-    RequestError if the task has a body instead of a goal.
+    `without` are steps that the plan may not contain. RequestError if the task has a body instead of a goal.
     """
     library, assignment = loaded.library, loaded.assignment
     if not isinstance(assignment.objective, AchieveGoal):
@@ -65,9 +67,9 @@ def plan_goal(
         raise RequestError(f"the task `{name}` has a body, not a goal, so there is nothing to plan: {shown}")
     goal = assignment.objective.goal
     if measure == "makespan":
-        return minimise_makespan(library, assignment.state, goal, planners, cancel, report=report)
+        return minimise_makespan(library, assignment.state, goal, planners, cancel, without, report)
     size = PROVING if measure == "proven work" else NARROW
-    return solve(library, assignment.state, goal, planners.for_work, cancel, size=size, report=report)
+    return solve(library, assignment.state, goal, planners.for_work, cancel, without, size=size, report=report)
 
 
 def with_minimal_makespan(loaded: LoadedTask) -> LoadedTask:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from skillc.extras import missing_extras
-from skillc.services.planning import Answer
+from skillc.services.planning import Answer, Measure, plan_goal
 from skillc.services.task_loading import LoadedTask
-from skillc_runtime.planning.plan import GaveUp, Unsolvable
+from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.planning.plan import Excluded, GaveUp, Unsolvable
+from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.progress import ReportProgress
 
 if TYPE_CHECKING:
     from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement
@@ -41,18 +45,26 @@ class SpaceClaim:
         return {"checked": self.checked, "steps": self.steps, "unseen": unseen, "failure": self.failure}
 
 
-def check_answer_in_space(loaded: LoadedTask, answer: Answer) -> SpaceClaim | None:
-    """Return what is known about the steps of a plan in space.
+def plan_goal_in_space(
+    loaded: LoadedTask, measure: Measure, planners: Planners, cancel: CancelToken, report: ReportProgress
+) -> tuple[Answer, SpaceClaim | None]:
+    """Plan as `plan_goal` does, for a plan that the arms can carry out; return it and what is known of it in space.
 
-    None if there is no plan, or that is not installed which looks at it.
+    None if nothing is known because that is not installed which looks at it.
     """
-    if isinstance(answer, Unsolvable | GaveUp) or missing_extras("run"):
-        return None
-    # The simulator is slow to import.
-    from skillc_runtime.execution.refinement.plan_refinement import refine_plan
 
-    steps = answer.plan.steps
-    return make_claim(refine_plan(loaded.library, loaded.assignment.state, steps), len(steps))
+    def plan(without: Sequence[Excluded]) -> Answer:
+        return plan_goal(loaded, measure, planners, cancel, report, without)
+
+    if missing_extras("run"):
+        return plan(()), None
+    # The simulator is slow to import.
+    from skillc_runtime.execution.refinement.replanning import plan_in_space
+
+    answer, found = plan_in_space(loaded.library, loaded.assignment.state, plan, cancel)
+    if found is None or isinstance(answer, Unsolvable | GaveUp):
+        return answer, None
+    return answer, make_claim(found, len(answer.plan.steps))
 
 
 def make_claim(found: PlanRefinement, steps: int) -> SpaceClaim:

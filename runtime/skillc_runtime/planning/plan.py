@@ -6,6 +6,7 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias, assert_never
 
+from skillc_model.conditions import Condition
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
@@ -17,6 +18,19 @@ class Step:
 
     skill: str
     arguments: dict[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class StepWhile:
+    """A step that does not go as long as a ground condition holds, and why."""
+
+    step: Step
+    condition: Condition
+    why: str
+
+
+Excluded: TypeAlias = Step | StepWhile
+"""What a plan may not contain."""
 
 
 @dataclass(frozen=True, slots=True)

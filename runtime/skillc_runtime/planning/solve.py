@@ -13,13 +13,13 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.planning.abstraction.stages import PlanningStages, plan_in_stages
 from skillc_runtime.planning.plan import (
+    Excluded,
     GaveUp,
     Optimal,
     Plan,
     Planner,
     PlanResult,
     Solved,
-    Step,
     Unsolvable,
 )
 from skillc_runtime.planning.planners import list_planners
@@ -39,7 +39,7 @@ def solve(
     goal: Condition,
     planners: Sequence[Planner] | None = None,
     cancel: CancelToken | None = None,
-    without: Sequence[Step] = (),
+    without: Sequence[Excluded] = (),
     *,
     size: AbstractionSize | None = NARROW,
     report: ReportProgress = ignore_progress,

@@ -15,7 +15,7 @@ from skillc_runtime.planning.formula_text import FormulaFormatter
 from skillc_runtime.planning.goal_conflicts import GoalConflict, GoalConflicts
 from skillc_runtime.planning.nearest_changes import NearestChanges
 from skillc_runtime.planning.partial_bindings import PartialBindings, unify
-from skillc_runtime.planning.plan import Step
+from skillc_runtime.planning.plan import Excluded
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
 from skillc_runtime.planning.search.grounding import Grounding
@@ -45,7 +45,7 @@ class UnsolvabilityReason:
 
 
 def pose_to_explain(
-    posed: PosedProblem, state: WorldState, goal: Condition, without: Sequence[Step], size: AbstractionSize | None
+    posed: PosedProblem, state: WorldState, goal: Condition, without: Sequence[Excluded], size: AbstractionSize | None
 ) -> PosedProblem:
     """Return a problem without a plan with the individuals that no helpful step involves: without a plan none does.
 

@@ -64,7 +64,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, geometry
     from skillc.cli.console import Terminal, print_text, remark_default
     from skillc.services.plan_text import format_plan, plan_as_json
     from skillc.services.planning import plan_goal, prepare_planners
-    from skillc.services.space_claims import check_answer_in_space
+    from skillc.services.space_claims import plan_goal_in_space
     from skillc.services.stores import StoreChoice
     from skillc.services.task_loading import check_request, fill_in, load_task
     from skillc_runtime.cancellation import CancelToken
@@ -88,8 +88,10 @@ def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, geometry
             f"planning, for at most {limit_s:g} s ..", lambda: describe_progress(progress[-1]) if progress else ""
         ):
             planners, cancel = prepare_planners(wanted.plan_cache), CancelToken(limit_s)
-            answer = plan_goal(loaded, measure, planners, cancel, progress.append)
-            space = check_answer_in_space(loaded, answer) if geometry else None
+            if geometry:
+                answer, space = plan_goal_in_space(loaded, measure, planners, cancel, progress.append)
+            else:
+                answer, space = plan_goal(loaded, measure, planners, cancel, progress.append), None
         if as_json:
             click.echo(plan_as_json(answer, loaded, space))
         else:

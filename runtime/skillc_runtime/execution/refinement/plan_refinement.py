@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from skillc_model import tree
-from skillc_model.conditions import Individual
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.refinement.failure import SpaceFailure
+from skillc_runtime.execution.refinement.scope import call_of
 from skillc_runtime.execution.refinement.situation import ArmMotion, Situation, begin_at_home
 from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.planning.plan import Step
@@ -16,6 +15,9 @@ from skillc_runtime.planning.validation import apply_effects
 from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
+
+RETRIES = 4
+"""How often a step may fail before no other ways to do the steps before it are tried."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,11 +31,15 @@ class RefinedStep:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlanRefinement:
-    """The steps that go in space, in order, and why the next one does not; None if all go."""
+    """The steps that go in space, in order, and why the next one, which begins in a situation, does not.
+
+    None if all go, or nothing says why.
+    """
 
     steps: tuple[RefinedStep, ...]
     failed: Step | None = None
     failure: SpaceFailure | None = None
+    before: Situation | None = None
 
 
 def refine_plan(library: SkillLibrary, state: WorldState, steps: Sequence[Step]) -> PlanRefinement:
@@ -45,6 +51,7 @@ class _Refiner:
     def __init__(self, library: SkillLibrary) -> None:
         self._library = library
         self._furthest = PlanRefinement(())
+        self._left = RETRIES
 
     def refine(self, steps: tuple[Step, ...], here: Situation) -> PlanRefinement:
         found = next(self._go(steps, here, ()), None)
@@ -58,19 +65,15 @@ class _Refiner:
             yield done
             return
         step, walk = left[0], Walk(self._library)
-        call = tree.Call(
-            skill=step.skill,
-            implementation=None,
-            arguments={name: Individual(iri) for name, iri in step.arguments.items()},
-            out=None,
-            source=self._library.skills[step.skill].source,
-        )
-        for after in walk.go(call, here, Scope({})):
+        for after in walk.go(call_of(step, self._library), here, Scope({})):
             motions = after.motions[len(here.motions) :]
             refined = RefinedStep(step, motions, tuple(walk.unseen))
             yield from self._go(left[1:], self._with_effects(step, after), (*done, refined))
-        if len(done) >= len(self._furthest.steps) and self._furthest.failed is None:
-            self._furthest = PlanRefinement(done, step, walk.furthest)
+            if self._left <= 0:
+                return
+        self._left -= 1
+        if len(done) > len(self._furthest.steps) or self._furthest.failed is None:
+            self._furthest = PlanRefinement(done, step, walk.furthest, here)
 
     def _with_effects(self, step: Step, after: Situation) -> Situation:
         """Return the situation after a step with all that its skill promises."""

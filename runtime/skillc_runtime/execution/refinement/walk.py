@@ -54,8 +54,11 @@ class Walk:
 
     @property
     def furthest(self) -> SpaceFailure | None:
-        """The failure before which the most went well, the first of these; None if nothing failed."""
-        return max(self.failures, key=lambda each: each.depth, default=None)
+        """The failure before which the most went well, the first of these; None if nothing failed.
+
+        That an implementation does not fit counts only if there is no other.
+        """
+        return max(self.failures, key=lambda each: (each.cause != "nothing-fits", each.depth), default=None)
 
     def go(self, node: tree.Node, here: Situation, scope: Scope) -> Iterator[Situation]:
         """Yield the situations after a body, the best first."""

@@ -12,7 +12,7 @@ from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.planning.makespan.lower_bound import TOLERANCE_S, makespan_lower_bound_s
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
-from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable
+from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, Solved, Unsolvable
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
@@ -39,7 +39,7 @@ class MakespanProblem:
     library: SkillLibrary
     state: WorldState
     goal: Condition
-    without: tuple[Step, ...]
+    without: tuple[Excluded, ...]
     cancel: CancelToken
     report: ReportProgress
 
@@ -50,7 +50,7 @@ def minimise_makespan(
     goal: Condition,
     planners: Planners,
     cancel: CancelToken | None = None,
-    without: Sequence[Step] = (),
+    without: Sequence[Excluded] = (),
     report: ReportProgress = ignore_progress,
 ) -> ScheduleResult:
     """Return a plan with times from `state` to the goal, which was simulated in the world model.

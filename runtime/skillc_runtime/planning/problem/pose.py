@@ -11,18 +11,19 @@ import msgspec
 from skillc_model.conditions import Anything, Condition, Exists, Forall, Holds, Individual
 from skillc_model.pddl.constants import most_specific
 from skillc_model.pddl.costs import common_scale
-from skillc_model.pddl.domain import Action, ComputedCost, ExclusionMeaning, PlanningDomain, Predicate
-from skillc_model.pddl.formulas import FALSE, TRUE, Atom, Formula, Negation, Typed, conjunction, rename_terms
+from skillc_model.pddl.domain import Action, ComputedCost, PlanningDomain
+from skillc_model.pddl.formulas import FALSE, TRUE, Formula, Typed, conjunction, rename_terms
 from skillc_model.pddl.goals import add_goal_predicates, ground_goal
-from skillc_model.pddl.names import assign_object_names, make_unique
+from skillc_model.pddl.names import assign_object_names
 from skillc_model.pddl.problem import Problem, action_durations
 from skillc_model.pddl.translate import Untranslatable
 from skillc_model.skills import SkillLibrary
 from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.cancellation import Cancelled, CancelToken
-from skillc_runtime.planning.plan import LeftOut, Step
+from skillc_runtime.planning.plan import Excluded, LeftOut, Step, StepWhile
 from skillc_runtime.planning.problem.domain_cache import get_planning_domain
+from skillc_runtime.planning.problem.excluded_steps import allow_steps, exclude_steps
 from skillc_runtime.planning.problem.initial_state import InitialState
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.object_selection import IndividualsByClass, group_by_class, select_objects
@@ -89,7 +90,7 @@ def pose_problem(
     library: SkillLibrary,
     state: WorldState,
     goal: Condition,
-    without: Sequence[Step] = (),
+    without: Sequence[Excluded] = (),
     size: AbstractionSize | None = None,
     *,
     keep_unneeded: bool = False,
@@ -106,11 +107,14 @@ def pose_problem(
     domain = get_planning_domain(
         library, _class_combinations(kinds, state.vocabulary), lambda iri: _most_specific_classes(iri, state)
     )
+    conditional = [each for each in without if isinstance(each, StepWhile) and each.step not in without]
+    named = named.union(*(_check_known(each.condition, state) for each in conditional))
     wanted = _ground_goal(goal, library, domain, named, state)
-    domain = add_goal_predicates(wanted, library, domain)
+    conditions = [(each.step, _ground_goal(each.condition, library, domain, named, state)) for each in conditional]
+    domain = add_goal_predicates(conjunction((wanted, *(each for _, each in conditions))), library, domain)
     useful = RelevantDomain(domain, ()) if wanted == TRUE else keep_relevant_actions(domain, wanted)
     constants = {each.name: domain.names[each.name] for each in useful.domain.constants}
-    closed = None if keep_unneeded or _has_wildcard(goal) or wanted in (TRUE, FALSE) else wanted
+    closed = None if keep_unneeded or conditional or _has_wildcard(goal) or wanted in (TRUE, FALSE) else wanted
     selection = select_objects(useful.domain, state, kinds, named.union(constants.values()), size, closed)
     types = selection.kept
     if _has_wildcard(goal):
@@ -118,7 +122,8 @@ def pose_problem(
     names = _name_objects(constants, types, domain, state.vocabulary)
     by_iri = {iri: name for name, iri in names.items()}
     objects = tuple(Typed(name, types[iri]) for name, iri in sorted(names.items()))
-    domain = exclude_steps(without, useful.domain, by_iri)
+    forbidden = [(each, rename_terms(formula, by_iri)) for each, formula in conditions]
+    domain = allow_steps(forbidden, exclude_steps(without, useful.domain, by_iri), useful.domain, by_iri)
     initial = InitialState(domain, state, objects, names)
     problem = Problem(
         name="task",
@@ -190,11 +195,18 @@ def _list_left_out_skills(useful: RelevantDomain, goal: Condition, library: Skil
         yield LeftOut((each.skill,), each.reason, harmless=each.skill not in matter, kind="skills")
 
 
-def _list_left_out_steps(steps: Sequence[Step], state: WorldState) -> Iterator[LeftOut]:
-    if steps:
-        short = state.vocabulary.short
-        shown = (f"{each.skill}({', '.join(map(short, each.arguments.values()))})" for each in steps)
-        yield LeftOut(tuple(shown), "they failed before", harmless=False, kind="steps")
+def _list_left_out_steps(steps: Sequence[Excluded], state: WorldState) -> Iterator[LeftOut]:
+    short = state.vocabulary.short
+
+    def show(step: Step) -> str:
+        return f"{step.skill}({', '.join(map(short, step.arguments.values()))})"
+
+    failed = tuple(show(each) for each in steps if isinstance(each, Step))
+    if failed:
+        yield LeftOut(failed, "they failed before", harmless=False, kind="steps")
+    for each in steps:
+        if isinstance(each, StepWhile):
+            yield LeftOut((show(each.step),), each.why, harmless=False, kind="steps")
 
 
 def _with_vocabulary(library: SkillLibrary, vocabulary: Vocabulary) -> SkillLibrary:
@@ -266,23 +278,3 @@ def _ground_goal(
         raise GoalError(f"the goal {reason}") from reason
     except EvaluationError as error:
         raise GoalError(f"the goal cannot be decided: {error}") from error
-
-
-def exclude_steps(steps: Sequence[Step], domain: PlanningDomain, names: Mapping[str, str]) -> PlanningDomain:
-    """Return the domain without the steps; `names` are those of the objects, by IRI.
-
-    An action gets a static predicate that is true of the arguments of its steps, and the precondition that it is false.
-    A disjunction of inequalities would say the same, but planners expand disjunctions, and several multiply.
-    """
-    known = [step for step in steps if names.keys() >= set(step.arguments.values())]
-    actions, predicates = list(domain.actions), list(domain.predicates)
-    for number, action in enumerate(actions):
-        arguments = tuple(
-            tuple(step.arguments[each] for each in action.binds) for step in known if step.skill == action.skill
-        )
-        if arguments:
-            name = make_unique(f"excluded-{action.name}", {*domain.names, *domain.predicate})
-            predicates.append(Predicate(name, action.parameters, ExclusionMeaning(arguments), changes=False))
-            allowed = Negation(Atom(name, tuple(each.name for each in action.parameters)))
-            actions[number] = replace(action, precondition=conjunction((action.precondition, allowed)))
-    return replace(domain, actions=tuple(actions), predicates=tuple(predicates))

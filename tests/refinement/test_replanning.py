@@ -1,0 +1,66 @@
+"""What does not go in space is planned around: what stands on a part is moved away first, and not into its place."""
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from skillc.cli.main import skillc
+from skillc_skills import sorting
+
+CELL = (Path(sorting.__path__[0]) / "panda.ttl").read_text()
+PART_B = "skillc:on lab:Table ; skillc:atX 0.0 ; skillc:atY -0.2 ."
+PART_A = "skillc:on lab:Table ; skillc:atX -0.05 ; skillc:atY -0.35 ."
+
+
+def plan(folder: Path, *replaced: tuple[str, str], planner: str = "") -> dict:
+    text = CELL
+    for old, new in replaced:
+        assert old in text
+        text = text.replace(old, new)
+    (folder / "cell.ttl").write_text(text)
+    asked = ["--library", "sorting", "--scene", str(folder / "cell.ttl"), "--goal", "lab:Box-A contain lab:Part-A"]
+    return json.loads(CliRunner().invoke(skillc, ["plan", *asked, "--json", "--no-plan-cache"]).stdout)
+
+
+def steps(answer: dict) -> list[tuple[str, str]]:
+    return [(each["skill"], each["arguments"]["object"]) for each in answer["plan"]]
+
+
+@pytest.mark.slow
+def test_what_stands_on_a_part_is_moved_away_first_and_not_to_where_the_part_shall_go(tmp_path):
+    answer = plan(tmp_path, (PART_B, "skillc:on lab:Part-A ."))
+    assert steps(answer) == [
+        ("Pick", "lab:Part-B"),
+        ("Place", "lab:Part-B"),
+        ("Pick", "lab:Part-A"),
+        ("Place", "lab:Part-A"),
+    ]
+    assert answer["plan"][1]["arguments"]["to"] == "lab:Box-B"
+    assert answer["space"]["checked"] == 4
+    assert answer["space"]["failure"] is None
+    assert answer["optimal"] == "optimal for the filtered problem"
+    why = [each["why"] for each in answer["left_out"] if each["kind"] == "steps"]
+    assert "lab:Part-B is in the way of lab:Hand-1 around lab:Part-A" in why[0]
+    assert "lab:Box-A is full" in why[1]
+
+
+@pytest.mark.slow
+def test_a_part_that_stands_free_is_taken_at_once_and_the_plan_stays_proved(tmp_path):
+    answer = plan(tmp_path)
+    assert steps(answer) == [("Pick", "lab:Part-A"), ("Place", "lab:Part-A")]
+    assert answer["optimal"] == "proven"
+
+
+@pytest.mark.slow
+def test_what_nobody_can_move_leaves_no_plan_and_the_cause_is_said(tmp_path):
+    roof = """
+lab:Roof a skillc:Furniture ; skiros:SizeX 0.2 ; skiros:SizeY 0.2 ; skiros:SizeZ 0.02 ;
+    skiros:FrameId "roof" ; skiros:BaseFrameId "map" ;
+    skiros:PositionX 0.45 ; skiros:PositionY -0.35 ; skiros:PositionZ 0.72 .
+lab:Cell skiros:contain lab:Roof .
+"""
+    answer = plan(tmp_path, (PART_A, PART_A + roof))
+    assert answer["status"] != "solved"
+    assert "lab:Part-A" in answer["failure"]
