@@ -38,6 +38,7 @@ def test_shipped_plans_are_checked_whole(task):
         "checked": len(answer["plan"]),
         "steps": len(answer["plan"]),
         "unseen": [],
+        "chosen": [],
         "failure": None,
     }
     assert len(answer["plan"]) >= 2

@@ -20,20 +20,27 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class SpaceClaim:
-    """How many steps of a plan go in space, of how many; calls that were not looked at, by step; why the next fails."""
+    """How many steps of a plan go in space, of how many; calls that were not looked at, by step; why the next fails.
+
+    chosen: the steps that go only with another posture than the one nearest to home.
+    """
 
     checked: int
     steps: int
     unseen: tuple[tuple[int, str], ...] = ()
+    chosen: tuple[int, ...] = ()
     failure: str | None = None
 
     @property
     def text(self) -> str:
         """The claim, with a line for each step that was not looked at or does not go."""
-        looked = self.checked - len({number for number, _ in self.unseen})
+        looked = self.checked - len({number for number, _ in self.unseen} | {*self.chosen})
         of = f"all {self.steps}" if looked == self.steps else f"{looked} of {self.steps}"
         lines = [f"{of} checked in space: reach, joints, torques, paths, room; the arms begin at home"]
         lines += (f"step {number}: nobody says what {what} needs of space" for number, what in self.unseen)
+        lines += (
+            f"step {number} goes only with another posture than the nearest one to home" for number in self.chosen
+        )
         if self.failure is not None:
             lines.append(f"step {self.checked + 1} does not go: {self.failure}")
         return "\n".join(lines)
@@ -42,7 +49,13 @@ class SpaceClaim:
     def data(self) -> dict[str, object]:
         """The claim as plain data."""
         unseen = [{"step": number, "what": what} for number, what in self.unseen]
-        return {"checked": self.checked, "steps": self.steps, "unseen": unseen, "failure": self.failure}
+        return {
+            "checked": self.checked,
+            "steps": self.steps,
+            "unseen": unseen,
+            "chosen": list(self.chosen),
+            "failure": self.failure,
+        }
 
 
 def plan_goal_in_space(
@@ -70,7 +83,8 @@ def plan_goal_in_space(
 def make_claim(found: PlanRefinement, steps: int) -> SpaceClaim:
     """Return what a refinement of so many steps says."""
     unseen = tuple((number, call) for number, each in enumerate(found.steps, 1) for call in each.unseen)
+    chosen = tuple(number for number, each in enumerate(found.steps, 1) if any(one.chosen for one in each.motions))
     failure = None
     if found.failed is not None:
         failure = "no way was found" if found.failure is None else found.failure.message
-    return SpaceClaim(len(found.steps), steps, unseen, failure)
+    return SpaceClaim(len(found.steps), steps, unseen, chosen, failure)

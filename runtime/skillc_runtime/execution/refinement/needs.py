@@ -56,7 +56,7 @@ def meet(need: SpaceNeed, here: Situation) -> Iterator[Outcome]:
         case Reach(arm=arm, tool=tool):
             yield from _reach(view_arm(here, arm), tool, here)
         case Take(arm=arm, q=q):
-            yield _take(view_arm(here, arm), q, here)
+            yield _take(view_arm(here, arm), q, here, chosen=False)
         case Follow(arm=arm, poses=poses):
             yield _follow(view_arm(here, arm), poses, here)
         case Press(arm=arm, force=force):
@@ -77,10 +77,14 @@ def _reach(view: ArmView, tool: Pose, here: Situation) -> Iterator[Outcome]:
     found = rank_postures(view.chain, view.base.inverse() @ tool, view.free_range, view.home)
     if not len(found):
         yield SpaceFailure("out-of-reach", f"no posture of {_name(view, here)} brings its tool to {_place(tool)}")
-    yield from (_take(view, q, here) for q in found[:MOST_POSTURES])
+    chosen = False
+    for q in found[:MOST_POSTURES]:
+        after = _take(view, q, here, chosen)
+        yield after
+        chosen |= isinstance(after, Situation)
 
 
-def _take(view: ArmView, q: Array, here: Situation) -> Outcome:
+def _take(view: ArmView, q: Array, here: Situation, chosen: bool) -> Outcome:
     """Return the situation after a motion of the joints to a posture (nv,) in rad, or what is in its way."""
     try:
         way = plan_joint_path(view.checker, view.q, [q], view.space)
@@ -88,7 +92,7 @@ def _take(view: ArmView, q: Array, here: Situation) -> Outcome:
         touch = view.checker.find_collision(q)
         cause, other = ("no-path", frozenset[str]()) if touch is None else ("in-the-way", frozenset((touch.other,)))
         return SpaceFailure(cause, str(why), blockers=other)  # type: ignore[arg-type]
-    return here.with_motion(ArmMotion(view.arm, way, along=False))
+    return here.with_motion(ArmMotion(view.arm, way, along=False, chosen=chosen))
 
 
 def _follow(view: ArmView, poses: tuple[Pose, ...], here: Situation) -> Outcome:

@@ -16,11 +16,15 @@ from skillc_runtime.world.state.world_state import WorldState
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ArmMotion:
-    """A motion of an arm through postures, each (nv,) in rad; `along` if its tool follows a path."""
+    """A motion of an arm through postures, each (nv,) in rad; `along` if its tool follows a path.
+
+    `chosen` if a run would by itself take another posture, which is free as well.
+    """
 
     arm: str
     postures: tuple[Array, ...]
     along: bool
+    chosen: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
