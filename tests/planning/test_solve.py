@@ -7,7 +7,7 @@ from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, WIPING, library, 
 from skillc_model.conditions import And, Condition, Exists, Forall, Holds, Individual, Not, Or, PropertyOf, Variable
 from skillc_rdf.vocabulary.types import ClassTerm
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Step, Unsolvable
+from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Step, StepWhile, Unsolvable
 from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
@@ -106,6 +106,28 @@ def test_many_steps_that_may_not_be_used_do_not_multiply(planner: Planner) -> No
     answer = solve(WIPING, state, goal, (planner,), without=every)
     assert isinstance(answer, GaveUp), "it is not proved, since steps were left out"
     assert "Drive needs not tried before with" in answer.why
+
+
+@pytest.mark.parametrize("planner", list_planners(), ids=lambda planner: planner.name)
+def test_a_step_that_does_not_go_while_something_stands_there_comes_after_it_is_moved(planner: Planner) -> None:
+    lies_there = And((Holds(i("shelf"), iri("contain"), i("eraser")),))
+    never = And((Holds(i("shelf"), iri("contain"), i("eraser")), Holds(i("wall"), iri("contain"), i("eraser"))))
+    goal = Holds(i("robot"), iri("at"), i("wall"))
+
+    def drive(start: str) -> Step:
+        return Step("Drive", {"robot": iri("robot"), "to": iri("wall"), "from": iri(start)})
+
+    blocked = [StepWhile(drive(start), lies_there, "it is in the way") for start in ("dock", "shelf")]
+    found = solve(WIPING, LAB, goal, (planner,), without=blocked)
+    assert skills(found) == ["Drive", "Pick", "Drive"]
+    assert isinstance(found, Solved) and found.optimal == "optimal for the filtered problem"
+    assert [each.why for each in found.left_out if each.kind == "steps"] == ["it is in the way"] * 2
+    twice = [*blocked, *(StepWhile(drive(start), never, "twice") for start in ("dock", "shelf"))]
+    assert skills(solve(WIPING, LAB, goal, (planner,), without=twice)) == ["Drive", "Pick", "Drive"]
+    free = [StepWhile(drive("dock"), never, "never so")]
+    assert skills(solve(WIPING, LAB, goal, (planner,), without=free)) == ["Drive"]
+    for_good = [*blocked, drive("dock"), drive("shelf")]
+    assert isinstance(solve(WIPING, LAB, goal, (planner,), without=for_good), GaveUp)
 
 
 def test_a_skill_left_out_of_planning_is_named_when_the_goal_needs_it() -> None:

@@ -14,14 +14,13 @@ Cause: TypeAlias = Literal[
 class SpaceFailure:
     """Why a primitive does not get what it needs, as a sentence without its subject.
 
-    `depth` is how many needs were met before; `blockers` are the short names of what is in the way.
+    `depth` is how many motions went well before, `within` the calls around it, from the outermost on.
     """
 
     cause: Cause
     why: str
     depth: int = 0
     within: tuple[str, ...] = ()
-    blockers: frozenset[str] = frozenset()
 
     @property
     def message(self) -> str:

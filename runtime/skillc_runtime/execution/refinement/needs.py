@@ -90,8 +90,7 @@ def _take(view: ArmView, q: Array, here: Situation, chosen: bool) -> Outcome:
         way = plan_joint_path(view.checker, view.q, [q], view.space)
     except NoPath as why:
         touch = view.checker.find_collision(q)
-        cause, other = ("no-path", frozenset[str]()) if touch is None else ("in-the-way", frozenset((touch.other,)))
-        return SpaceFailure(cause, str(why), blockers=other)  # type: ignore[arg-type]
+        return SpaceFailure("no-path" if touch is None else "in-the-way", str(why))
     return here.with_motion(ArmMotion(view.arm, way, along=False, chosen=chosen))
 
 
@@ -133,7 +132,7 @@ def _explain(view: ArmView, sweep: Sweep, sampled: Array, here: Situation) -> Sp
 
 def _overlap(touch: Collision) -> SpaceFailure:
     why = f"on the way of the tool {touch} and overlap it by {-1e3 * touch.distance_m:.0f} mm"
-    return SpaceFailure("in-the-way", why, blockers=frozenset((touch.other,)))
+    return SpaceFailure("in-the-way", why)
 
 
 def _hold(need: Hold, here: Situation) -> Situation:

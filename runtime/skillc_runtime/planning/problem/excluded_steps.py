@@ -50,18 +50,19 @@ def allow_steps(
         for (name, arguments), held in conditions.items():
             if name == action.name:
                 found, meant = _add_predicate(found, f"only-{action.name}", action, (arguments,))
-                free = [disjunction(map(_negate, conjuncts(each))) for each in held]
+                free = [negate(each) for each in held]
                 copy = make_unique(f"{action.name}-again", {each.name for each in found.actions} | {*found.names})
                 again = replace(action, name=copy, precondition=conjunction((action.precondition, meant, *free)))
                 found = replace(found, actions=(*found.actions, again))
     return found
 
 
-def _negate(part: Formula) -> Formula:
-    """Return the negation of an atom; ValueError for anything else, which no condition of a step has."""
-    if not isinstance(part, Atom | Equal):
-        raise ValueError(f"{part} is not an atom")
-    return Negation(part)
+def negate(condition: Formula) -> Formula:
+    """Return that a conjunction of atoms does not hold; ValueError for anything else, which excludes no step."""
+    parts = conjuncts(condition)
+    if not all(isinstance(each, Atom | Equal) for each in parts):
+        raise ValueError(f"{condition} is not a conjunction of atoms")
+    return disjunction(Negation(each) for each in parts if isinstance(each, Atom | Equal))
 
 
 def _arguments_of(action: Action, steps: Iterable[Step], names: Mapping[str, str]) -> tuple[tuple[str, ...], ...]:

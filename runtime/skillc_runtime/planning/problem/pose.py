@@ -23,7 +23,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.planning.plan import Excluded, LeftOut, Step, StepWhile
 from skillc_runtime.planning.problem.domain_cache import get_planning_domain
-from skillc_runtime.planning.problem.excluded_steps import allow_steps, exclude_steps
+from skillc_runtime.planning.problem.excluded_steps import allow_steps, exclude_steps, negate
 from skillc_runtime.planning.problem.initial_state import InitialState
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.object_selection import IndividualsByClass, group_by_class, select_objects
@@ -112,7 +112,8 @@ def pose_problem(
     wanted = _ground_goal(goal, library, domain, named, state)
     conditions = [(each.step, _ground_goal(each.condition, library, domain, named, state)) for each in conditional]
     domain = add_goal_predicates(conjunction((wanted, *(each for _, each in conditions))), library, domain)
-    useful = RelevantDomain(domain, ()) if wanted == TRUE else keep_relevant_actions(domain, wanted)
+    aims = conjunction((wanted, *(negate(each) for _, each in conditions)))
+    useful = RelevantDomain(domain, ()) if wanted == TRUE else keep_relevant_actions(domain, aims)
     constants = {each.name: domain.names[each.name] for each in useful.domain.constants}
     closed = None if keep_unneeded or conditional or _has_wildcard(goal) or wanted in (TRUE, FALSE) else wanted
     selection = select_objects(useful.domain, state, kinds, named.union(constants.values()), size, closed)
