@@ -14,7 +14,7 @@ PART_B = "skillc:on lab:Table ; skillc:atX 0.0 ; skillc:atY -0.2 ."
 PART_A = "skillc:on lab:Table ; skillc:atX -0.05 ; skillc:atY -0.35 ."
 
 
-def plan(folder: Path, *replaced: tuple[str, str], planner: str = "") -> dict:
+def plan(folder: Path, *replaced: tuple[str, str]) -> dict:
     text = CELL
     for old, new in replaced:
         assert old in text
@@ -44,6 +44,23 @@ def test_what_stands_on_a_part_is_moved_away_first_and_not_to_where_the_part_sha
     why = [each["why"] for each in answer["left_out"] if each["kind"] == "steps"]
     assert "lab:Part-B is in the way of lab:Hand-1 around lab:Part-A" in why[0]
     assert "lab:Box-A is full" in why[1]
+
+
+@pytest.mark.slow
+def test_a_pile_is_taken_from_its_top(tmp_path):
+    """What lies on a part is not lifted with it, though a hand could take the part from the side."""
+    more = """
+lab:Cell skiros:contain lab:Part-C, lab:Tray .
+lab:Part-C a sorting:WorkPart ; skiros:SizeX 0.03 ; skiros:SizeY 0.03 ; skiros:SizeZ 0.04 ; skiros:Weight 0.1 ;
+    skillc:on lab:Part-B .
+lab:Tray a sorting:Box ; skiros:SizeX 0.26 ; skiros:SizeY 0.26 ; skiros:SizeZ 0.05 ;
+    skillc:on lab:Table ; skillc:atX 0.12 ; skillc:atY 0.0 .
+"""
+    answer = plan(tmp_path, (PART_B, "skillc:on lab:Part-A ." + more))
+    assert [thing for skill, thing in steps(answer) if skill == "Pick"] == ["lab:Part-C", "lab:Part-B", "lab:Part-A"]
+    assert answer["space"]["checked"] == 6
+    why = " ".join(each["why"] for each in answer["left_out"] if each["kind"] == "steps")
+    assert "lab:Part-C lies on lab:Part-B" in why
 
 
 @pytest.mark.slow

@@ -28,11 +28,13 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.primitives.move import MOST_POSTURES
 from skillc_runtime.primitives.space_needs import Follow, Hold, Leave, Open, Press, Reach, SpaceNeed, Spread, Take
+from skillc_runtime.world.space.bounding_boxes import TOUCH_M
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
 from skillc_runtime.world.space.grasp_geometry import is_sideways
 from skillc_runtime.world.space.hollow import gap_below
 from skillc_runtime.world.space.occupants import read_occupants
+from skillc_runtime.world.space.whereabouts import holders_of
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.terms import HELD_SIDEWAYS
 
@@ -135,8 +137,13 @@ def _overlap(touch: Collision) -> SpaceFailure:
     return SpaceFailure("in-the-way", why)
 
 
-def _hold(need: Hold, here: Situation) -> Situation:
+def _hold(need: Hold, here: Situation) -> Outcome:
+    """Return the situation with a thing in the hand, or what lies on it, unless it is carried along."""
     state = here.state
+    above = next(_lying_on(here, need.thing), None)
+    if above is not None:
+        short = state.vocabulary.short
+        return SpaceFailure("in-the-way", f"{short(above)} lies on {short(need.thing)}, which is to be moved")
     in_hand = need.at.inverse() @ pose(state, need.thing)
     changes = relocation_changes(state, need.thing, in_hand, frame_name(state, need.gripper))
     return here.with_changes([*changes, SetProperty(need.thing, HELD_SIDEWAYS, is_sideways(need.at))])
@@ -148,6 +155,18 @@ def _leave(need: Leave, here: Situation) -> Situation:
     there = here.with_changes(put_down_changes(state, need.thing, left_at, need.to))
     down = Pose(left_at.position - np.array([0.0, 0.0, _gap_m(there, need.thing)]), left_at.rotation)
     return here.with_changes(put_down_changes(state, need.thing, down, need.to))
+
+
+def _lying_on(here: Situation, thing: str) -> Iterator[str]:
+    """Yield the things that lie on a thing which does not contain, and so carry, them."""
+    for each in read_occupants(here.state):
+        if each.movable and each.individual != thing:
+            try:
+                gap = gap_below(here.state, each.individual, thing)
+                if gap is not None and abs(gap) <= TOUCH_M and thing not in holders_of(here.state, each.individual):
+                    yield each.individual
+            except FrameError:
+                continue
 
 
 def _gap_m(here: Situation, thing: str) -> float:

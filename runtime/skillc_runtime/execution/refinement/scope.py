@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
 
 from skillc_model import tree
 from skillc_model.conditions import And, Expression, Holds, Individual
@@ -10,9 +11,12 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.refinement.situation import Situation
 from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.planning.plan import Excluded, Step, StepWhile
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import moves_with
 from skillc_runtime.world.state.changes import Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.terms import BASE_FRAME_ID, CONTAIN, MANIPULATABLE, ON
+from skillc_runtime.world.state.world_state import WorldState
 
 NOWHERE = "nowhere"
 """The frame of things that are thought away: none has this name, so that they have no pose."""
@@ -36,7 +40,8 @@ def find_excluded(library: SkillLibrary, before: Situation, step: Step, why: str
     while these are where they are, it does not go. If it does not go without all of them, it is excluded for good.
     """
     state = before.state
-    things = sorted(state.instances(MANIPULATABLE) - set(step.arguments.values()))
+    named = set(step.arguments.values())
+    things = [each for each in sorted(state.instances(MANIPULATABLE) - named) if not _bears(state, each, named)]
     placed = {each: holder for each in things for holder in state.subjects(CONTAIN, each)}
     if not placed or len(placed) > MOST_THINGS or not _goes(library, before, step, placed):
         return step
@@ -47,6 +52,15 @@ def find_excluded(library: SkillLibrary, before: Situation, step: Step, why: str
             blocking = fewer
     facts = tuple(Holds(Individual(holder), CONTAIN, Individual(thing)) for thing, holder in blocking.items())
     return StepWhile(step, And(facts), why)
+
+
+def _bears(state: WorldState, thing: str, named: Iterable[str]) -> bool:
+    """Whether something that a step names is placed on a thing, so that it would have no pose without it."""
+    for each in named:
+        with suppress(FrameError):
+            if moves_with(state, each, thing):
+                return True
+    return False
 
 
 def _goes(library: SkillLibrary, before: Situation, step: Step, away: Iterable[str]) -> bool:
