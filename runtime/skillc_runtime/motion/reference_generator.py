@@ -12,7 +12,7 @@ from skillc_runtime.motion.numerics.compiled import bind
 from skillc_runtime.motion.overlays import GIVEN, FadedOverlay
 from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory, resting_reference
-from skillc_runtime.motion.reference_plan import make_plan, sample_motion, sample_reference
+from skillc_runtime.motion.reference_plan import make_plan, sample_reference
 from skillc_runtime.motion.shift import Shift
 from skillc_runtime.motion.stopping_motion import stopping_motion
 from skillc_runtime.motion.time_scaling import RAMP_S, TimeScaling, start_time
@@ -242,7 +242,7 @@ class ReferenceGenerator:
     def _plan_with(self, table: Array) -> None:
         self.plan = replace(self.plan, table=table)
         self._sample = bind(sample_reference, self.plan)
-        self._look = bind(sample_motion, replace(self.plan, path=self._looked))
+        self._look = bind(sample_reference, replace(self.plan, path=self._looked, rows=np.empty((8, 3))))
 
 
 def _describe(trajectory: Trajectory | None) -> tuple[Array, float, float]:

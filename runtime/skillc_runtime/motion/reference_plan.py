@@ -184,10 +184,3 @@ def sample_plan(plan: ReferencePlan, now: float) -> bool:
 def sample_reference(plan: ReferencePlan, now: float) -> bool:
     """Compute `path` and `rows` at `now` in s; return whether an overlay has faded out."""
     return sample_plan(plan, now)
-
-
-@compiled
-def sample_motion(plan: ReferencePlan, now: float) -> bool:
-    """Compute `path` at `now` in s; return False."""
-    sample_path(plan, now)
-    return False
