@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.collision.collision_model import MOVES, CollisionModel
-from skillc_runtime.collision.free_motion import find_advance, read_part_motions
+from skillc_runtime.collision.free_motion import make_find_advance, read_part_motions
 from skillc_runtime.motion.pose import Array
 
 SLACK_M = 0.001
@@ -49,7 +49,7 @@ class CollisionChecker:
         self._data.qpos[body.joints :] = body.fingers
         self._arm, self._contact = self._data.qpos[: body.joints], self._data.contact
         self._moves: list[bool] = (body.compiled.geom_contype == MOVES).tolist()
-        self._parts = read_part_motions(body, max(body.margin, MIN_STEP_M))
+        self._find_advance = make_find_advance(read_part_motions(body, max(body.margin, MIN_STEP_M)))
         self._usual = self._least = self._usual_distances()
         self._touching_at_home = frozenset(filter(self._within, self.overlapping_pairs(home)))
         for pair in self._touching_at_home:
@@ -105,7 +105,7 @@ class CollisionChecker:
         change, share, before = goal - start, 0.0, 0.0
         while True:
             self._look(start + share * change)
-            ahead = find_advance(self._parts, self._least, self._data, change)
+            ahead = self._find_advance(self._least, self._data, change)
             if ahead < 0.0:
                 return before
             if share == 1.0:

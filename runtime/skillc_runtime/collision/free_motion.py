@@ -6,17 +6,24 @@ was never closer than half of what it must keep.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import sqrt
-from typing import Any
+from typing import Any, TypeAlias
 
 import mujoco
 import numpy as np
 
 from skillc_runtime.collision.collision_model import MOVES, CollisionModel, joints_of
 from skillc_runtime.motion.arrays import Matrix, Vector
-from skillc_runtime.motion.numerics.compiled import compiled, inlined
+from skillc_runtime.motion.numerics.compiled import bind, compiled, inlined
 from skillc_runtime.motion.pose import Array
+
+FindAdvance: TypeAlias = Callable[[Array, Any, Array], float]
+"""Returns which share of a change of joints (nv,) needs no further look, below 0 if a pair is too close.
+
+Arguments: m, how close each pair may be, (geoms, geoms); MuJoCo's data with the contacts at the posture; the change.
+"""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,19 +64,9 @@ def read_part_motions(model: CollisionModel, step_m: float) -> PartMotions:
     )
 
 
-def find_advance(parts: PartMotions, least: Array, data: Any, change: Array) -> float:
-    """Return which share of a change of joints (nv,) needs no further look, below 0 if a pair is too close.
-
-    least (geoms, geoms): m, how close each pair may be; `data` is MuJoCo's, with the contacts at the posture.
-    """
-    contact = data.contact
-    pairs, far = contact.geom.astype(float), contact.dist
-    return _advance(parts, least, pairs, far, data.geom_xpos, change)
-
-
 @compiled
 def _advance(parts: PartMotions, least: Matrix, pairs: Matrix, far: Vector, places: Matrix, change: Vector) -> float:
-    """As `find_advance`; pairs (n, 2), far (n,): reported pairs of parts and m; places (geoms, 3): m, of all parts."""
+    """As `FindAdvance`; pairs (n, 2), far (n,): reported pairs of parts, and m; places (geoms, 3): m, of all parts."""
     n, fastest = change.size, 0.0
     for g in range(parts.reach.shape[0]):
         moved = 0.0
@@ -111,3 +108,13 @@ def _distance_to_blocks(blocks: Array, place: Array, most: float) -> float:
             square += outside * outside
         nearest = min(nearest, square)
     return sqrt(nearest)
+
+
+def make_find_advance(parts: PartMotions) -> FindAdvance:
+    """Return the function for parts whose arrays keep their places in memory."""
+    advance = bind(_advance, parts)
+
+    def find_advance(least: Array, data: Any, change: Array) -> float:
+        return advance(least, data.contact.geom.astype(float), data.contact.dist, data.geom_xpos, change)
+
+    return find_advance

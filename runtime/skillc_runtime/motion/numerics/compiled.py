@@ -146,7 +146,7 @@ def _on_memory(function: Callable[Parameters, Result]) -> Callable[Parameters, R
     arguments = "".join(f", {each}" for each in others)
     source = "\n".join(
         (
-            f"def at_places(places{arguments}):", *views, f"    return function({packed}{arguments})",
+            f"def at_places(_places{arguments}):", *views, f"    return function({packed}{arguments})",
             f"def bind({first}):",
             f"    kept = [np.asarray(each, np.float64) for each in ({''.join(f'{each}, ' for each in leaves)})]",
             "    call = partial(at_places, np.array([find_place(each) for each in kept]))",
@@ -155,7 +155,7 @@ def _on_memory(function: Callable[Parameters, Result]) -> Callable[Parameters, R
             f"def call({first}{arguments}):", f"    return bind({first})({', '.join(others)})", "",
         )
     )  # fmt: skip
-    types = {"places": PLACES, **{each: annotations[each] for each in others}, "return": returns}
+    types = {"_places": PLACES, **{each: annotations[each] for each in others}, "return": returns}
     call: Any = _built(function, source, names, "at_places", types)
     call.bind, call.__wrapped__ = names["bind"], function
     on_memory: Callable[Parameters, Result] = call
@@ -176,8 +176,8 @@ def _built(function: Any, source: str, names: dict[str, Any], inner: str, types:
 def _view(annotation: Any) -> str:
     """Return the expression of a field in the table of places: an array there, or a number."""
     if annotation is float:
-        return "vector_at(places, {row})[0]"
-    return "vector_at(places, {row})" if annotation.__metadata__[0] == 1 else "matrix_at(places, {row})"
+        return "vector_at(_places, {row})[0]"
+    return "vector_at(_places, {row})" if annotation.__metadata__[0] == 1 else "matrix_at(_places, {row})"
 
 
 @cache
