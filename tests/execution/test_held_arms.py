@@ -50,8 +50,7 @@ def released(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
         return plan_joint_path(*arguments)  # type: ignore[arg-type]
 
     monkeypatch.setattr(motion_search, "plan_joint_path", search)
-    monkeypatch.setattr(path_planning, "MAX_CHECKS", 1)
-    monkeypatch.setattr(path_planning, "DRAWN", 1)
+    monkeypatch.setattr(path_planning, "SEARCHES", ())
     return file
 
 

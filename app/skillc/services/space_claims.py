@@ -13,6 +13,7 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.plan import Excluded, GaveUp, Unsolvable
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.progress import ReportProgress
+from skillc_runtime.world.state.terms import ARM_DEVICE
 
 if TYPE_CHECKING:
     from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement
@@ -63,13 +64,13 @@ def plan_goal_in_space(
 ) -> tuple[Answer, SpaceClaim | None]:
     """Plan as `plan_goal` does, for a plan that the arms can carry out; return it and what is known of it in space.
 
-    None if nothing is known because that is not installed which looks at it.
+    None if there is no arm, or if nothing is known because that is not installed which looks at it.
     """
 
     def plan(without: Sequence[Excluded]) -> Answer:
         return plan_goal(loaded, measure, planners, cancel, report, without)
 
-    if missing_extras("run"):
+    if missing_extras("run") or not loaded.assignment.state.instances(ARM_DEVICE):
         return plan(()), None
     # The simulator is slow to import.
     from skillc_runtime.execution.refinement.replanning import plan_in_space

@@ -161,5 +161,5 @@ def virtual_motion(
     compliance: Compliance,
     period: float,
 ) -> bool:
-    """Compute dq (nv,) and the limited command; see `move_virtual_arm`."""
+    """Compute dq (nv,) in rad/s and the limited command for `period` s; see `move_virtual_arm`."""
     return move_virtual_arm(memory, virtual, measured, felt, reference, compliance, period)

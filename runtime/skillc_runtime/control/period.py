@@ -69,7 +69,7 @@ class ImpedancePeriod:
 
 @inlined
 def watch(arm: ArmMemory, period: float) -> int:
-    """Check the measured state; return bits. Nothing but the state is looked at if it is not finite."""
+    """Check the state measured after `period` s; return bits. Nothing else is looked at if it is not finite."""
     state, place, square = arm.state, arm.place, 0.0
     at = state.tool.position
     if not squared(state.q) + squared(state.dq) + squared(state.wrench) + squared(at) < inf:

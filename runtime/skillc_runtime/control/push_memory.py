@@ -84,7 +84,7 @@ def write_push(push: Array, wanted: GuardedPush, axis: Array) -> None:
 
 @inlined
 def begin_approach(push: Array) -> None:
-    """Begin to approach, or approach again."""
+    """Begin to approach, or approach again: the row (n,) of a push, in N, m and s."""
     push[PHASE], push[STEADY], push[DEPTH] = APPROACHING, 0.0, 0.0
     for number in range(MOST_CONDITIONS):
         push[CONDITIONS + number * CONDITION_SIZE + HELD_S] = 0.0
@@ -92,7 +92,7 @@ def begin_approach(push: Array) -> None:
 
 @inlined
 def advance_approach(push: Array, speed: float, force_n: float, period: float) -> float:
-    """Advance by `period` s: `speed` m/s towards the surface, `force_n` N of the surroundings against the tool.
+    """Advance a push (n,) by `period` s: `speed` m/s to the surface, `force_n` N of the surroundings against the tool.
 
     Return an action: PRESS as soon as a condition is met, NO_CONTACT beyond the travel.
     """
@@ -120,7 +120,7 @@ def advance_approach(push: Array, speed: float, force_n: float, period: float) -
 
 @inlined
 def advance_pressing(push: Array, speed: float, period: float) -> float:
-    """Advance by `period` s with `speed` m/s in the direction of the push; return APPROACH if contact was lost."""
+    """Advance a push (n,) by `period` s, `speed` m/s in its direction; return APPROACH if contact was lost."""
     push[FAST] = push[FAST] + period if speed > FALL_SHARE * push[SPEED] else 0.0
     push[LASTED] += period
     return APPROACH if push[FAST] >= FALL_S else GO_ON
@@ -128,7 +128,7 @@ def advance_pressing(push: Array, speed: float, period: float) -> float:
 
 @inlined
 def is_sample_due(push: Array, period: float) -> bool:
-    """Tell whether the force is to be sampled in this period of `period` s."""
+    """Tell whether the force of a push (n,) is to be sampled in this period of `period` s."""
     if push[PHASE] == APPROACHING:
         push[MOVED] = push[MOVED] + period if push[STEADY] >= STEADY_S else 0.0
         measures = push[MOVED] >= FREE_S and push[COUNT] == 0.0
@@ -145,7 +145,7 @@ def is_sample_due(push: Array, period: float) -> bool:
 
 @inlined
 def add_sample(push: Array, force_n: float) -> None:
-    """Add a sample of the measured force in N, of nothing or of what is pressed."""
+    """Add to a push (n,) a sample of the measured force in N, of nothing or of what is pressed."""
     if push[PHASE] == APPROACHING:
         if push[FREE_COUNT] < FREE_SAMPLES:
             push[FREE + int(push[FREE_COUNT])] = force_n

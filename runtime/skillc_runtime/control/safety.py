@@ -78,7 +78,7 @@ class SafetyMemory:
 
 @inlined
 def check_limits(memory: SafetyMemory, state: ArmState, period: float) -> bool:
-    """Observe momentum, and tell once per violation that a limit is violated; to be called every control period."""
+    """Observe momentum; tell once per violation that a limit is violated. To be called every `period` s."""
     limits, clock = memory.limits, memory.clock
     if limits[OBSERVES] != 0.0:
         if limits[MEASURES_EFFORT] != 0.0:

@@ -28,6 +28,7 @@ class ToolTask:
     """
 
     def __init__(self, gains: Gains, law: Controller, tool: Pose) -> None:
+        """Begin with the tool at rest where it is, in the base frame."""
         self.reference_generator = ReferenceGenerator(tool, gains.limits.acceleration_m_s2)
         self.compliance = ComplianceState(gains)
         self._stiffness, self._force_limit = gains.linear_stiffness, gains.limits.force_n

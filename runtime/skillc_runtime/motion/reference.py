@@ -65,7 +65,7 @@ class SampledReference(Protocol):
 
     @property
     def rows(self) -> Matrix:
-        """The rows (8, 3), as in `Reference`."""
+        """The rows (8, 3), as in `Reference`: m, rad and s, in its frame."""
         ...
 
 
@@ -94,12 +94,12 @@ class AppliedCompliance(Protocol):
 
     @property
     def stiffness(self) -> Vector:
-        """The stiffness (6,), N/m and N m/rad."""
+        """The stiffness (6,), N/m and N m/rad, along the axes of C."""
         ...
 
     @property
     def wrench(self) -> Vector:
-        """The exerted wrench (6,), N and N m."""
+        """The exerted wrench (6,), N and N m, along the axes of C."""
         ...
 
     @property

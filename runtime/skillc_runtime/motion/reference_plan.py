@@ -103,7 +103,7 @@ def _brake(rows: Array, stops: Array, time: float) -> None:
 
 @inlined
 def sample_path(plan: ReferencePlan, now: float) -> None:
-    """Compute `path`: the motion, the rest of the one before it, both as fast as their time runs."""
+    """Compute `path` at `now` s: the motion, the rest of the one before it, both as fast as their time runs."""
     path, kind, factor = plan.path, plan.motion[KIND], plan.motion[FACTOR]
     time, rate, slope = _clock_at(plan.clocks[MOTION], now)
     if time >= plan.motion[ENDS]:

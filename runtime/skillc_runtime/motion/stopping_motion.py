@@ -35,7 +35,7 @@ class StoppingMotion:
 
 @compiled
 def stop_at(motion: OutMatrix, velocity: Vector, duration: float, time: float) -> None:
-    """Compute displacement, velocity and acceleration (3, n) of a `StoppingMotion` in its units; time: s."""
+    """Compute displacement, velocity and acceleration (3, n) of a `StoppingMotion`, in its units and frame; time: s."""
     left = 1 - time / duration if time < duration else 0.0
     for i in range(velocity.size):
         motion[0, i] = -(velocity[i] * (duration / 2)) * (left * left)

@@ -20,7 +20,7 @@ COMPILES: bool = os.environ.get("SKILLC_COMPILED", "1") != "0" and find_spec("nu
 
 
 def find_place(array: Array) -> tuple[int, int, int]:
-    """Return the row of an array; ValueError if it is not in C order."""
+    """Return the row of an array (n,) or (n, m) in any unit; ValueError if it is not in C order."""
     if not array.flags.c_contiguous:
         raise ValueError(f"memory of the shape {array.shape} is not in C order")
     rows, columns = array.shape if array.ndim == 2 else (array.size, 1)
