@@ -121,7 +121,7 @@ class SlowedTrajectory:
 
     @property
     def tabled(self) -> tuple[Array, float] | None:
-        """The table (n, 35) of the path, for `reference_plan`, and the factor by which it is slower; None without one."""
+        """The table (n, 35) of the path, for `reference_plan`, and the factor by which it is slower, or None."""
         found: tuple[Array, float] | None = getattr(self.trajectory, "tabled", None)
         return None if found is None else (found[0], found[1] * self.factor)
 
