@@ -43,7 +43,7 @@ def found(state: WorldState) -> list[SceneViolation]:
     [
         ((0.0, 0.5, 0.5), None),
         ((0.0, 0.7, 0.6), None),
-        ((0.0, 0.25, 0.62), "warning"),
+        ((0.0, 0.5, 1.2), "warning"),
         ((0.0, 0.3, 1.5), "error"),
     ],
 )

@@ -31,7 +31,7 @@ def plan_in_space(
     for _ in range(ROUNDS):
         answer = plan(without)
         if isinstance(answer, Unsolvable | GaveUp):
-            return (answer, None) if before is None else (_explain(answer, before[1], state), before[1])
+            return (answer, None) if before is None else (_explain(before[1], state), before[1])
         found = refine_plan(library, state, answer.plan.steps)
         if found.failed is None or found.before is None or cancel.cancelled_because is not None:
             return answer, found
@@ -44,13 +44,12 @@ def plan_in_space(
     return before if before is not None else (answer, None)
 
 
-def _explain(answer: Unsolvable | GaveUp, found: PlanRefinement, state: WorldState) -> GaveUp:
+def _explain(found: PlanRefinement, state: WorldState) -> GaveUp:
     """Return the answer that no plan is known all of whose steps go in space."""
     assert found.failed is not None
     named = ", ".join(state.vocabulary.short(each) for each in found.failed.arguments.values())
     why = found.failure.message if found.failure is not None else "no way was found"
     return GaveUp(
         "the arms can carry out none, for the grasps, postures and places that were tried: "
-        f"{found.failed.skill}({named}) does not go: {why}",
-        causes=answer.causes,
+        f"{found.failed.skill}({named}) does not go: {why}"
     )
