@@ -99,6 +99,16 @@ def test_a_dry_run_does_not_begin_with_a_robot_that_cannot_be_run(toy: Toy) -> N
     assert "lab:Ur5e-1: the toy is in its manual mode; turn the key" in result.stdout
 
 
+def test_a_camera_that_nothing_drives_is_told_before_a_skill_needs_it(toy: Toy, tmp_path: Path) -> None:
+    scene = tmp_path / "cell.ttl"
+    camera = 'lab:Camera-1 a skillc:Camera ; skillc:hasSheet skillc:depth-camera-sheet ; skiros:FrameId "camera" '
+    placed = 'skiros:BaseFrameId "map" ; skiros:PositionX 0.0 ; skiros:PositionY 0.0 ; skiros:PositionZ 2.0'
+    scene.write_text(f"{Path(PLACE).read_text('utf-8')}\n{camera} ; {placed} .\n", "utf-8")
+    result = type_in("connect", str(scene), "--backend", "toy", "--once")
+    assert result.exit_code == 1
+    assert "nothing drives lab:Camera-1: this back end has no cameras; take it out of the scene" in result.stderr
+
+
 @pytest.mark.parametrize("command", [("connect", PLACE), ("run", "contact:press_button", "--dry")])
 def test_a_simulation_has_no_devices_to_connect_to(command: tuple[str, ...]) -> None:
     result = type_in(*command, "--backend", "mujoco")

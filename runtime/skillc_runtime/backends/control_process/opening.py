@@ -47,8 +47,8 @@ def open_cell(
 
     One that is only `observed` takes no control, offers none of its devices, and changes nothing in the world model.
     An arm that gives no control is reported as a stop of the cell. `patience` defaults to the facts of each arm.
-    BackendUnavailable if a device does not answer; SheetError or FrameError if facts are missing or contradict each
-    other or the device.
+    BackendUnavailable if a device does not answer or a camera is not driven; SheetError or FrameError if facts are
+    missing or contradict each other or the device.
     """
     scene = read_scene_spec(world.snapshot())
     if not scene.arms:
@@ -64,6 +64,7 @@ def open_cell(
             arms[facts.individual] = RemoteArmDriver(facts, process, _find_base(scene, facts, bases), things)
         others = make_devices(scene, arms)
         opened.callback(others.close)
+        _check_cameras(scene, others)
         bases.update(others.bases)
         if observed:
             cell = _make_observed(world, scene, arms, others)
@@ -76,6 +77,14 @@ def open_cell(
         cell = _make_cell(world, scene, arms, replace(others, tree_timeout_s=tree_timeout_s))
         opened.pop_all()
     return cell
+
+
+def _check_cameras(scene: SceneSpec, others: CellDevices) -> None:
+    """Raise BackendUnavailable if a skill would find out in the middle of a task that nothing drives a camera."""
+    for each in scene.cameras:
+        if each.individual not in others.cameras:
+            name = scene.names[each.individual]
+            raise BackendUnavailable(f"nothing drives {name}: this back end has no cameras; take it out of the scene")
 
 
 def load_all() -> None:

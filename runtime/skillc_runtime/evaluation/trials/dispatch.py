@@ -64,13 +64,13 @@ def _submit(executor: Executor, order: Order, seed: int) -> Future[Answer]:
 
 
 def _note(ended: SimpleQueue[int], seed: int, _future: Future[Answer]) -> None:
-    ended.put(seed)
+    ended.put_nowait(seed)
 
 
 def _read(seed: int, future: Future[Answer]) -> Tried:
     """Return the trial of a future that has ended."""
     try:
-        answer = future.result()
+        answer = future.result(0)
     except CancelledError as error:
         raise ExecutorError("the executor has given the trials up") from error
     except BrokenExecutor as error:
