@@ -25,7 +25,7 @@ def compile_valid(files: LibraryFiles) -> SkillLibrary:
         return found
     library = _compile(files)
     if path is not None and entry.is_current():
-        cache.store(path, codec.dumps(library))
+        cache.store(path, codec.dumps_as_written(library))
         cache.delete_oldest(path.parent, _MOST, _MOST // 2)
     return library
 
