@@ -18,7 +18,7 @@ CALL = "TakePosture(arm: lab:Panda-1)"
 
 
 class Reporter(SilentReporter):
-    """Keeps what it is told."""
+    """Records the messages that it gets."""
 
     def __init__(self) -> None:
         self.told: list[str] = []

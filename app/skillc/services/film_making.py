@@ -25,7 +25,7 @@ START = "spawn" if DEFAULT_START == "fork" else DEFAULT_START
 """GL libraries that this process has used do not work in a fork of it."""
 
 ShowProgress: TypeAlias = Callable[[str, float], None]
-"""Is told the task of a film that is waited for, and which share of it is made."""
+"""Shows the progress of a film: arguments are the name of its task and the share that is done."""
 
 
 def no_progress(_name: str, _share: float) -> None:

@@ -56,7 +56,7 @@ class RunSamples:
 
 @dataclass(frozen=True, slots=True)
 class ReportDestination:
-    """Where a report is written (None: nowhere), what makes its film, and what is told of problems."""
+    """The folder of a report (None: no report), the processes that render films, and the reporter of problems."""
 
     folder: Path | None
     films: Films

@@ -162,7 +162,7 @@ class _Run:
 
     @property
     def reporter(self) -> Reporter:
-        """What is told of problems."""
+        """The reporter of problems."""
         return self.destination.reporter
 
     def carry_out(self, planning: PlanningJob) -> RunResult:

@@ -95,6 +95,18 @@ def watch_arm(arm: ArmMemory, period: float) -> int:
     return watch(arm, period)
 
 
+@inlined
+def _begin(
+    arm: ArmMemory, compliance: ComplianceMemory, plan: ReferencePlan, now: float, period: float, is_watched: bool
+) -> int:
+    """Check the measured state; without a bit of `WATCHED` advance compliance and reference to `now` s. Return bits."""
+    events = 0 if is_watched else watch(arm, period)
+    if events != 0:
+        return events
+    follow_target(compliance, period)
+    return OVERLAY_OVER if sample_plan(plan, now) else 0
+
+
 @compiled
 def control_by_impedance(memory: ImpedancePeriod, now: float, period: float, is_watched: bool) -> int:
     """Compute the command of a period at `now`, both in s; return bits.
@@ -102,12 +114,9 @@ def control_by_impedance(memory: ImpedancePeriod, now: float, period: float, is_
     Nothing is commanded if something is found before; the caller acts on that, and calls again with `is_watched`.
     """
     arm = memory.arm
-    events = 0 if is_watched else watch(arm, period)
-    if events != 0:
+    events = _begin(arm, memory.compliance, memory.plan, now, period, is_watched)
+    if events & WATCHED:
         return events
-    follow_target(memory.compliance, period)
-    if sample_plan(memory.plan, now):
-        events = events | OVERLAY_OVER
     impedance(memory.tau, memory.law, arm.state, memory.plan, memory.compliance, period)
     if not squared(memory.tau) < inf:
         return events | BAD_COMMAND
@@ -138,12 +147,9 @@ class ForwardDynamicsPeriod:
 def control_by_forward_dynamics(memory: ForwardDynamicsPeriod, now: float, period: float, is_watched: bool) -> int:
     """Compute the command of a period at `now`, both in s, which is in the limits of the law; as the one above."""
     arm, law, virtual = memory.arm, memory.law, memory.virtual
-    events = 0 if is_watched else watch(arm, period)
-    if events != 0:
+    events = _begin(arm, memory.compliance, memory.plan, now, period, is_watched)
+    if events & WATCHED:
         return events
-    follow_target(memory.compliance, period)
-    if sample_plan(memory.plan, now):
-        events = events | OVERLAY_OVER
     copy_vector(arm.state.wrench, law.felt)
     commanded, tool = law.limits[COMMANDED], virtual.tool
     compute_virtual(

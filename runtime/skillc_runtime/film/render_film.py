@@ -31,7 +31,7 @@ END_S = 2.0
 WORKED = "lighter: the tool worked there (ground truth of the simulator)"
 
 Progress = Callable[[float], None]
-"""Is told which share of a film is made."""
+"""Reports the share of a film that is rendered."""
 
 
 def render_film(footage: Footage, directory: Path, progress: Progress = lambda _share: None) -> None:

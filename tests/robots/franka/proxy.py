@@ -232,7 +232,7 @@ class Proxy:
                     relay.close()
 
     def _take(self, orders: bytes) -> None:
-        """Obey all lines that are whole: those that a buffer of Python kept would not be told by `select`."""
+        """Obey all complete lines: `select` does not report lines that are already in a buffer of Python."""
         *lines, self._begun = (self._begun + orders).split(b"\n")
         for line in lines:
             self._obey(*line.decode().split())

@@ -43,7 +43,7 @@ class Options:
 
 @dataclass
 class Report:
-    """What the peer has seen: commands beyond limits, with the first ones in words, messages lost, and things held."""
+    """What the peer has recorded: commands beyond limits (the first ones as text), lost messages, and held objects."""
 
     commands: int = 0
     beyond_limits: int = 0

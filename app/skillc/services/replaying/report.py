@@ -24,7 +24,7 @@ def report_recorded(
 ) -> RunResult:
     """Write the report, the figures and the film of a recorded run to the folder `out` of a specification.
 
-    Its film is as that wants it, which is told how far it is with `show`; the result is returned when it is made.
+    The film has the options of the request, and `show` gets its progress. Returns once the film is done.
     ServiceError if it cannot be repeated, or has no end; what `read_inputs` and `check_film` raise.
     """
     assert spec.out is not None, "a report has a folder"

@@ -75,8 +75,8 @@ class LinkAbilities:
     is measured. carries_weight: whether the device adds the torques against gravity of arm, hand and load itself, so
     that torque commands are without them; Coriolis torques are always commanded. tares: whether `tare` of the link is
     to be called; otherwise the control process subtracts the offset. silence_s: after which time without a new state
-    `read` raises LinkLost. reconnects: whether `connect` may be called again after that; otherwise the connection is
-    made anew by another process.
+    `read` raises LinkLost. reconnects: whether `connect` may be called again after that; otherwise a new
+    process connects.
     """
 
     modes: tuple[LinkMode, ...]

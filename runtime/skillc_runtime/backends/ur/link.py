@@ -1,8 +1,8 @@
 """The link to one arm of Universal Robots: its controller clocks the loop at 500 Hz, or at 125 Hz before the e-Series.
 
 The client library connects again by itself after 2.5 s of silence, in a thread of its own; then in two threads, again
-and again, until it crashes. Therefore no command is sent to a controller that is silent or gone, and a connection that
-was lost is made anew in another process. The program that obeys commands is uploaded by `take_control` alone.
+and again, until it crashes. Therefore no command is sent to a controller that is silent or gone, and a new process
+connects after a connection was lost. The program that obeys commands is uploaded by `take_control` alone.
 """
 
 from __future__ import annotations

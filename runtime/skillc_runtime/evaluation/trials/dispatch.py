@@ -12,9 +12,9 @@ from typing import assert_never
 from skillc_runtime.evaluation.trials import dask_worker
 from skillc_runtime.evaluation.trials.hosting import (
     Answer,
-    Order,
     Prepare,
     Refused,
+    TrialOrder,
     Tried,
     end_idle_children,
     make_order,
@@ -56,7 +56,7 @@ def run_on(
         end_idle_children()
 
 
-def _submit(executor: Executor, order: Order, seed: int) -> Future[Answer]:
+def _submit(executor: Executor, order: TrialOrder, seed: int) -> Future[Answer]:
     try:
         return executor.submit(run_trial, order, seed)
     except (BrokenExecutor, RuntimeError) as error:

@@ -43,7 +43,7 @@ Prepare: TypeAlias = Callable[[], Runner]
 
 
 @dataclass(frozen=True, slots=True)
-class Order:
+class TrialOrder:
     """What the trials of a series have in common: the program, and the skillc with which alone they are to be run.
 
     A trial may take `limit_s` of wall time. `cancel` ends those in processes of this one; a copy on another machine
@@ -74,12 +74,12 @@ class Refused:
 Answer: TypeAlias = Tried | Refused
 
 
-def make_order(prepare: Prepare, limit_s: float) -> Order:
+def make_order(prepare: Prepare, limit_s: float) -> TrialOrder:
     """Return the order of a series."""
-    return Order(zlib.compress(pickle.dumps(prepare)), identify_skillc(), limit_s, CancelToken())
+    return TrialOrder(zlib.compress(pickle.dumps(prepare)), identify_skillc(), limit_s, CancelToken())
 
 
-def run_trial(order: Order, seed: int) -> Answer:
+def run_trial(order: TrialOrder, seed: int) -> Answer:
     """Run the trial of a seed; this is what workers of executors call.
 
     A trial that raises an exception, takes too long, or of which ATTEMPTS processes die has crashed.
@@ -120,7 +120,7 @@ class _Child:
         with _starting:
             self._process = WorkerProcess(_Server(program, self._files.name))
 
-    def answer(self, request: int | None, order: Order, limit_s: float) -> WorkerResult | None:
+    def answer(self, request: int | None, order: TrialOrder, limit_s: float) -> WorkerResult | None:
         """Return the result of a request; None, and the process is ended, if it takes too long or nobody wants it."""
         limit = CancelToken(limit_s)
         self._process.ask(request)
@@ -165,7 +165,7 @@ def end_idle_children() -> None:
         child.end()
 
 
-def _take_child(order: Order) -> _Child | Refused:
+def _take_child(order: TrialOrder) -> _Child | Refused:
     """Return a process that is prepared."""
     while (child := _pop_idle()) is not None:
         if child.program == order.program:
@@ -190,7 +190,7 @@ def _take_child(order: Order) -> _Child | Refused:
     raise AssertionError("the last attempt returns")
 
 
-def _keep(child: _Child, order: Order) -> None:
+def _keep(child: _Child, order: TrialOrder) -> None:
     """Keep a process for another trial, for a while."""
     if order.cancel.reason is not None:
         child.end()
@@ -218,7 +218,7 @@ def _end_idle(child: _Child) -> None:
                 child.end()
 
 
-def _is_wanted(order: Order) -> bool:
+def _is_wanted(order: TrialOrder) -> bool:
     return order.cancel.reason is None and dask_worker.is_wanted()
 
 

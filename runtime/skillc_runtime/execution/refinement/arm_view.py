@@ -90,15 +90,17 @@ def view_arm(here: Situation, arm: str) -> ArmView:
 
 def _held_tool(state: WorldState, arm: str) -> Pose | None:
     """Return the working face of what the arm's gripper holds, in the frame of the hand; None if it holds nothing."""
-    for gripper in sorted(state.objects(arm, HAS_GRIPPER)):
-        frame = frame_name(state, gripper)
-        for thing in sorted(state.objects(gripper, CONTAIN)):
-            if state.value(thing, BASE_FRAME_ID) == frame:
-                try:
-                    return frame_tree_of(state).own_pose(thing) @ working_face(size(state, thing))
-                except MissingFact:
-                    return None
-    return None
+    held = (
+        thing
+        for gripper in sorted(state.objects(arm, HAS_GRIPPER))
+        for thing in sorted(state.objects(gripper, CONTAIN))
+        if state.value(thing, BASE_FRAME_ID) == frame_name(state, gripper)
+    )
+    thing = next(held, None)
+    try:
+        return None if thing is None else frame_tree_of(state).own_pose(thing) @ working_face(size(state, thing))
+    except MissingFact:
+        return None
 
 
 @lru_cache(maxsize=16)

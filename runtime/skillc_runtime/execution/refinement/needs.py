@@ -12,7 +12,7 @@ from skillc_runtime.collision.collision_checker import Collision
 from skillc_runtime.collision.path_planning import NoPath, plan_joint_path
 from skillc_runtime.execution.refinement.arm_view import ArmView, view_arm
 from skillc_runtime.execution.refinement.failure import SpaceFailure
-from skillc_runtime.execution.refinement.situation import ArmMotion, Situation
+from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation
 from skillc_runtime.kinematics.inverse import rank_postures
 from skillc_runtime.kinematics.sweep import (
     ERROR_M,
@@ -37,6 +37,7 @@ from skillc_runtime.world.space.occupants import read_occupants
 from skillc_runtime.world.space.whereabouts import holders_of
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.terms import HELD_SIDEWAYS
+from skillc_runtime.world.state.world_state import WorldState
 
 Outcome: TypeAlias = Situation | SpaceFailure
 
@@ -93,7 +94,7 @@ def _take(view: ArmView, q: Array, here: Situation, chosen: bool) -> Outcome:
     except NoPath as why:
         touch = view.checker.find_collision(q)
         return SpaceFailure("no-path" if touch is None else "in-the-way", str(why))
-    return here.with_motion(ArmMotion(view.arm, way, along=False, chosen=chosen))
+    return here.with_motion(RefinedMotion(view.arm, way, along=False, chosen=chosen))
 
 
 def _follow(view: ArmView, poses: tuple[Pose, ...], here: Situation) -> Outcome:
@@ -110,7 +111,7 @@ def _follow(view: ArmView, poses: tuple[Pose, ...], here: Situation) -> Outcome:
     touch = view.checker.find_overlap(view.q, sweep.postures, view.movable)
     if touch is not None:
         return _overlap(touch)
-    return here.with_motion(ArmMotion(view.arm, tuple(sweep.postures), along=True))
+    return here.with_motion(RefinedMotion(view.arm, tuple(sweep.postures), along=True))
 
 
 def _explain(view: ArmView, sweep: Sweep, sampled: Array, here: Situation) -> SpaceFailure:
@@ -160,26 +161,26 @@ def _leave(need: Leave, here: Situation) -> Situation:
 def _lying_on(here: Situation, thing: str) -> Iterator[str]:
     """Yield the things that lie on a thing which does not contain, and so carry, them."""
     for each in read_occupants(here.state):
-        if each.movable and each.individual != thing:
-            try:
-                gap = gap_below(here.state, each.individual, thing)
-                if gap is not None and abs(gap) <= TOUCH_M and thing not in holders_of(here.state, each.individual):
-                    yield each.individual
-            except FrameError:
-                continue
+        if not each.movable or each.individual == thing or thing in holders_of(here.state, each.individual):
+            continue
+        gap = _known_gap(here.state, each.individual, thing)
+        if gap is not None and abs(gap) <= TOUCH_M:
+            yield each.individual
+
+
+def _known_gap(state: WorldState, upper: str, lower: str) -> float | None:
+    """Return how far one thing is above another one, in m; None if it is not above it, or that is not known."""
+    try:
+        return gap_below(state, upper, lower)
+    except FrameError:
+        return None
 
 
 def _gap_m(here: Situation, thing: str) -> float:
     """Return how far a thing is above what it comes to stand on, in m, at most LOWERED_M; 0 if that is not known."""
-    gaps = [LOWERED_M]
-    for each in read_occupants(here.state):
-        if each.individual != thing:
-            try:
-                gap = gap_below(here.state, thing, each.individual)
-            except FrameError:
-                continue
-            gaps += [] if gap is None or gap < 0.0 else [gap]
-    least = min(gaps)
+    others = (each.individual for each in read_occupants(here.state) if each.individual != thing)
+    gaps = (_known_gap(here.state, thing, other) for other in others)
+    least = min((gap for gap in gaps if gap is not None and gap >= 0.0), default=LOWERED_M)
     return least if least < LOWERED_M else 0.0
 
 

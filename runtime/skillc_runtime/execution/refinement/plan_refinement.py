@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.scope import call_of
-from skillc_runtime.execution.refinement.situation import ArmMotion, Situation, begin_at_home
+from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation, begin_at_home
 from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import apply_effects
@@ -25,7 +25,7 @@ class RefinedStep:
     """A step that goes, with the motions of the arms in it; `unseen` are calls in it that nobody could look at."""
 
     step: Step
-    motions: tuple[ArmMotion, ...]
+    motions: tuple[RefinedMotion, ...]
     unseen: tuple[str, ...]
 
 

@@ -15,7 +15,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class ArmMotion:
+class RefinedMotion:
     """A motion of an arm through postures, each (nv,) in rad; `along` if its tool follows a path.
 
     `chosen` if a run would by itself take another posture, which is free as well.
@@ -40,13 +40,13 @@ class Situation:
     openings: Mapping[str, float]
     forces: Mapping[str, Array] = field(default_factory=dict)
     spreads: Mapping[str, Array] = field(default_factory=dict)
-    motions: tuple[ArmMotion, ...] = ()
+    motions: tuple[RefinedMotion, ...] = ()
 
     def with_changes(self, changes: tuple[Change, ...] | list[Change]) -> Situation:
         """Return the situation after changes of the world; WorldError if they contradict it."""
         return replace(self, state=WorldModel(self.state).commit(changes).after) if changes else self
 
-    def with_motion(self, motion: ArmMotion) -> Situation:
+    def with_motion(self, motion: RefinedMotion) -> Situation:
         """Return the situation after a motion."""
         postures = {**self.postures, motion.arm: motion.postures[-1]}
         return replace(self, postures=postures, motions=(*self.motions, motion))
