@@ -10,6 +10,7 @@ from skillc_ontology import catalogue
 from skillc_runtime.backends.simulation import start_postures as starts
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
 from skillc_runtime.backends.simulation.start_postures import draw_start
+from skillc_runtime.backends.simulation.variation import draw_variation
 from skillc_runtime.collision.arm_assembly import read_arm_assembly
 from skillc_runtime.collision.collision_checker import CollisionChecker
 from skillc_runtime.collision.collision_model import build_collision_model
@@ -84,3 +85,22 @@ def test_an_arm_without_a_range_starts_at_home() -> None:
 def test_where_there_is_room_nothing_is_drawn_again(scene: str) -> None:
     (arm,) = read_scene_spec(world(scene)).arms
     assert [draw_start(arm, seed) for seed in SEEDS[:10]] == [first_draw(arm, seed) for seed in SEEDS[:10]]
+
+
+def test_an_arm_starts_clear_of_a_table_that_is_higher_than_it_is_believed_to_be() -> None:
+    scene = read_scene_spec(world("iiwa_table"))
+    ((arm,), (table,)) = scene.arms, scene.surfaces
+    unsure_m, contacts = (
+        table.offset_range_m + table.tilt_range_rad * float(np.hypot(*table.size[:2])) / 2,
+        looking(arm),
+    )
+    at_home = contacts.overlapping_pairs(arm.home, unsure_m)
+    nearer = [
+        seed for seed in SEEDS if not contacts.overlapping_pairs(arm.home + first_draw(arm, seed), unsure_m) <= at_home
+    ]
+    assert 0 < len(nearer) < len(SEEDS) / 2
+    for seed in nearer:
+        assert (
+            contacts.overlapping_pairs(arm.home + draw_variation(scene, seed).start_rad[arm.individual], unsure_m)
+            <= at_home
+        )

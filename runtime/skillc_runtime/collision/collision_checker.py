@@ -65,9 +65,10 @@ class CollisionChecker:
             found[one, other] = min(distance, found.get((one, other), distance))
         return found
 
-    def overlapping_pairs(self, q: Array) -> frozenset[Pair]:
-        """Return the pairs of geoms that overlap at joints q (nv,)."""
-        return frozenset(pair for pair, far in self.near_pairs(q).items() if far <= 0)
+    def overlapping_pairs(self, q: Array, unsure_m: float = 0.0) -> frozenset[Pair]:
+        """Return the pairs of geoms that overlap at joints q (nv,), or may, if the scenery may be `unsure_m` nearer."""
+        near = self.near_pairs(q).items()
+        return frozenset(pair for pair, far in near if far <= (0.0 if self._within(pair) else unsure_m))
 
     def deepest_overlap(self, q: Array) -> Collision | None:
         """Return the deepest overlap of the arm, its hand or what it holds with the scenery at joints q (nv,)."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from math import hypot
 
 import numpy as np
 
@@ -105,10 +106,11 @@ class Variation:
 
 def draw_variation(scene: SceneSpec, seed: int) -> Variation:
     """Draw the differences uniformly within the ranges of the facts, independently for each individual."""
+    unsure_m = max(map(_unsure_m, scene.surfaces), default=0.0)
     return Variation(
         seed,
         tuple(_draw(surface, seed) for surface in scene.surfaces),
-        {arm.individual: draw_start(arm, seed) for arm in scene.arms},
+        {arm.individual: draw_start(arm, seed, unsure_m) for arm in scene.arms},
         {tool.individual: _pad(tool, seed) for tool in scene.tools},
         tuple(draw_fixture(fixture, seed) for fixture in scene.fixtures),
         tuple(draw_person(person, seed) for person in scene.people),
@@ -143,6 +145,11 @@ def add_obstacles(variation: Variation, scene: SceneSpec) -> Variation:
     littered = (replace(variation.of(s.individual), obstacle=_obstacle(s, variation.seed)) for s in scene.surfaces)
     blocked = (replace(each, blocked=True) for each in variation.fixtures)
     return replace(variation, surfaces=tuple(littered), fixtures=tuple(blocked))
+
+
+def _unsure_m(surface: SurfaceSpec) -> float:
+    """Return how far in m a point of a surface may be from where it is believed to be."""
+    return surface.offset_range_m + surface.tilt_range_rad * hypot(*surface.size[:2]) / 2
 
 
 def _draw(surface: SurfaceSpec, seed: int) -> SurfaceVariation:
