@@ -1,5 +1,6 @@
 """What holds for all tests."""
 
+import gc
 import os
 import signal
 import sys
@@ -9,7 +10,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-from skillc_dsl.garbage import exempt_from_gc, gc_disabled
+from skillc_dsl.garbage import gc_disabled
 
 # No test depends on how fast the machine is.
 settings.register_profile("skillc", deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -66,4 +67,4 @@ def pytest_collection() -> Generator[None, object, object]:
 
 def pytest_collection_finish() -> None:
     """Spare what was imported for the tests, which stays to the end, from being looked through for garbage."""
-    exempt_from_gc()
+    gc.freeze()

@@ -8,7 +8,6 @@ from rdflib import OWL, RDF, RDFS, Graph, Namespace, URIRef
 
 from emit.bt_player import Player
 from emit.tree_rules import Reader
-from emit.unified import disagreements, temporal
 from matrix.case import Case, scene
 from matrix.leaves import LibraryLeaves
 from matrix.stage import SCRIPTS
@@ -71,6 +70,8 @@ def in_owl(library: SkillLibrary) -> str:
 
 def in_pddl(library: SkillLibrary) -> str:
     """Compare applicability and effects of every planned step with the world model; say what is left out and why."""
+    from emit.unified import disagreements, temporal  # unified-planning takes seconds to import
+
     excluded = [each.reason for each in make_planning_domain(library).excluded]
     posed = pose_problem(library, scene(library), And(()))
     if not posed.problem.domain.actions:

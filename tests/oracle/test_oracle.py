@@ -10,7 +10,6 @@ from dataclasses import replace
 
 import pytest
 
-from emit.unified import disagreements, takes
 from oracle.drawing import CROWD, Dice
 from oracle.forced import TooManyStates, cheapest
 from oracle.text import Contradictory
@@ -77,8 +76,11 @@ def test_every_other_planner_finds_a_plan_as_cheap(seed: int, planner: Planner) 
     assert cost_of(solve(skills, state, goal, (planner,), CancelToken(LONG_S))) == pytest.approx(cost_of(own))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(EXAMPLES or 2))
 def test_pddl_means_what_the_world_model_means(seed: int) -> None:
+    from emit.unified import disagreements, takes  # unified-planning takes seconds to import
+
     skills, state, goal = drawn(Dice(seed))
     problem = pose_problem(skills, state, And(()))
     if not problem.problem.domain.actions:
