@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import cache
 from typing import Literal, NamedTuple, TypeAlias, cast
 
 Kind: TypeAlias = Literal[
@@ -28,8 +29,7 @@ _LOCAL = rf"(?:[{_START}:]|{_ESCAPED})(?:[{_CHARACTER}:]|{_ESCAPED}|\.+(?=[{_CHA
 _ESCAPE = r"\\[^\r\n]"
 _EXPONENT = r"[eE][+-]?[0-9]+"
 
-_TOKEN = re.compile(
-    rf"""(?P<skip>[ \t\r\n]+|\#[^\r\n]*)
+_TOKEN = rf"""(?P<skip>[ \t\r\n]+|\#[^\r\n]*)
       | (?P<name>(?:{_PREFIX})?:(?:{_LOCAL})?)
       | (?P<number>[+-]?(?:[0-9]+\.[0-9]*{_EXPONENT}|\.[0-9]+{_EXPONENT}|[0-9]+{_EXPONENT}|[0-9]*\.[0-9]+|[0-9]+))
       | (?P<mark>[.;,\[\]()])
@@ -42,9 +42,7 @@ _TOKEN = re.compile(
       | (?P<word>[{_LETTER}_][{_CHARACTER}]*)
       | (?P<open_text>(?:\"\"\"|''').*|["'][^\r\n]*)
       | (?P<open_iri><<|<[^\s<>"]*)
-      | (?P<stray>[^\s"'<>;,\[\]()]+|.)""",
-    re.VERBOSE | re.DOTALL,
-)
+      | (?P<stray>[^\s"'<>;,\[\]()]+|.)"""
 
 
 class Token(NamedTuple):
@@ -74,9 +72,15 @@ class Token(NamedTuple):
         return self.is_mark("[(") or self.kind not in ("mark", "end", "at", "datatype")
 
 
+@cache
+def _expression() -> re.Pattern[str]:
+    """Return the compiled expression of a token: its classes of letters take long to compile."""
+    return re.compile(_TOKEN, re.VERBOSE | re.DOTALL)
+
+
 def tokens(text: str) -> Iterator[Token]:
     """Yield the tokens of a text, without white space and comments, and at the end one of the kind `end`."""
-    for match in _TOKEN.finditer(text):
+    for match in _expression().finditer(text):
         kind = match.lastgroup
         if kind != "skip":
             yield Token(cast(Kind, (kind or "stray").replace("_", "-")), match.group(), match.start(), match.end())
