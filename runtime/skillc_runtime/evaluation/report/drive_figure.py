@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
+from skillc_runtime.evaluation.report.drive_drawing import DriveDrawing
 from skillc_runtime.evaluation.report.figure_style import (
     DIM,
     INK,
@@ -17,11 +18,7 @@ from skillc_runtime.evaluation.report.figure_style import (
     plot_path,
     thin_rows,
 )
-from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.space.bodies import read_bodies
-from skillc_runtime.world.space.outlines import convex_hull, outline_points
-from skillc_runtime.world.state.labelled import display_name
 
 HEIGHT_IN, NEAR_M, AROUND_M, RATIO = 5.0, 1.5, 0.3, 2.2
 """Height of the figure; what is nearer to the path is shown whole; how much is shown around that, and how many times as
@@ -31,21 +28,19 @@ MOST_BODIES = 60
 """With more bodies around, only their outlines are drawn, without names."""
 
 
-def draw_drive(path: Array, record: RunRecord) -> Figure:
-    """Return the figure of a base with samples (n, 4): time in s, position in m in the world."""
+def draw_drive(drawing: DriveDrawing) -> Figure:
+    """Return the figure of a base."""
     figure = Figure(figsize=(WIDTH_IN, HEIGHT_IN), layout="constrained")
     axes = figure.subplots()
-    places = thin_rows(path[:, 1:3])
+    places = thin_rows(drawing.path[:, 1:3])
     near: list[Array] = []
-    bodies = [each for each in read_bodies(record.state) if not each.movable]
-    for body in bodies:
-        hull = convex_hull(outline_points(record.state, body.individual, body.pose)[:, :2])
+    for name, hull in drawing.outlines:
         if float(np.linalg.norm(places[:, None] - hull.mean(axis=0), axis=2).min()) < NEAR_M:
             near.append(hull)
         axes.add_patch(Polygon(hull, closed=True, facecolor=SHADE, edgecolor=DIM, linewidth=0.8, zorder=1))
-        if len(bodies) <= MOST_BODIES:
+        if len(drawing.outlines) <= MOST_BODIES:
             axes.annotate(
-                display_name(body.individual), hull.mean(axis=0), ha="center", va="center", fontsize=8, color=INK,
+                name, hull.mean(axis=0), ha="center", va="center", fontsize=8, color=INK,
                 zorder=2, clip_on=True,
             )  # fmt: skip
     plot_path(axes, places, "sensor", "path of the base", linestyle="-", linewidth=1.6)

@@ -35,6 +35,10 @@ AROUND_M = 0.15
 """Furniture is drawn if the hand came that near to it."""
 
 
+MARGIN_MM = 50.0
+"""How much is shown around what was handled."""
+
+
 @dataclass(frozen=True, slots=True)
 class DrawnBody:
     """A body to draw: its display name, its role, points (n, 3) in m of the world whose hull it is, its colour."""
@@ -77,6 +81,22 @@ def make_handling_drawings(
     return tuple(
         _draw([each for each in drawn if each.gripper == gripper], gripper, trace, state, truth) for gripper in grippers
     )
+
+
+def choose_axes(drawings: Sequence[HandlingDrawing]) -> int:
+    """Return which axis of the world lies across in the figures of all hands: 0 for x, 1 for y, the longer one."""
+    if not drawings:
+        return 0
+    shown = np.vstack([find_extent(each) for each in drawings])
+    return 0 if np.ptp(shown[:, 0]) > np.ptp(shown[:, 1]) else 1
+
+
+def find_extent(drawing: HandlingDrawing) -> Array:
+    """Return the least and the greatest coordinates (2, 3) in mm that are shown."""
+    handled = [each.points for each in drawing.outlines if each.role != "scenery"]
+    picked = [pick.samples.position for pick in drawing.picks]
+    every = 1e3 * np.vstack([*picked, *handled])
+    return np.stack([every.min(axis=0) - MARGIN_MM, every.max(axis=0) + MARGIN_MM])
 
 
 def _draw(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
 
 from skillc_runtime.evaluation.report.figure_style import DIM, GRID, INK, PAPER, SHADE, TRUTH, WIDTH_IN, thin_rows
-from skillc_runtime.evaluation.report.handling_drawing import DrawnBody, HandlingDrawing, Role
+from skillc_runtime.evaluation.report.handling_drawing import DrawnBody, HandlingDrawing, Role, choose_axes, find_extent
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.outlines import convex_hull
 
@@ -24,9 +23,6 @@ LEAST_IN, MOST_IN, FRAME_IN = 1.6, 6.0, 1.7
 
 MOST_NUMBERS = 20
 """With more picks, the places of grasps and releases have no numbers."""
-
-MARGIN_MM = 50.0
-"""How much is shown around what was handled."""
 
 DASHED: dict[str, Any] = {"fill": False, "edgecolor": INK, "linewidth": 1.1, "linestyle": (0, (3, 2)), "zorder": 3}
 STYLES: dict[Role, dict[str, Any]] = {
@@ -47,18 +43,10 @@ LEGEND: tuple[tuple[Role, str], ...] = (
 )
 
 
-def choose_axes(drawings: Sequence[HandlingDrawing]) -> int:
-    """Return which axis of the world lies across in the figures of all hands: 0 for x, 1 for y, the longer one."""
-    if not drawings:
-        return 0
-    shown = np.vstack([_extent(each) for each in drawings])
-    return 0 if np.ptp(shown[:, 0]) > np.ptp(shown[:, 1]) else 1
-
-
 def draw_path(drawing: HandlingDrawing, across: int | None = None) -> Figure:
     """Return the figure of one hand; `across` is the axis of the world that lies across in both views."""
     across = choose_axes([drawing]) if across is None else across
-    shown, up = _extent(drawing), 1 - across
+    shown, up = find_extent(drawing), 1 - across
     heights = [_find_height(shown, axis, across) for axis in (up, 2)]
     figure = Figure(figsize=(WIDTH_IN, sum(heights) + FRAME_IN), layout="constrained")
     above, beside = figure.subplots(2, 1, height_ratios=heights)
@@ -77,14 +65,6 @@ def _find_height(shown: Array, axis: int, across: int) -> float:
     """Return the height of a view in inches, to scale if that is neither too low nor too high."""
     scaled = 0.85 * WIDTH_IN * float(np.ptp(shown[:, axis])) / float(np.ptp(shown[:, across]))
     return min(max(LEAST_IN, scaled), MOST_IN)
-
-
-def _extent(drawing: HandlingDrawing) -> Array:
-    """Return the least and the greatest coordinates (2, 3) in mm that are shown."""
-    handled = [each.points for each in drawing.outlines if each.role != "scenery"]
-    picked = [pick.samples.position for pick in drawing.picks]
-    every = 1e3 * np.vstack([*picked, *handled])
-    return np.stack([every.min(axis=0) - MARGIN_MM, every.max(axis=0) + MARGIN_MM])
 
 
 def _draw_view(axes: Axes, drawing: HandlingDrawing, order: tuple[int, int], shown: Array) -> None:

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from skillc_runtime.evaluation.report.figure_style import DIM, SHADE, WIDTH_IN, add_legend, plot_curve
-from skillc_runtime.evaluation.report.pushes import PushRecord, find_force_source
-from skillc_runtime.evaluation.report.run_record import RunRecord
-from skillc_runtime.evaluation.report.work_result import ForceSource
+from skillc_runtime.evaluation.report.push_drawing import PushDrawing
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.state.terms import BUTTON
 
 HEIGHT_IN = 3.9
 BEFORE_S = 0.5
@@ -21,20 +16,6 @@ BEFORE_S = 0.5
 
 ROOM = 1.08
 """The force axis ends above the greatest force by this factor."""
-
-
-@dataclass(frozen=True, slots=True)
-class PushDrawing:
-    """A push to draw: where the arm knows its force from, and when a button in it switched, None if none did."""
-
-    push: PushRecord
-    source: ForceSource
-    switched_s: float | None
-
-
-def make_push_drawing(push: PushRecord, record: RunRecord) -> PushDrawing:
-    """Return what is drawn of a push."""
-    return PushDrawing(push, find_force_source(push.arm, record), _find_switching(push, record))
 
 
 def draw_push(drawing: PushDrawing) -> Figure:
@@ -78,14 +59,3 @@ def draw_force(axes: Axes, drawing: PushDrawing) -> None:
 
 def _ends(values: Array) -> Array:
     return np.array([values.min(initial=0.0), values.max(initial=0.0)])
-
-
-def _find_switching(push: PushRecord, record: RunRecord) -> float | None:
-    if record.truth is None:
-        return None
-    for button in (each for each in push.on if record.state.is_a(each, BUTTON)):
-        rows = record.truth.pressing(button)
-        switched = rows[(rows[:, 2] > 0) & (rows[:, 0] >= push.start_s) & (rows[:, 0] <= push.end_s), 0]
-        if switched.size:
-            return float(switched[0])
-    return None

@@ -14,6 +14,7 @@ from skillc_runtime.evaluation.report.arm_trace import COLUMNS, ArmPath
 from skillc_runtime.evaluation.report.handlings import Handling, find_handlings
 from skillc_runtime.evaluation.report.run_trace import RunTrace
 from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
+from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_wiping_drawing
 from skillc_runtime.recording.history import RunHistory
 from skillc_runtime.world.state.terms import ARM_DEVICE, CONTAIN, FORCE_TORQUE_SENSOR, HAS_GRIPPER, HAS_SENSOR
 from skillc_runtime.world.state.world_state import WorldState
@@ -35,6 +36,12 @@ class RunRecord:
     def wipings(self) -> tuple[Wiping, ...]:
         """The wipings of surfaces, in order of time."""
         return find_wipings(self.history, self.state)
+
+    @cached_property
+    def wiping_drawings(self) -> tuple[WipingDrawing, ...]:
+        """What is drawn of the wipings; nothing without the truth."""
+        truth = self.truth
+        return () if truth is None else tuple(make_wiping_drawing(each, self.state, truth) for each in self.wipings)
 
     @cached_property
     def handlings(self) -> tuple[Handling, ...]:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -17,28 +15,12 @@ from skillc_runtime.evaluation.report.figure_style import (
     plot_curve,
     plot_path,
 )
-from skillc_runtime.evaluation.report.push_figure import PushDrawing, draw_force, make_push_drawing
-from skillc_runtime.evaluation.report.run_record import RunRecord
-from skillc_runtime.evaluation.report.searches import Search
-from skillc_runtime.motion.pose import Array
+from skillc_runtime.evaluation.report.push_figure import draw_force
+from skillc_runtime.evaluation.report.search_drawing import SearchDrawing
 
 HEIGHT_IN = 5.0
 LEAST_MM = 1.0
 """At least this much is shown around where a search began."""
-
-
-@dataclass(frozen=True, slots=True)
-class SearchDrawing:
-    """A search to draw: the force of its push, and the true place (2,) of the hole in its plane, None if not known."""
-
-    search: Search
-    force: PushDrawing
-    hole_mm: Array | None
-
-
-def make_search_drawing(search: Search, record: RunRecord) -> SearchDrawing:
-    """Return what is drawn of a search."""
-    return SearchDrawing(search, make_push_drawing(search.push, record), _find_hole(search, record))
 
 
 def draw_search(drawing: SearchDrawing) -> Figure:
@@ -97,17 +79,3 @@ def _draw_depth(axes: Axes, drawing: SearchDrawing) -> None:
     )
     axes.set(xlabel="time from the start of the push, s", ylabel="depth, mm")
     axes.set_title("Depth below where it searched")
-
-
-def _find_hole(search: Search, record: RunRecord) -> Array | None:
-    """Return where the fixture that the search is about really is, (2,) mm in the plane."""
-    truth = record.truth
-    if truth is None:
-        return None
-    for each in search.push.on:
-        try:
-            place = truth.fixture_pose(each).position
-        except KeyError:
-            continue
-        return np.asarray(search.in_plane(place[None])[0])
-    return None

@@ -5,20 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from skillc_runtime.evaluation.report.drive_figure import draw_drive
+from skillc_runtime.evaluation.report import draw
+from skillc_runtime.evaluation.report.drive_drawing import make_drive_drawing
 from skillc_runtime.evaluation.report.drives import find_drives
-from skillc_runtime.evaluation.report.grip_figure import draw_grips
-from skillc_runtime.evaluation.report.guidance_figure import draw_guidance
 from skillc_runtime.evaluation.report.guidances import find_free_periods
-from skillc_runtime.evaluation.report.handling_drawing import make_handling_drawings
-from skillc_runtime.evaluation.report.path_figure import choose_axes, draw_path
-from skillc_runtime.evaluation.report.push_figure import draw_push, make_push_drawing
+from skillc_runtime.evaluation.report.handling_drawing import choose_axes, make_handling_drawings
+from skillc_runtime.evaluation.report.push_drawing import make_push_drawing
 from skillc_runtime.evaluation.report.pushes import PushRecord
 from skillc_runtime.evaluation.report.run_record import RunRecord
-from skillc_runtime.evaluation.report.search_figure import draw_search, make_search_drawing
+from skillc_runtime.evaluation.report.search_drawing import make_search_drawing
 from skillc_runtime.evaluation.report.searches import find_searches
-from skillc_runtime.evaluation.report.wiping_drawing import make_wiping_drawing
-from skillc_runtime.evaluation.report.wiping_figure import draw_figure
 from skillc_runtime.evaluation.report.work_figure import WorkFigure
 from skillc_runtime.evaluation.report.work_kinds import find_other_pushes
 from skillc_runtime.world.state.labelled import display_name
@@ -29,28 +25,26 @@ MOST_FIGURES = 8
 
 def list_figures(record: RunRecord) -> tuple[WorkFigure, ...]:
     """Return the figures of all work in a run."""
-    return tuple(figure for draw in FIGURES for figure in _take(draw(record)))
+    return tuple(figure for find in FIGURES for figure in _take(find(record)))
 
 
 def _take(figures: Iterator[WorkFigure]) -> Iterator[WorkFigure]:
     yield from (figure for _, figure in zip(range(MOST_FIGURES), figures, strict=False))
 
 
-def _draw_wipings(record: RunRecord) -> Iterator[WorkFigure]:
-    truth, wipings = record.truth, record.wipings
-    drawings = () if truth is None else tuple(make_wiping_drawing(each, record.state, truth) for each in wipings)
-    if drawings:
+def _find_wipings(record: RunRecord) -> Iterator[WorkFigure]:
+    if drawings := record.wiping_drawings:
         overlaid = any(each.overlay_period_s is not None for each in drawings)
         yield WorkFigure(
             "wiping",
             "Path, contact time, speed and force on the surface",
             "The shade of a cell is how long it lay under the pressed tool." + (SWINGING if overlaid else ""),
             "Path of the tool over the contact time of each cell, speed along the lanes, normal force",
-            lambda: draw_figure(drawings),
+            partial(draw.draw_wipings, drawings),
         )
 
 
-def _draw_pushes(record: RunRecord) -> Iterator[WorkFigure]:
+def _find_pushes(record: RunRecord) -> Iterator[WorkFigure]:
     """Yield the figures of pushes besides those in which something was searched for, which have another one."""
     searching = {(each.push.arm, each.push.start_s) for each in find_searches(record)}
     for push in (each for each in find_other_pushes(record) if (each.arm, each.start_s) not in searching):
@@ -60,11 +54,11 @@ def _draw_pushes(record: RunRecord) -> Iterator[WorkFigure]:
             f"Force of {_describe(push)}",
             "Forces against the push. The arm measures or estimates them; its travel follows from its joints.",
             "Force of the tool over time and over its travel",
-            partial(draw_push, drawing),
+            partial(draw.draw_push, drawing),
         )
 
 
-def _draw_searches(record: RunRecord) -> Iterator[WorkFigure]:
+def _find_searches(record: RunRecord) -> Iterator[WorkFigure]:
     for search in find_searches(record):
         drawing = make_search_drawing(search, record)
         yield WorkFigure(
@@ -72,22 +66,22 @@ def _draw_searches(record: RunRecord) -> Iterator[WorkFigure]:
             f"Search of {_describe(search.push)}",
             "The path is to scale, seen against the push.",
             "Path of the tool while it searched, force and depth over time",
-            partial(draw_search, drawing),
+            partial(draw.draw_search, drawing),
         )
 
 
-def _draw_guidances(record: RunRecord) -> Iterator[WorkFigure]:
+def _find_guidances(record: RunRecord) -> Iterator[WorkFigure]:
     for period in find_free_periods(record):
         yield WorkFigure(
             "guidance",
             f"{display_name(period.arm)} guided by hand",
             "While the arm yields in all directions, whoever leads its tool decides where it goes.",
             "Path of the tool from above and from the side, force of the person, speed",
-            partial(draw_guidance, period),
+            partial(draw.draw_guidance, period),
         )
 
 
-def _draw_handlings(record: RunRecord) -> Iterator[WorkFigure]:
+def _find_handlings(record: RunRecord) -> Iterator[WorkFigure]:
     if record.truth is None:
         return
     drawings = make_handling_drawings(record.handlings, record.trace.hands, record.state, record.truth)
@@ -98,7 +92,7 @@ def _draw_handlings(record: RunRecord) -> Iterator[WorkFigure]:
             f"Path of {drawing.hand}",
             "A dashed outline is where a thing was believed to be, if that is more than 5 mm off.",
             "Path of the hand from above and from the side, and the things it moved",
-            partial(draw_path, drawing, across),
+            partial(draw.draw_path, drawing, across),
         )
         yield WorkFigure(
             "grips",
@@ -106,18 +100,18 @@ def _draw_handlings(record: RunRecord) -> Iterator[WorkFigure]:
             "Skills see only what the sensor of the fingers measures. A gripper has no sensor of force: the force is "
             "that of its motor in the simulator, and while a thing is held, that with which it was grasped.",
             "Opening and force of the fingers during each pick",
-            partial(draw_grips, drawing),
+            partial(draw.draw_grips, drawing),
         )
 
 
-def _draw_drives(record: RunRecord) -> Iterator[WorkFigure]:
+def _find_drives(record: RunRecord) -> Iterator[WorkFigure]:
     for robot, path in find_drives(record).items():
         yield WorkFigure(
             "drive",
             f"Path of {display_name(robot)}",
             "Where the base says it is.",
             "Path of the mobile base from above",
-            partial(draw_drive, path, record),
+            partial(draw.draw_drive, make_drive_drawing(path, record.state)),
         )
 
 
@@ -132,5 +126,5 @@ SWINGING = (
     "that, the mean over one period of the overlay."
 )
 
-FIGURES = (_draw_wipings, _draw_pushes, _draw_searches, _draw_guidances, _draw_handlings, _draw_drives)
+FIGURES = (_find_wipings, _find_pushes, _find_searches, _find_guidances, _find_handlings, _find_drives)
 """The figures of all kinds of work, in the order of the report."""
