@@ -1,8 +1,8 @@
 """Compares two checkouts on this machine, alternating in one run: what controlling, whole tasks and commands cost.
 
-`python benchmarks/compare_commits.py BEFORE AFTER [TASK ...]` takes folders of checkouts, or commits, which are checked
-out beside this one for as long as it takes. It prints a row for each cost, with the medians of both and of their
-ratios; nothing is compiled in what is measured. All takes a quarter of an hour, half an hour on a busy machine.
+`python benchmarks/compare_commits.py BEFORE AFTER [TASK ...] [--rounds N]` takes folders of checkouts, or commits,
+which are checked out beside this one for as long as it takes. It prints a row for each cost, with the medians of both
+and of their ratios; nothing is compiled in what is measured. All takes a quarter of an hour, an hour on a busy machine.
 Without tasks all are compared.
 """
 
@@ -12,6 +12,7 @@ import json
 import os
 import subprocess
 import sys
+from argparse import ArgumentParser
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -24,7 +25,6 @@ from control import TASKS
 
 HERE = Path(__file__).parent
 FOLDERS = ("compiler", "dsl", "ontology", "runtime", "app", "skills_src")
-ROUNDS = 3
 TABLE = ("wiping", "clean_table")
 """The task by which everything but whole tasks is compared."""
 
@@ -52,18 +52,20 @@ class Pair:
 
     before: Path
     after: Path
+    rounds: int
 
     def measure(
-        self, program: str, *arguments: str, rounds: int = ROUNDS, **settings: str
+        self, program: str, *arguments: str, unmeasured: int = 0, **settings: str
     ) -> list[tuple[Measured, Measured]]:
         """Return what a program of this folder has measured with each checkout, alternating.
 
-        `settings` are added to the environment.
+        `settings` are added to the environment; the first `unmeasured` rounds are left out.
         """
-        return [
+        runs = [
             (_run(self.before, program, arguments, settings), _run(self.after, program, arguments, settings))
-            for _ in range(rounds)
+            for _ in range(unmeasured + self.rounds)
         ]
+        return runs[unmeasured:]
 
 
 def _run(checkout: Path, program: str, arguments: tuple[str, ...], settings: dict[str, str]) -> Measured:
@@ -98,7 +100,7 @@ def compare(pair: Pair, tasks: list[str]) -> None:
         "control period while sliding, calibration steps", sliding, lambda run: run["period_us"] / run["calibration_us"]
     )
     print_row("mj_step while sliding, calibration steps", sliding, lambda run: run["step_us"] / run["calibration_us"])
-    commands = pair.measure("_command.py", TABLE[1], rounds=1 + ROUNDS)[1:]  # the first ones fill the caches
+    commands = pair.measure("_command.py", TABLE[1], unmeasured=1)
     print_row("start-up of skillc run, s", commands, lambda run: run["start_s"])
     print_row("report until its page is there, s", commands, lambda run: run["report_s"])
     print_row("report with its figures, all processes, s", commands, lambda run: run["figures_s"])
@@ -116,14 +118,20 @@ def print_load(when: str) -> None:
     print(f"load {when}: {loads} on {os.cpu_count()} cores", flush=True)
 
 
-def main(before: str, after: str, *tasks: str) -> None:
+def main() -> None:
     """Compare two checkouts."""
-    with checked_out(before) as one, checked_out(after) as other:
+    parser = ArgumentParser(description="Compare what two checkouts cost.")
+    parser.add_argument("before")
+    parser.add_argument("after")
+    parser.add_argument("tasks", nargs="*")
+    parser.add_argument("--rounds", type=int, default=3)
+    asked = parser.parse_args()
+    with checked_out(asked.before) as one, checked_out(asked.after) as other:
         print_load("at the start")
         print(f"{'CPU time':58} {'before':>9} {'after':>9} {'ratio':>9}")
-        compare(Pair(one, other), list(tasks or TASKS))
+        compare(Pair(one, other, asked.rounds), asked.tasks or list(TASKS))
         print_load("at the end")
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main()

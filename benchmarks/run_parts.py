@@ -15,7 +15,7 @@ from statistics import median
 from tempfile import TemporaryDirectory
 
 from skillc.services import running
-from skillc.services.film_making import FilmOrder, Films
+from skillc.services.picture_making import PictureOrder, Pictures
 from skillc.services.reporting import SilentReporter
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import load_task
@@ -34,14 +34,14 @@ LIBRARIES = "import matplotlib.figure, mujoco, numba, numpy"
 STARTED = "import skillc.cli.commands.run, skillc.cli.run_output, skillc.services.running"
 
 
-class KeptFilms(Films):
+class KeptFilms(Pictures):
     """Keeps the orders of films, and makes none."""
 
     def __init__(self, folder: Path) -> None:
         super().__init__(SilentReporter(), folder)
-        self.orders: list[FilmOrder] = []
+        self.orders: list[PictureOrder] = []
 
-    def begin(self, order: FilmOrder) -> None:
+    def begin(self, order: PictureOrder) -> None:
         self.orders.append(order)
 
 
@@ -66,7 +66,7 @@ def compare_start() -> None:
     print(f"imports of skillc run: {median(ratios):.2f} times those of the libraries")
 
 
-def run_once(folder: Path) -> FilmOrder:
+def run_once(folder: Path) -> PictureOrder:
     """Run the task, print what its report costs beside an empty figure, and return its film."""
     films, report, cost = KeptFilms(folder), running.report_run, list[float]()
 
@@ -86,7 +86,7 @@ def run_once(folder: Path) -> FilmOrder:
     return films.orders[0]
 
 
-def compare_films(order: FilmOrder) -> None:
+def compare_films(order: PictureOrder) -> None:
     """Print what a film costs, in pictures of 1280 x 720 pixels without shadows and smooth edges."""
     for quality in SIZES:
         footage = replace(order.footage, quality=quality)

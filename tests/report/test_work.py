@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -94,7 +95,7 @@ def run_and_report(folder: Path, before: str) -> Report:
     record = RunRecord(told.history, cell.world.snapshot(), cell.ground_truth, trace)
     result = summarise_run(execution, told.history, record.wipings, cell, measure_work(record))
     write_result(folder, result)
-    write_report(folder, result, told.draw(), list_figures(record))
+    write_report(folder, result, told.draw(), pickle.loads(pickle.dumps(list_figures(record))))
     figures = {path.stem: read_words(path) for path in folder.glob("*.svg")}
     written = json.loads((folder / "result.json").read_text())
     return Report(result, (folder / "report.html").read_text(), written, figures)

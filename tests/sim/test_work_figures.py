@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import pytest
 
 from backends.kinematic_runs import library, prepare
@@ -42,7 +44,7 @@ def test_an_insertion_has_its_push_search_and_grasp() -> None:
     assert search.depth_mm == pytest.approx(30.0, abs=2.0)
     assert grasp.force_n == pytest.approx(40.0, abs=1.0)
     (figure,) = list_figures(record)
-    svg = render_figure(figure.draw).svg.decode()
+    svg = render_figure(pickle.loads(pickle.dumps(figure)).draw).svg.decode()
     for words in ("path: commanded", "path of the tool: estimate", "hole: simulator truth", "force: simulator truth"):
         assert f">{words}</text>" in svg
     assert figure.draw().axes[0].get_aspect() == 1.0
@@ -56,6 +58,6 @@ def test_an_arm_that_is_led_has_the_path_and_the_force_of_the_person() -> None:
     (person,) = record.truth.guidances()
     assert guided.person_greatest_n == pytest.approx(float(person.forces.max()))
     (figure,) = list_figures(record)
-    svg = render_figure(figure.draw).svg.decode()
+    svg = render_figure(pickle.loads(pickle.dumps(figure)).draw).svg.decode()
     for words in ("path of the tool: estimate", "force of the person: simulator truth", "intended by the person"):
         assert f">{words}</text>" in svg

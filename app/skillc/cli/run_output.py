@@ -11,7 +11,7 @@ from skillc.cli.result_output import format_ending, format_result
 from skillc.cli.run_progress import RunProgress
 from skillc.cli.settings import output_settings
 from skillc.errors import RequestError
-from skillc.services.film_making import Films
+from skillc.services.picture_making import Pictures
 from skillc.services.run_result import RunResult
 from skillc.services.running import RunOptions, run_task
 from skillc.services.task_loading import LoadedTask
@@ -37,12 +37,12 @@ def check_operable(options: RunOptions) -> None:
         )
 
 
-def run_with_progress(loaded: LoadedTask, options: RunOptions, quiet: bool, films: Films) -> RunResult:
+def run_with_progress(loaded: LoadedTask, options: RunOptions, quiet: bool, pictures: Pictures) -> RunResult:
     """Run a task and show its progress on stderr, unless `quiet`; its film may still be made afterwards."""
     pace = Pace(parse_pace(options.spec.pace))
     name = loaded.assignment.name
     with RunProgress(f"{name} (dry)" if options.spec.dry else name, quiet, pace) as progress:
-        return run_task(loaded, options, progress, Terminal(), films)
+        return run_task(loaded, options, progress, Terminal(), pictures)
 
 
 def print_results(results: Sequence[TaskResult], folder: Path | None) -> None:

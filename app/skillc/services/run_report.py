@@ -1,4 +1,4 @@
-"""Writes the result of a run with its report and figures into a folder, and begins its film and stills."""
+"""Writes the result of a run with its report into a folder, and begins its figures, film and stills."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skillc.services.files import writing_to
-from skillc.services.film_making import FilmOrder, Films
+from skillc.services.picture_making import PictureOrder, Pictures
 from skillc.services.reporting import Reporter
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.film_story import make_story
@@ -15,8 +15,9 @@ from skillc_runtime.evaluation.report.moments import find_moments
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
+from skillc_runtime.evaluation.report.work_figure import DrawnFigure, number_files
 from skillc_runtime.evaluation.report.work_figures import list_figures
-from skillc_runtime.evaluation.report.write import ReportPages, write_figure, write_figures, write_page, write_result
+from skillc_runtime.evaluation.report.write import ReportPages, write_figure, write_page, write_result
 from skillc_runtime.film.film import Film
 from skillc_runtime.film.footage import Footage
 from skillc_runtime.film.picture_files import FilmError
@@ -33,17 +34,18 @@ class DrawnRun:
 
 
 def write_run(
-    folder: Path, result: TaskResult, record: RunRecord, drawn: DrawnRun, films: Films, reporter: Reporter
+    folder: Path, result: TaskResult, record: RunRecord, drawn: DrawnRun, pictures: Pictures, reporter: Reporter
 ) -> None:
-    """Write a run with its trees; its film, if it was sampled, is begun. ServiceError if nothing can be written."""
+    """Write a run with its trees, and begin its pictures. ServiceError if nothing can be written."""
     with writing_to(folder):
         write_result(folder, result)
         footage = _find_footage(result, record, drawn, reporter)
-        figures = write_figures(folder, list_figures(record))
-        pages = ReportPages(result, drawn.trees, figures, None if footage is None else footage.files)
+        film = None if footage is None else footage.files
+        figures = number_files(list_figures(record))
+        pages = ReportPages(result, drawn.trees, tuple(map(DrawnFigure, figures)), film)
         write_page(folder, pages.begun)
-        if footage is not None:
-            films.begin(FilmOrder(result.task, folder, footage, pages.with_film, pages.without_film))
+        if figures or footage is not None:
+            pictures.begin(PictureOrder(result.task, folder, figures, footage, pages))
 
 
 def write_comparison(folder: Path, drawings: Sequence[WipingDrawing]) -> Path | None:

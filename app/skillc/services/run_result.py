@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from skillc.errors import RequestError, ServiceError
-from skillc.services.film_making import Films
+from skillc.services.picture_making import Pictures
 from skillc.services.reporting import Reporter
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
@@ -15,7 +15,7 @@ from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.run_trace import RunTrace
 from skillc_runtime.evaluation.report.summary import summarise_run
-from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_wiping_drawing
+from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
 from skillc_runtime.evaluation.report.work_kinds import measure_work
 from skillc_runtime.execution.execute import Execution
 from skillc_runtime.recording.history_builder import HistoryBuilder
@@ -56,10 +56,10 @@ class RunSamples:
 
 @dataclass(frozen=True, slots=True)
 class ReportDestination:
-    """The folder of a report (None: no report), the processes that render films, and the reporter of problems."""
+    """The folder of a report (None: no report), the processes that make its pictures, and the reporter of problems."""
 
     folder: Path | None
-    films: Films
+    pictures: Pictures
     reporter: Reporter
 
 
@@ -105,7 +105,7 @@ def report_run(
     samples: RunSamples,
     destination: ReportDestination,
 ) -> RunResult:
-    """Make the result of a run whose events the `builder` has; write it with the report, and begin its film.
+    """Make the result of a run whose events the `builder` has; write it with the report, and begin its pictures.
 
     Nothing is written without a folder.
     """
@@ -119,10 +119,10 @@ def report_run(
         return RunResult(result)
     from skillc.services.run_report import DrawnRun, write_run  # what draws takes long to import
 
-    drawings = () if truth is None else tuple(make_wiping_drawing(each, state, truth) for each in record.wipings)
+    drawings = record.wiping_drawings
     try:
         drawn = DrawnRun(builder.draw() if execution.attempts else [], library, samples.film)
-        write_run(folder, result, record, drawn, destination.films, reporter)
+        write_run(folder, result, record, drawn, destination.pictures, reporter)
     except ServiceError as error:
         reporter.say(f"error: {error}")
         return RunResult(result, drawings, written=False)

@@ -13,8 +13,8 @@ from skillc.errors import RequestError, ServiceError
 from skillc.services.backends import DEFAULT_BACKEND, check_pace, make_backend
 from skillc.services.breakpoints import make_gate
 from skillc.services.cell_checks.starting import find_start_problem
-from skillc.services.film_making import Films, making_films
 from skillc.services.operating import RunMonitor, operate
+from skillc.services.picture_making import Pictures, making_pictures
 from skillc.services.planning import with_minimal_makespan
 from skillc.services.recorded_run import RecordingOptions, recorded_run
 from skillc.services.reporting import Reporter
@@ -93,19 +93,19 @@ class RunOptions:
 
 
 def run_task(
-    task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporter: Reporter, films: Films | None = None
+    task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporter: Reporter, pictures: Pictures | None = None
 ) -> RunResult:
     """Plan, run and report a task; if it cannot start, its status is `refused`.
 
-    With `films` its film may still be made when this returns.
+    With `pictures` its figures and film may still be made when this returns.
 
     KeyboardInterrupt stops a task that has not begun, and breaks off one that runs. RequestError for a breakpoint
     that does not exist, if there is no plan to minimise, and for a pace that the cell cannot have. ServiceError if the
     report's folder cannot be created, there are no meshes of that name, or no process can be started.
     """
-    if films is None:
-        with making_films(reporter) as films:
-            return run_task(task, options, monitor, reporter, films)
+    if pictures is None:
+        with making_pictures(reporter) as pictures:
+            return run_task(task, options, monitor, reporter, pictures)
     spec = options.spec
     if spec.minimise == "makespan":
         task = with_minimal_makespan(task)
@@ -129,7 +129,7 @@ def run_task(
             return end("stopped", str(interrupt) or "interrupted", reporter)
         with closing(cell):
             check_pace(cell, monitor.pace.factor)
-            destination = ReportDestination(options.out, films, reporter)
+            destination = ReportDestination(options.out, pictures, reporter)
             return _Run(task, options, cell, make_samples(cell, film), gate, monitor, destination).carry_out(planning)
 
 

@@ -42,20 +42,20 @@ def command(spec: RunSpec, robot: str, as_json: bool) -> int:
     from skillc.cli.film_progress import FilmProgress
     from skillc.cli.run_output import print_results, run_with_progress
     from skillc.services.files import check_writable
-    from skillc.services.film_making import making_films
+    from skillc.services.picture_making import making_pictures
     from skillc.services.running import RunOptions
     from skillc.services.task_loading import load_task
 
     out = None if spec.out is None else Path(spec.out)
     check_writable(out)
     runs: list[RunResult] = []
-    with making_films(Terminal(), FilmProgress(as_json)) as films:
+    with making_pictures(Terminal(), FilmProgress(as_json)) as pictures:
         for task in TASKS.values() if robot == "all" else [TASKS[robot]]:
             folder = out / task if out is not None else None
             options = RunOptions(structs.replace(spec, task=task, out=None if folder is None else str(folder)))
             check_writable(folder)
             with load_task(options.spec, Terminal()) as loaded:
-                runs.append(run_with_progress(loaded, options, as_json, films))
+                runs.append(run_with_progress(loaded, options, as_json, pictures))
             if not as_json:
                 print_results([runs[-1].result], folder if runs[-1].written else None)
         if as_json:

@@ -57,7 +57,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     from skillc.cli.film_progress import FilmProgress
     from skillc.cli.run_output import check_operable, print_results, run_with_progress
     from skillc.services.files import check_writable
-    from skillc.services.film_making import making_films
+    from skillc.services.picture_making import making_pictures
     from skillc.services.planning import prepare_planners
     from skillc.services.running import RunOptions
     from skillc.services.stores import StoreChoice
@@ -70,9 +70,9 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     options = RunOptions(wanted, prepare_planners(wanted.plan_cache), tick_timeout, as_json)
     check_operable(options)
     check_writable(options.out)
-    with making_films(Terminal(), FilmProgress(as_json)) as films:
+    with making_pictures(Terminal(), FilmProgress(as_json)) as pictures:
         with load_task(wanted, Terminal(), kept) as loaded:
-            ran = run_with_progress(loaded, options, as_json, films)
+            ran = run_with_progress(loaded, options, as_json, pictures)
         if as_json:
             print_json(ran.result)
         else:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from skillc.errors import ServiceError
 from skillc.services.files import writing_to
-from skillc.services.film_making import ShowProgress, making_films, no_progress
+from skillc.services.picture_making import ShowProgress, making_pictures, no_progress
 from skillc.services.replaying.check import build_cell, repeat
 from skillc.services.replaying.inputs import read_inputs
 from skillc.services.reporting import Reporter
@@ -34,7 +34,7 @@ def report_recorded(
     if inputs.obstacle:
         raise ServiceError(f"no report can be made of {run}: {inputs.obstacle}, so it cannot be repeated")
     reporter.say(f"running {inputs.start.task} again from its seed, requests and plans")
-    with making_films(reporter, show) as films, closing(build_cell(inputs)) as cell:
+    with making_pictures(reporter, show) as pictures, closing(build_cell(inputs)) as cell:
         samples, builder = make_samples(cell, begin_film(cell, spec, reporter)), HistoryBuilder()
         try:
             repeated = repeat(inputs, cell, (builder,), (samples.sample,))
@@ -49,4 +49,4 @@ def report_recorded(
         with writing_to(out):
             out.mkdir(parents=True, exist_ok=True)
         execution = describe_execution(repeated.run, cell, inputs.wall_time_s)
-        return report_run(execution, builder, inputs.library, samples, ReportDestination(out, films, reporter))
+        return report_run(execution, builder, inputs.library, samples, ReportDestination(out, pictures, reporter))

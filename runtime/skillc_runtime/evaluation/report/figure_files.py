@@ -6,12 +6,16 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from io import BytesIO
+from threading import Lock
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 DOTS_PER_INCH = 120
+
+_DRAWING = Lock()
+"""Held while a figure is drawn: the settings of matplotlib are those of all threads."""
 
 THEMED = ("INK", "DIM", "PAPER", "GRID", "SHADE", "TRUTH", "SENSOR", "ESTIMATE")
 """The colours that a page may replace, by their names in `figure_style`."""
@@ -46,7 +50,7 @@ def render_figure(draw: Callable[[], Figure]) -> FigureFiles:
 
     from skillc_runtime.evaluation.report import figure_style
 
-    with mpl.rc_context(figure_style.STYLE):
+    with _DRAWING, mpl.rc_context(figure_style.STYLE):
         figure = draw()
         _lay_out(figure)
         png = _save(figure, "png", {"Software": ""})

@@ -41,7 +41,7 @@ def render_page(
 ) -> str:
     """Return the page; `trees` are those of all attempts; the files of `filmed` are, or will be, in the same folder.
 
-    A page whose film is not made yet loads itself again.
+    A page loads itself again until its film is made and its figures are drawn.
     """
     environment = Environment(
         loader=PackageLoader("skillc_runtime.evaluation.report", "."),
@@ -68,7 +68,7 @@ def render_page(
         placement_names=PLACEMENT_COLUMNS,
         figures=figures,
         filmed=filmed,
-        is_made=is_made,
+        is_made=is_made or not (filmed or any(each.files is None for each in figures)),
         reason=_reason,
         symbols=SYMBOLS,
     )

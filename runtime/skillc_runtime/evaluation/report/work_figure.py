@@ -17,7 +17,7 @@ class WorkFigure:
     """A figure to be drawn.
 
     file: the name of its files without suffix; title: its heading; explanation: what is to be known to read it;
-    alternative: what it shows, for those who cannot see it.
+    alternative: what it shows, for those who cannot see it. `draw` can be pickled: another process may draw it.
     """
 
     file: str
@@ -29,15 +29,15 @@ class WorkFigure:
 
 @dataclass(frozen=True, slots=True)
 class DrawnFigure:
-    """A figure with its files."""
+    """A figure with its files; None until it is drawn."""
 
     of: WorkFigure
-    files: FigureFiles
+    files: FigureFiles | None = None
 
     @property
-    def element(self) -> str:
-        """The figure as an element of a page."""
-        return self.files.embed_svg(self.of.alternative)
+    def element(self) -> str | None:
+        """The figure as an element of a page; None until it is drawn."""
+        return None if self.files is None else self.files.embed_svg(self.of.alternative)
 
 
 def number_files(figures: Sequence[WorkFigure]) -> tuple[WorkFigure, ...]:

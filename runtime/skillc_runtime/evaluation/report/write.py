@@ -33,7 +33,7 @@ def write_report(
 
     `trees` are those of all attempts.
     """
-    write_page(directory, ReportPages(result, trees, write_figures(directory, figures)).without_film)
+    write_page(directory, ReportPages(result, trees, write_figures(directory, number_files(figures))).without_film)
 
 
 def write_page(directory: Path, page: str) -> None:
@@ -41,17 +41,33 @@ def write_page(directory: Path, page: str) -> None:
     _write_atomically(directory / REPORT, page.encode())
 
 
+def read_page(directory: Path) -> str | None:
+    """Return report.html; None if it is not there."""
+    try:
+        return (directory / REPORT).read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return None
+
+
 def write_figures(directory: Path, figures: Sequence[WorkFigure]) -> tuple[DrawnFigure, ...]:
-    """Write the figures of a report as PNG and SVG, and return them; OSError if the folder cannot be written to."""
-    drawn = tuple(DrawnFigure(each, render_figure(each.draw)) for each in number_files(figures))
-    for each in drawn:
-        _write_files(directory, each.of.file, each.files)
-    return drawn
+    """Write figures, whose files have names of their own, as PNG and SVG; return them.
+
+    OSError if the folder cannot be written to.
+    """
+    drawn = []
+    for each in figures:
+        files = render_figure(each.draw)
+        _write_files(directory, each.file, files)
+        drawn.append(DrawnFigure(each, files))
+    return tuple(drawn)
 
 
 @dataclass(frozen=True, slots=True)
 class ReportPages:
-    """The page of a report before, with and without its film, if there is to be one; `trees` are of all attempts."""
+    """The page of a report while its pictures are made and afterwards; `trees` are those of all attempts.
+
+    `film` are the files of the film, if there is to be one.
+    """
 
     result: TaskResult
     trees: Sequence[NodeOutcome]
@@ -60,7 +76,7 @@ class ReportPages:
 
     @property
     def begun(self) -> str:
-        """The page while the film is being made, if there is to be one."""
+        """The page while the film and figures that are not drawn are being made."""
         return self._render(is_made=False)
 
     @property
@@ -70,8 +86,13 @@ class ReportPages:
 
     @property
     def without_film(self) -> str:
-        """The page without a film."""
-        return replace(self, film=None).begun
+        """The page without a film, and without figures that are not drawn."""
+        drawn = [each for each in self.figures if each.files is not None]
+        return replace(self, film=None, figures=drawn).with_film
+
+    def with_figures(self, drawn: Sequence[DrawnFigure]) -> ReportPages:
+        """Return the pages with figures that are drawn."""
+        return replace(self, figures=drawn)
 
     def _render(self, is_made: bool) -> str:
         from skillc_runtime.evaluation.report.page import render_page
@@ -104,6 +125,6 @@ def _write_atomically(path: Path, content: bytes) -> None:
     try:
         partial.write_bytes(content)
         partial.replace(path)
-    except OSError:
+    except BaseException:
         partial.unlink(missing_ok=True)
         raise
