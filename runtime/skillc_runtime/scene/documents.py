@@ -27,8 +27,10 @@ WELL_KNOWN = (
     ("rdfs", RDFS),
     ("xsd", XSD),
 )
-CACHED = 32
-"""The number of parsed files in the cache."""
+CACHED, SMALL_CHARACTERS = 128, 64_000
+"""The number of parsed small files that are kept: all packaged ones, with and without the prefixes of vocabularies."""
+LARGE_CACHED = 4
+"""The number of parsed files that are larger."""
 
 
 class SceneError(ValueError):
@@ -82,7 +84,8 @@ class Document:
 
 def parse(document: Document, prefixes: Mapping[str, str] | None = None) -> Parsed:
     """Parse a document, with all syntax problems; `prefixes` are those of the vocabularies."""
-    return _parsed(document, (*WELL_KNOWN, *sorted((prefixes or {}).items())))
+    parsed = _small if len(document.text) <= SMALL_CHARACTERS else _large
+    return parsed(document, (*WELL_KNOWN, *sorted((prefixes or {}).items())))
 
 
 def statements_of(document: Document) -> tuple[Statement, ...]:
@@ -109,10 +112,12 @@ def unreadable_problem(path: str, reason: str, line: int = 1, column: int = 1) -
     )
 
 
-@lru_cache(maxsize=CACHED)
 def _parsed(document: Document, prefixes: tuple[tuple[str, str], ...]) -> Parsed:
     parsed = parse_turtle(document.path, document.text, BASE, dict(prefixes))
     return lead_back(parsed, document.text, document.origin, BASE) if document.origin else parsed
+
+
+_small, _large = lru_cache(maxsize=CACHED)(_parsed), lru_cache(maxsize=LARGE_CACHED)(_parsed)
 
 
 def _not_utf8(path: Path, data: bytes, start: int) -> Diagnostic:
