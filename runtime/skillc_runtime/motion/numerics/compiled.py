@@ -14,20 +14,62 @@ from collections import namedtuple
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import fields, is_dataclass
-from functools import cache, partial
+from functools import cache, cached_property, partial
 from hashlib import sha256
 from importlib import import_module
 from inspect import get_annotations, isfunction
 from pathlib import Path
-from typing import Any, Concatenate, ParamSpec, TypeVar, get_args, get_origin, get_type_hints
+from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar, get_args, get_origin, get_type_hints
 
 from skillc_dsl.cache import cache_folder
 from skillc_runtime.motion.numerics.places import COMPILES as COMPILES
-from skillc_runtime.motion.numerics.places import PLACES, find_place, matrix_at, vector_at
+from skillc_runtime.motion.numerics.places import PLACES, find_place, matrix_at, table_at, vector_at
 
 Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
 First = TypeVar("First")
+Returned = TypeVar("Returned", covariant=True)
+
+
+class Bound(Protocol[Parameters, Returned]):
+    """A function with its memory."""
+
+    def __call__(self, *arguments: Parameters.args, **named: Parameters.kwargs) -> Returned:
+        """Call it."""
+        ...
+
+    @property
+    def entry(self) -> tuple[int, int] | None:
+        """The addresses of the same as a C function, and of its first argument; None without numba.
+
+        Its other arguments are numbers, integers and booleans, and it returns a 64-bit integer, 0 for None; None for a
+        function that has others. The addresses are valid as long as this object; `call_entry` calls them in machine
+        code.
+        """
+        ...
+
+
+class _BoundOnMemory(partial[Any]):
+    """A compiled function with the table of its memory, which keeps its arrays."""
+
+    make_entry: Callable[[], Any] | None = None
+    kept: object = None
+
+    @cached_property
+    def _c_function(self) -> Any:
+        return None if self.make_entry is None else self.make_entry()
+
+    @property
+    def entry(self) -> tuple[int, int] | None:
+        """As of `Bound`."""
+        made = self._c_function
+        return None if made is None else (made.address, self.args[0].ctypes.data)
+
+
+class _BoundInPython(partial[Any]):
+    """A function that is not compiled with its memory."""
+
+    entry: None = None
 
 
 def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
@@ -48,16 +90,16 @@ def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Res
     return _compiled_lazily(function)
 
 
-def bind(function: Callable[Concatenate[First, Parameters], Result], first: First) -> Callable[Parameters, Result]:
+def bind(function: Callable[Concatenate[First, Parameters], Result], first: First) -> Bound[Parameters, Result]:
     """Return the function with its first parameter fixed: a dataclass whose arrays keep their places in memory.
 
     A compiled function gets the places of all arrays in one table, so that a call costs the same with any number of
     them. Numbers in the dataclass are read once, here.
     """
     if hasattr(function, "bind"):
-        bound: Callable[Parameters, Result] = function.bind(first)
+        bound: Bound[Parameters, Result] = function.bind(first)
         return bound
-    return partial(function, first)
+    return _BoundInPython(function, first)
 
 
 def _compiled_lazily(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
@@ -136,8 +178,9 @@ def _on_memory(function: Callable[Parameters, Result]) -> Callable[Parameters, R
     returns = annotations.pop("return")
     first, *others = annotations
     leaves: dict[str, Any] = {}
-    names: dict[str, Any] = {"function": inlined(function), "partial": partial, "__name__": function.__module__}
-    names.update(find_place=find_place, vector_at=vector_at, matrix_at=matrix_at, np=import_module("numpy"))
+    names: dict[str, Any] = {"function": inlined(function), "Bound": _BoundOnMemory, "__name__": function.__module__}
+    names.update(find_place=find_place, vector_at=vector_at, matrix_at=matrix_at, table_at=table_at)
+    names.update(np=import_module("numpy"), make_entry=None)
     packed = _packed(function, annotations[first], first, leaves, names)
     views = [
         f"    {path.replace('.', '__')} = {_view(annotation)}".format(row=row)
@@ -149,8 +192,8 @@ def _on_memory(function: Callable[Parameters, Result]) -> Callable[Parameters, R
             f"def at_places(_places{arguments}):", *views, f"    return function({packed}{arguments})",
             f"def bind({first}):",
             f"    kept = [np.asarray(each, np.float64) for each in ({''.join(f'{each}, ' for each in leaves)})]",
-            "    call = partial(at_places, np.array([find_place(each) for each in kept]))",
-            f"    call.kept = kept, {first}",
+            "    call = Bound(at_places, np.array([find_place(each) for each in kept]))",
+            f"    call.kept, call.make_entry = (kept, {first}), make_entry",
             "    return call",
             f"def call({first}{arguments}):", f"    return bind({first})({', '.join(others)})", "",
         )
@@ -158,8 +201,25 @@ def _on_memory(function: Callable[Parameters, Result]) -> Callable[Parameters, R
     types = {"_places": PLACES, **{each: annotations[each] for each in others}, "return": returns}
     call: Any = _built(function, source, names, "at_places", types)
     call.bind, call.__wrapped__ = names["bind"], function
+    numbers = [annotations[each] for each in others]
+    if all(each in (float, int, bool) for each in numbers) and returns in (int, bool, None):
+        names["make_entry"] = cache(partial(_compile_entry, names, function, numbers, len(leaves), returns is None))
     on_memory: Callable[Parameters, Result] = call
     return on_memory
+
+
+def _compile_entry(names: dict[str, Any], function: Any, others: list[Any], rows: int, is_void: bool) -> Any:
+    """Return the C function of a function on memory: of the address of its table, and of others' numbers."""
+    arguments = "".join(f", _{number}" for number in range(len(others)))
+    called = f"at_places(table_at(_address, {rows}){arguments})"
+    body = f"    {called}\n    return 0\n" if is_void else f"    return int({called})\n"
+    source = f"def at_address(_address{arguments}):\n{body}"
+    exec(compile(source, function.__code__.co_filename, "exec"), names)
+    names["at_address"].__qualname__ = f"{function.__qualname__}_at_address"
+    numba = import_module("numba")
+    with _lock(), _our_settings() as kept:
+        kind = _type(int)(_type(int), *map(_type, others))
+        return numba.cfunc(kind, cache=kept, error_model="numpy")(names["at_address"])
 
 
 def _built(function: Any, source: str, names: dict[str, Any], inner: str, types: dict[str, Any]) -> Any:

@@ -29,9 +29,13 @@ def find_place(array: Array) -> tuple[int, int, int]:
 
 vector_at: Any = None
 matrix_at: Any = None
+table_at: Any = None
+call_entry: Any = None
 if COMPILES:
     _numba: Any = import_module("numba")
     _extending: Any = import_module("numba.extending")
+    _cgutils: Any = import_module("numba.core.cgutils")
+    _ir: Any = import_module("llvmlite.ir")
     carray, types = _numba.carray, _numba.types
 
     @_extending.intrinsic  # type: ignore[untyped-decorator]
@@ -53,4 +57,21 @@ if COMPILES:
         """Return the matrix of a row of the table."""
         return carray(_pointer(places[row, 0]), (places[row, 1], places[row, 2]), dtype=np.float64)
 
-    vector_at, matrix_at = _vector_at, _matrix_at
+    @_extending.register_jitable  # type: ignore[untyped-decorator]
+    def _table_at(address: int, rows: int) -> Any:
+        """Return the table with so many rows at an address."""
+        return carray(_pointer(address), (rows, 3), dtype=np.int64)
+
+    @_extending.intrinsic  # type: ignore[untyped-decorator]
+    def _call_entry(typing_context: Any, address: Any, *arguments: Any) -> Any:
+        """Call the C function at an address with integers, numbers and booleans; return its integer."""
+
+        def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+            passed = _cgutils.unpack_tuple(builder, values[1])
+            kind = _ir.FunctionType(context.get_value_type(types.int64), [each.type for each in passed])
+            return builder.call(builder.inttoptr(values[0], kind.as_pointer()), passed)
+
+        return types.int64(types.int64, types.StarArgTuple(arguments)), generate
+
+    vector_at, matrix_at, table_at = _vector_at, _matrix_at, _table_at
+    call_entry = _call_entry
