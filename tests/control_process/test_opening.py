@@ -30,11 +30,10 @@ before = set(sys.modules)
 from skillc_runtime import primitives
 for module in iter_modules(primitives.__path__, "skillc_runtime.primitives."):
     import_module(module.name)
-from skillc_runtime.motion.numerics.compiled import COMPILES
-ours = [vars(module) for name, module in sorted(sys.modules.items()) if name.startswith("skillc_runtime.")]
-laws = [each for names in ours for each in names.values() if callable(each) and hasattr(each, "overloads")]
+from skillc_runtime.motion.numerics.compiled import COMPILES, list_imported
+laws = list_imported()
 assert laws or not COMPILES
-print(sorted(set(sys.modules) - before), [each.__name__ for each in laws if not each.overloads])
+print(sorted(set(sys.modules) - before), [each.__name__ for each in laws if each.code is None])
 """
 
 

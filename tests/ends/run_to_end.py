@@ -9,7 +9,6 @@ import signal
 import sys
 import time
 from collections.abc import Callable
-from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +18,7 @@ from skillc.services.reporting import SilentReporter
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.motion.arrays import OutVector
-from skillc_runtime.motion.numerics.compiled import compiled
+from skillc_runtime.motion.numerics.compiled import LISTENERS, compiled
 from skillc_runtime.recording.events import FORMAT, ImplementationChosen, NodeStarted, TaskEnded, TaskStarted
 
 FOR_EVER_S = 10**9
@@ -58,13 +57,12 @@ def be_suspended(run: RecordedRun) -> None:
 
 def compile_slowly(run: RecordedRun) -> None:
     """Compile a function, and be in the middle of it for longer than a tick may take."""
-    event = import_module("numba.core.event")
     run.watchdog.count_tick(0.2)
 
     def double(out: OutVector, factor: float) -> None:
         out[0] = factor * out[0]
 
-    event.register("numba:compile", type("Slow", (event.Listener,), {"on_start": rest, "on_end": lambda *_: None})())
+    LISTENERS.append(lambda change: rest() if change > 0 else None)
     compiled(double)(np.ones(1), 2.0)
     run.watchdog.count_tick(0.2)
     finish(run)

@@ -99,7 +99,7 @@ def test_a_run_that_may_take_its_time_is_not_ended(tmp_path: Path, how: str) -> 
     if how == "compile" and not COMPILES:
         pytest.skip("needs numba")
     done = run(tmp_path, how, timeout_s=5.0)
-    compiling = "compiling the control laws, once for this version\n" if how == "compile" else ""
+    compiling = "compiling the control laws, once for this version, for about 20 s\n" if how == "compile" else ""
     assert (done.returncode, done.stdout, done.stderr) == (0, "", compiling)
     assert read_end(tmp_path).status == "succeeded"
     assert not (tmp_path / "out/result.json").exists(), "it is written by what follows the run"

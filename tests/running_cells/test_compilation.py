@@ -9,26 +9,22 @@ from pathlib import Path
 import pytest
 
 PROGRAM = """
-import gc
 import sys
-
-from numba.core.dispatcher import Dispatcher
 
 from skillc.cells.host import open_cell
 from skillc.contract.operation import OperationRequest
 from skillc.cells.settings import CellSettings
 from skillc.services.reporting import SilentReporter
-from skillc_runtime.motion.numerics.compiled import compile_imported
+from skillc_runtime.motion.numerics.compiled import list_imported
 
 
 def count_compiled():
-    return sum(len(each.overloads) for each in gc.get_objects() if isinstance(each, Dispatcher))
+    return sum(each.code is not None for each in list_imported())
 
 
 scene, task, backend, folder = sys.argv[1:]
 settings = CellSettings(name="cell", scene=scene, library="wiping", folder=folder, backend=backend)
 with open_cell(settings, SilentReporter()) as host:
-    compile_imported()
     ready = count_compiled()
     host.submit("first", OperationRequest(task=task))
     while host.loop.runs:

@@ -11,10 +11,11 @@ import socket
 import sys
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.frames import FrameReader, send_frame
-from skillc.cells.host import CellHost, open_cell
+from skillc.cells.host import open_cell
 from skillc.cells.mailbox import Inbox, Outbox, listen_for_stops
 from skillc.cells.service import CellService
 from skillc.cells.settings import CellSettings
@@ -24,7 +25,7 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.garbage import exempt_from_gc
 from skillc_dsl.source import Source
 from skillc_runtime.execution.cell_loop import NotDurable
-from skillc_runtime.motion.numerics.compiled import compile_imported, has_stored_code
+from skillc_runtime.motion.numerics.compiled import LISTENERS
 from skillc_runtime.platforms.memory import limit_memory, physical_bytes
 from skillc_runtime.platforms.signals import ENDING
 from skillc_runtime.world.space.frame_tree import FrameError
@@ -57,9 +58,11 @@ def main(requests: socket.socket, stops: socket.socket) -> int:
     settings = FrameReader(requests, CellSettings).read()
     if settings is None:
         return 1
+    tell = partial(_tell_compilation, requests)
+    LISTENERS.append(tell)
     try:
         with open_cell(settings, _Log()) as host:
-            _load_laws(host, requests)
+            LISTENERS.remove(tell)
             outbox = Outbox(requests)
             listen_for_stops(stops, lambda request: host.stop(request.operation, request.reason))
             service = CellService(host, Inbox(requests, outbox), outbox)
@@ -75,14 +78,10 @@ def main(requests: socket.socket, stops: socket.socket) -> int:
     return 0
 
 
-def _load_laws(host: CellHost, requests: socket.socket) -> None:
-    """Load the control laws of a cell with arms before it ticks; the first process of a version compiles them."""
-    live = host.devices.backend.capabilities.live
-    if live is None or not live.arms:
-        return
-    if not has_stored_code():
+def _tell_compilation(requests: socket.socket, change: int) -> None:
+    """Tell the server why the cell is not ready yet, when a function begins to be compiled."""
+    if change > 0:
         send_frame(requests, Preparing(reason="the control laws are compiled"))
-    compile_imported()
 
 
 def _refuse(requests: socket.socket, reason: str) -> int:

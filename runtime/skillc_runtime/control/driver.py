@@ -20,6 +20,7 @@ from skillc_runtime.control.period import (
 from skillc_runtime.control.period_memory import ControlPeriod
 from skillc_runtime.control.setup import ArmSetup
 from skillc_runtime.devices.arm import ArmState, Command
+from skillc_runtime.motion.numerics.compiled import compile_imported
 from skillc_runtime.motion.reference import Compliance, Reference
 
 LONGEST_GAP_S = 0.02
@@ -42,6 +43,7 @@ class CompliantArmDriver:
         self.compliance = ComplianceControl(self._task, setup.gains.law.release_damping)
         self._validator = CommandValidator(setup.arm, self.measured.state, setup.safety)
         self._safety = self._validator.safety
+        compile_imported()
         self._period = ControlPeriod(setup.arm, self._task, self._validator, self.compliance.pushes)
         self.measured.felt_wrench = lambda: self._safety.felt_wrench(self.measured.state)
         self.fault: str | None = None

@@ -28,7 +28,7 @@ from skillc_runtime.control.task_error import (
 from skillc_runtime.control.virtual_arm import VirtualArm, VirtualState
 from skillc_runtime.devices.arm import ArmState, Command
 from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
-from skillc_runtime.motion.numerics.compiled import compiled, inlined
+from skillc_runtime.motion.numerics.compiled import compiled_when_called, inlined
 from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import AppliedCompliance, Compliance, Reference, SampledReference
@@ -151,7 +151,7 @@ def move_virtual_arm(
     return limit_joints(memory.limits, wanted, measured, period)
 
 
-@compiled
+@compiled_when_called
 def virtual_motion(
     memory: ForwardDynamicsMemory,
     virtual: VirtualState,

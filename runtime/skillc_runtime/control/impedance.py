@@ -34,7 +34,7 @@ from skillc_runtime.control.task_error import (
 )
 from skillc_runtime.devices.arm import ArmState, Torque
 from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
-from skillc_runtime.motion.numerics.compiled import compiled, inlined
+from skillc_runtime.motion.numerics.compiled import compiled_when_called, inlined
 from skillc_runtime.motion.numerics.linear import copy_matrix, copy_vector, times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import AppliedCompliance, Compliance, Reference, SampledReference
@@ -242,7 +242,7 @@ def impedance_torque(
     limit_torque(tau_out, memory.limits, tau, q, state.bias, memory.torque_rate * period)
 
 
-@compiled
+@compiled_when_called
 def command_impedance(
     tau: OutVector,
     memory: ImpedanceMemory,

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
-from skillc_runtime.motion.numerics.compiled import compiled, inlined
+from skillc_runtime.motion.numerics.compiled import compiled, compiled_when_called, inlined
 from skillc_runtime.motion.pose import Array, Pose
 
 
@@ -90,7 +90,7 @@ def place_joints(chain: Chain, q: Vector, at: OutMatrix) -> None:
     place(chain.frames, chain.slides, chain.tool, q, at)
 
 
-@compiled
+@compiled_when_called
 def find_jacobian(chain: Chain, q: Vector, tool: OutVector, jacobian: OutMatrix) -> None:
     """tool (12,) = pose of the tool in base; jacobian (6, nv) = [linear m; angular rad] per rad or m, at q (nv,)."""
     at = np.empty((chain.slides.size + 1, 12))
@@ -100,7 +100,7 @@ def find_jacobian(chain: Chain, q: Vector, tool: OutVector, jacobian: OutMatrix)
         tool[k] = at[chain.slides.size, k]
 
 
-@compiled
+@compiled_when_called
 def find_gravity_torques(chain: Chain, q: Vector, gravity: Vector, torques: OutVector) -> None:
     """torques (nv,) in N m or N = what the joints exert to bear the arm at q (nv,); gravity (3,) in m/s^2, in base."""
     at = np.empty((chain.slides.size + 1, 12))

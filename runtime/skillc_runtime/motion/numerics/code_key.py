@@ -1,0 +1,74 @@
+"""Names for machine code that depend on all that it is made from."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from functools import cache
+from hashlib import sha256
+from importlib import import_module
+from importlib.util import find_spec
+from inspect import get_annotations
+from pathlib import Path
+from types import CodeType, FunctionType
+from typing import Any
+
+from skillc_runtime.motion.arrays import np
+from skillc_runtime.motion.numerics.places import list_leaves
+
+CALLABLE: dict[Callable[..., Any], None] = {}
+"""The functions that compiled functions may call and are compiled with them."""
+
+
+@cache
+def key_of(function: Callable[..., Any]) -> str:
+    """Return a name for the machine code of a function: of its source, with all that it refers to, and of versions."""
+    digest = sha256(_environment())
+    for name, annotation in get_annotations(function, eval_str=True).items():
+        digest.update(repr(list(list_leaves(name, annotation))).encode())
+    _add(digest, function, set())
+    return f"{function.__name__}_{digest.hexdigest()[:24]}"
+
+
+@cache
+def _environment() -> bytes:
+    """Return what machine code depends on beside the function: versions, the processor, and how it is made."""
+    llvm: Any = import_module("llvmlite.binding")
+    numba = find_spec("numba")
+    assert numba is not None and numba.origin is not None
+    return repr(
+        (
+            sys.version, np.__version__, llvm.llvm_version_info, llvm.get_process_triple(), llvm.get_host_cpu_name(),
+            llvm.get_host_cpu_features().flatten(), Path(numba.origin).with_name("_version.py").read_bytes(),
+            *(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py"))),
+        )
+    ).encode()  # fmt: skip
+
+
+def _add(digest: Any, value: Any, seen: set[object]) -> None:
+    """Add to a digest a function with all that it refers to by name, or the name or value of anything else."""
+    function = getattr(value, "__wrapped__", value)
+    if not isinstance(function, FunctionType) or function not in CALLABLE:
+        digest.update(getattr(value, "__qualname__", repr(value)).encode())
+        return
+    if function in seen:
+        return
+    seen.add(function)
+    cells = {name: cell.cell_contents for name, cell in zip(
+        function.__code__.co_freevars, function.__closure__ or (), strict=True
+    )}  # fmt: skip
+    names = {**function.__globals__, **cells}
+    for code in _parts(function.__code__):
+        digest.update(code.co_code + repr((code.co_names, code.co_varnames, code.co_freevars)).encode())
+        digest.update(repr([each for each in code.co_consts if not isinstance(each, CodeType)]).encode())
+        for name in code.co_names + code.co_freevars:
+            if name in names:
+                _add(digest, names[name], seen)
+
+
+def _parts(code: CodeType) -> Iterator[CodeType]:
+    """Yield a code and those in it."""
+    yield code
+    for each in code.co_consts:
+        if isinstance(each, CodeType):
+            yield from _parts(each)

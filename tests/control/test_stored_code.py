@@ -1,0 +1,83 @@
+"""Machine code is stored once and loaded without numba; what is damaged, or cannot be stored, is compiled again."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from skillc_runtime.motion.numerics.code_key import CALLABLE, key_of
+from skillc_runtime.motion.numerics.compiled import COMPILES
+
+pytestmark = pytest.mark.skipif(not COMPILES, reason="needs numba")
+
+PROGRAM = """
+import sys
+import numpy as np
+from skillc_runtime.control.filters import step_lag
+from skillc_runtime.control.momentum_observer import find_unexplained_torque
+from skillc_runtime.motion.profile import trapezoid_at
+
+value = np.zeros(2)
+print(step_lag(value, np.ones(2), 0.5, 1e-9), value, trapezoid_at(1.0, 1.0, 2.0, 2.0, 1.0, 0.25))
+print(find_unexplained_torque(np.arange(7.0), np.eye(6, 7)))
+for wrong in ((value, value, 0.5), (value, np.ones(2, np.float32), 0.5, 0.0), (value, [1.0, 2.0], 0.5, 0.0)):
+    try:
+        step_lag(*wrong)
+    except TypeError as error:
+        print(error)
+print("numba" in sys.modules, file=sys.stderr)
+"""
+
+
+def run(cache: Path) -> tuple[str, bool]:
+    """What the program prints, and whether something was compiled."""
+    environment = {**os.environ, "SKILLC_CACHE": str(cache)}
+    ran = subprocess.run([sys.executable, "-c", PROGRAM], env=environment, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
+    return ran.stdout, ran.stderr.endswith("True\n")
+
+
+@pytest.mark.slow
+def test_stored_code_does_the_same_without_numba(tmp_path: Path) -> None:
+    first, compiled = run(tmp_path)
+    assert compiled
+    assert "False [0.5 0.5] (0.0625, 0.5, 2.0)\n" in first and first.count("not an array as it is annotated") == 2
+    stored = sorted((tmp_path / "machine-code").iterdir())
+    assert len(stored) == 3
+    assert run(tmp_path) == (first, False)
+    stored[0].write_bytes(stored[0].read_bytes()[:-1])
+    assert run(tmp_path) == (first, True)
+    assert run(tmp_path) == (first, False)
+
+
+@pytest.mark.slow
+def test_code_that_cannot_be_stored_is_compiled_again(tmp_path: Path) -> None:
+    (tmp_path / "machine-code").write_text("no folder")
+    assert run(tmp_path) == run(tmp_path)
+    assert run(tmp_path)[1]
+
+
+FACTOR = 2.0
+
+
+def scaled(value: float) -> float:
+    return FACTOR * value
+
+
+def twice(value: float) -> float:
+    return scaled(value) + scaled(value)
+
+
+def test_names_depend_on_all_that_is_called(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(CALLABLE, scaled, None)
+    monkeypatch.setitem(CALLABLE, twice, None)
+    monkeypatch.setattr(sys.modules[__name__], "FACTOR", 2.0)
+    name = key_of.__wrapped__
+    before, other = name(twice), name(scaled)
+    assert before == name(twice) != other
+    monkeypatch.setattr(sys.modules[__name__], "FACTOR", 3.0)
+    assert name(twice) != before
