@@ -116,11 +116,11 @@ class TimedCell(SimulatedCell):
         self._controlled += thread_time() - began - CLOCK_S
 
     def _time_physics(self, steps: int) -> float:
-        twin = copy(self.data)
+        model, twin = self.contacts.model, copy(self.contacts.data)  # what is stepped now
         began = thread_time()
         for _ in range(steps):
-            mujoco.mj_step2(self.model, twin)
-            mujoco.mj_step1(self.model, twin)
+            mujoco.mj_step2(model, twin)
+            mujoco.mj_step1(model, twin)
         return (thread_time() - began) / steps
 
     def _situation(self) -> Situation:

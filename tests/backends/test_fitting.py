@@ -50,6 +50,6 @@ def test_an_arm_that_takes_positions_only_refuses_speeds() -> None:
     there = SimulatedCell(WorldModel(world(UR5E)))
     facts = replace(there.scene.arms[0], modes=("position",), controller="forward_dynamics_velocity", gripper=None)
     start = there.variation.start(facts)
-    arm = SimulatedArm(facts, there.scene.names, there.model, there.data, start, 0)
+    arm = SimulatedArm(facts, there.scene.names, there.physics, start, 0)
     with pytest.raises(SheetError, match="the arm takes position commands, not velocity commands"):
         make_driver(facts, arm, there.period_s)

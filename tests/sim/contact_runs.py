@@ -92,11 +92,13 @@ def vanish(cell: SimulatedCell, fixture: str) -> None:
     geoms = [g for g in range(cell.model.ngeom) if cell.model.geom(g).name.startswith(prefix)]
     assert geoms
     cell.model.geom_contype[geoms] = cell.model.geom_conaffinity[geoms] = 0
+    cell.refresh()
 
 
 def displace(cell: SimulatedCell, body: str, by: tuple[float, float, float]) -> None:
     """Put something elsewhere that nothing moves, m along the axes of the world."""
     cell.model.body(body).pos += by
+    cell.refresh()
 
 
 def tell(cell: SimulatedCell, individual: str, property_: str, value: float) -> None:

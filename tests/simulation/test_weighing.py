@@ -34,6 +34,7 @@ def weigh(there: SimulatedCell, scene: str, tolerance: float = 0.05) -> None:
 def make_heavier(there: SimulatedCell, kg: float) -> None:
     """Change the true mass of the eraser by so many kg, while the arm compensates the known one."""
     there.model.body(there.scene.names[ERASER] + "/block").mass += kg
+    there.refresh()
     there.advance(0.5)
 
 

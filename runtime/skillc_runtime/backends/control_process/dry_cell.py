@@ -58,14 +58,14 @@ class DryCell(SimulatedCell):
         for facts in self.scene.arms:
             arms[facts.individual] = arm = self._make_arm(facts, self._seen[names[facts.individual]])
             if (gripper := facts.gripper) is not None:
-                hand = SimulatedGripper(gripper, names, things, arm, self.model, self.data, self.variation.seed)
+                hand = SimulatedGripper(gripper, names, things, arm, self.physics, self.variation.seed)
                 hands[facts.individual] = hand
                 self._place_fingers(names[gripper.individual], hand)
         return arms, hands
 
     def _make_arm(self, facts: ArmSpec, seen: ObservedArm) -> DryArm:
         names, steps = self.scene.names, self._steps_per_command
-        arm = DryArm(facts, names, self.model, self.data, self._start(facts), self.variation.seed, steps)
+        arm = DryArm(facts, names, self.physics, self._start(facts), self.variation.seed, steps)
         arm.keeper = CommandKeeper(facts, tuple(each.joint for each in seen.joints), self.period_s)
         self._kept[names[facts.individual]] = arm
         return arm

@@ -76,7 +76,9 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
             arm = KinematicArm(facts, names, self.model, self.data, start, self._steps_per_command)
             arms[facts.individual] = arm
             if facts.gripper is not None:
-                hands[facts.individual] = KinematicGripper(facts.gripper, names, things, arm, self.model, self.data)
+                hands[facts.individual] = KinematicGripper(
+                    facts.gripper, names, things, arm, self.model, self.data, self.contacts
+                )
         return arms, hands
 
     def _let_links_pass(self) -> None:

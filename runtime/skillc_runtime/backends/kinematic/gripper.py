@@ -8,6 +8,7 @@ import numpy as np
 
 from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.checkpoint import SavedGrip
+from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import part_name
@@ -34,8 +35,9 @@ class KinematicGripper(ModelledGripper):
         arm: ModelledArm,
         model: Any,
         data: Any,
+        contacts: Contacts,
     ) -> None:
-        super().__init__(facts, names, things, arm, model, data, FingerSensor())
+        super().__init__(facts, names, things, arm, model, data, contacts, FingerSensor())
         self._held_in_palm = np.zeros(7)
 
     @property

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
+from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.wrist import Wrist
 from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
 from skillc_runtime.backends.simulation.noise import make_joint_noise, make_wrist_noise
@@ -19,14 +19,13 @@ class SimulatedArm(ModelledArm):
         self,
         facts: ArmSpec,
         names: Mapping[str, str],
-        model: Any,
-        data: Any,
+        physics: Physics,
         start: Array,
         seed: int,
         steps_per_command: int = 1,
     ) -> None:
         """Place the joints at `start` (nv,) in rad; the noise of the sensors follows from the seed."""
-        noise = make_joint_noise(facts, seed)
+        noise, model, data, self._physics = make_joint_noise(facts, seed), physics.model, physics.data, physics
         self._wrist: Wrist | None = None
         super().__init__(facts, names, model, data, start, steps_per_command, noise)
         if self._feels_force and (gripper := self._gripper_name) is not None:
@@ -38,6 +37,9 @@ class SimulatedArm(ModelledArm):
         """Filter the wrist sensor; to be called once per step."""
         if self._wrist is not None:
             self._wrist.sample()
+
+    def _compute_full_mass(self) -> None:
+        self._physics.compute_mass(self._full_mass)
 
     def _configure(self, payload: Payload, tool: Pose) -> None:
         super()._configure(payload, tool)

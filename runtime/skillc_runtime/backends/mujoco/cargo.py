@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from skillc_runtime.backends.simulation.cargo import Cargo
+from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.motion.pose import Array, Pose, log
@@ -34,9 +35,10 @@ class InertialCargo(Cargo):
     """
 
     def __init__(
-        self, scene: SceneSpec, robot: str, hands: Mapping[str, ModelledGripper], model: Any, data: Any
-    ) -> None:
-        super().__init__(scene, robot, hands, model, data)
+        self, scene: SceneSpec, robot: str, hands: Mapping[str, ModelledGripper], model: Any, data: Any,
+        contacts: Contacts,
+    ) -> None:  # fmt: skip
+        super().__init__(scene, robot, hands, model, data, contacts)
         self._period_s, self._steps, self._driving = float(model.opt.timestep), 0, False
         self._parts = {block: np.flatnonzero(model.body_rootid == block).tolist() for block in self._blocks.values()}
         self._members: list[int] = []
@@ -85,7 +87,7 @@ class InertialCargo(Cargo):
 
     def _read_contacts(self) -> tuple[dict[int, set[int]], set[int]]:
         """Return what touches each root body, of the base and of things, and the things that touch anything else."""
-        roots = self._model.body_rootid[self._model.geom_bodyid[self._data.contact.geom]].reshape(-1, 2)
+        roots = self._model.body_rootid[self._model.geom_bodyid[self._contacts.geoms]]
         own = {self._base, *self._blocks.values()}
         neighbours, held_up = dict[int, set[int]](), set[int]()
         for one, other in {*map(tuple, roots.tolist()), *map(tuple, roots[:, ::-1].tolist())}:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-
-import mujoco
+from functools import cached_property
 
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.mujoco.cargo import InertialCargo
-from skillc_runtime.backends.mujoco.divergence import DivergenceMonitor
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
+from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.stillness import lie_still
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_checkpoint
@@ -34,6 +33,7 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
 
     cargo_type = InertialCargo
     has_physics = True
+    _drives = False
 
     def __init__(
         self,
@@ -53,16 +53,20 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         scene = read_scene_again(world.snapshot(), checkpoint)
         super().__init__(world, scene, reality(scene, seed), timestep_s, steps_per_command, checkpoint)
 
+    @cached_property
+    def physics(self) -> Physics:
+        """What steps the cell."""
+        return Physics(self.scene, self.variation, self.model, self.data, self.contacts)
+
     def _make_arms(self) -> tuple[dict[str, SimulatedArm], dict[str, SimulatedGripper]]:
         names, things, arms, hands = self.scene.names, self.scene.graspable, {}, {}
+        physics = self.physics
         for facts in self.scene.arms:
             gripper, steps = facts.gripper, self._steps_per_command
-            arm = SimulatedArm(facts, names, self.model, self.data, self._start(facts), self.variation.seed, steps)
+            arm = SimulatedArm(facts, names, physics, self._start(facts), self.variation.seed, steps)
             arms[facts.individual] = arm
             if gripper is not None:
-                hands[facts.individual] = SimulatedGripper(
-                    gripper, names, things, arm, self.model, self.data, self.variation.seed
-                )
+                hands[facts.individual] = SimulatedGripper(gripper, names, things, arm, physics, self.variation.seed)
         return arms, hands
 
     @property
@@ -72,22 +76,27 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         return self._broken is not None or lie_still(self.scene, held, self.model, self.data)
 
     def _prepare(self) -> None:
-        mujoco.mj_forward(self.model, self.data)
-        self._divergence = DivergenceMonitor(self.model, self.data)
+        self.physics.prepare()
 
     def refresh(self) -> None:
-        """Compute what follows from positions in `data` that were changed between two steps."""
-        mujoco.mj_step1(self.model, self.data)
+        """Compute what follows from what was changed in `data` or `model` between two steps."""
+        self.physics.renew()
 
     def _move(self, now: float) -> None:
-        mujoco.mj_step2(self.model, self.data)
-        self._divergence.check()
+        self.physics.move()
         for arm in self.arms.values():
             arm.after_step()
         self._observe(now)
+        if self._bases:
+            self._drive()
+        self.physics.compute_places()
+
+    def _drive(self) -> None:
+        """Move bases with their cargo, which goes on with its own speed in the step after a base has come to rest."""
+        drove, self._drives = self._drives, not all(base.at_rest for base in self._bases.values())
         self._move_bases()
-        mujoco.mj_step1(self.model, self.data)
-        self._divergence.check()
+        if drove or self._drives:
+            self.physics.take_changes()
 
     def _observe(self, now: float) -> None:
         self._touches.sample(now)

@@ -1,4 +1,4 @@
-"""Whether friction between fingers and an object can carry the load on it, which is measured at its weld.
+"""Whether friction between fingers and an object can carry the load on it: the force between hand and object.
 
 Coulomb: two sides that press with F each carry 2 mu F along them. Forces normal to the fingers are always carried,
 since grippers do not yield, and moments too, since real pads are wider than simulated ones.
@@ -6,8 +6,8 @@ since grippers do not yield, and moments too, since real pads are wider than sim
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -28,41 +28,29 @@ class Grip:
 
     `bears_n` is the friction across it.
 
-    equality: the weld; palm: its body; overloaded_from: s, start of the present overload; next_check: s, of the next
-    check.
+    overloaded_from: s, start of the present overload; next_check: s, of the next check.
     """
 
-    equality: int
-    palm: int
     pressing: Array
     force_n: float
     bears_n: float
     overloaded_from: float = np.inf
     next_check: float = 0.0
 
-    def is_overloaded(self, data: Any, now: float) -> bool:
+    def is_overloaded(self, now: float, palm: Array, pull: Callable[[], Array]) -> bool:
         """Tell whether the load has exceeded the grip for `OVERLOAD_S`.
 
+        palm (3, 3): its axes in the world; `pull` returns the force (3,) in N between hand and object, in the world.
         To be called in each step, between `mj_step2` and the next `mj_step1`.
         """
         if now < self.next_check:
             return False
-        self.next_check, pull = now + CHECK_PERIOD_S, self._load(data)
-        self.overloaded_from = min(self.overloaded_from, now) if pull > self.bears_n else np.inf
+        force, pressing = pull(), palm @ self.pressing
+        self.next_check, across = now + CHECK_PERIOD_S, float(np.linalg.norm(force - force @ pressing * pressing))
+        self.overloaded_from = min(self.overloaded_from, now) if across > self.bears_n else np.inf
         return now - self.overloaded_from >= OVERLOAD_S
 
-    def _load(self, data: Any) -> float:
-        """Return the force of the weld in N across the pressing direction; 0 before it acts."""
-        owners = data.efc_id[: data.ne].tolist()  # the rows of equality constraints come before all others
-        if self.equality not in owners:
-            return 0.0
-        first = owners.index(self.equality)
-        force = data.efc_force[first : first + 3]
-        pressing = data.xmat[self.palm].reshape(3, 3) @ self.pressing
-        return float(np.linalg.norm(force - force @ pressing * pressing))
 
-
-def make_grip(data: Any, equality: int, palm: int, normals: list[Array], friction: float, force_n: float) -> Grip:
-    """Return the grip of fingers that press with `force_n` each along normals (3,) in the world."""
-    pressing = data.xmat[palm].reshape(3, 3).T @ normals[0]
-    return Grip(equality, palm, pressing, force_n, SIDES * friction * force_n)
+def make_grip(palm: Array, normals: list[Array], friction: float, force_n: float) -> Grip:
+    """Return the grip of fingers that press with `force_n` each along normals (3,) in the world; palm: its axes."""
+    return Grip(palm.T @ normals[0], force_n, SIDES * friction * force_n)

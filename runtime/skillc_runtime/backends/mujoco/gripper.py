@@ -1,17 +1,16 @@
 """A simulated gripper: a servo for the opening; contact from opposite sides is a grasp.
 
 A weld holds the object, since friction grasps creep in rigid-body simulation, as long as friction could carry the load
-on the weld. After that only contact and friction hold it.
+on the weld; the physics then makes it a part of the hand. After that only contact and friction hold it.
 """
 
 from __future__ import annotations
-
-from typing import Any
 
 import mujoco
 import numpy as np
 
 from skillc_runtime.backends.mujoco.grip import Grip, make_grip
+from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.pressing_force import pressing_force
 from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.checkpoint import SavedGrip
@@ -35,17 +34,17 @@ class SimulatedGripper(ModelledGripper):
         names: dict[str, str],
         things: tuple[ToolSpec | RigidBody, ...],
         arm: ModelledArm,
-        model: Any,
-        data: Any,
+        physics: Physics,
         seed: int,
     ) -> None:
-        super().__init__(facts, names, things, arm, model, data, make_finger_sensor(facts, seed))
+        model, data, self._physics = physics.model, physics.data, physics
+        sensor = make_finger_sensor(facts, seed)
+        super().__init__(facts, names, things, arm, model, data, physics.contacts, sensor)
         self._length = data.actuator_length[self._actuator : self._actuator + 1]
         self._speed = data.actuator_velocity[self._actuator : self._actuator + 1]
         self._data.ctrl[self._actuator] = self._target = self._goal
         self._still_since, self._limit_n = 0.0, float(model.actuator_forcerange[self._actuator, 1])
         self._grip: Grip | None = None
-        self._present: Any = None
 
     @property
     def _true_opening_m(self) -> float:
@@ -64,17 +63,17 @@ class SimulatedGripper(ModelledGripper):
         It is computed for a copy of the present state: between steps the simulation has new contacts, and the forces of
         the old ones.
         """
-        roots = [self._palm]
+        roots, physics = [self._palm], self._physics
         if self._carried:
             roots.append(self._model.body(part_name(self._names[self._carried], "block")).id)
-        if self._present is None:
-            self._present = mujoco.MjData(self._model)
-        mujoco.mj_copyData(self._present, self._model, self._data)
-        mujoco.mj_forward(self._model, self._present)
-        return pressing_force(self._model, self._present, roots)
+        present = mujoco.MjData(physics.contacts.model)
+        mujoco.mj_copyData(present, physics.contacts.model, physics.contacts.data)
+        mujoco.mj_forward(physics.contacts.model, present)
+        return pressing_force(physics.contacts.model, present, physics.find_bodies(roots))
 
     def move(self, opening_m: float, force_n: float) -> None:
         """Move the fingers to an opening in m with at most a force in N, both limited to those of the gripper."""
+        self._physics.release(self._carried)
         self._limit(min(force_n, self._facts.max_force_n))
         self._goal = min(max(opening_m, 0.0), self._facts.max_opening_m)
         self._target, self._idle, self._still_since = self._true_opening_m, False, self._data.time
@@ -82,7 +81,8 @@ class SimulatedGripper(ModelledGripper):
     def stop(self) -> None:
         """Stop the fingers at their present opening."""
         self._goal = self._target = self._true_opening_m
-        self._data.ctrl[self._actuator], self._idle = self._target, True
+        self._data.ctrl[self._actuator] = self._target
+        self._rest()
 
     def step(self, period_s: float) -> None:
         """Advance the servo's target by one step."""
@@ -95,14 +95,28 @@ class SimulatedGripper(ModelledGripper):
             self._still_since = self._data.time
         elif self._data.time - self._still_since > STILL_TIME_S:
             arrived = abs(self._true_opening_m - self._goal) < STILL_M_S
-            self._idle = arrived or self._target == self._goal or self._is_at_force_limit()
+            if arrived or self._target == self._goal or self._is_at_force_limit():
+                self._rest()
+
+    def _rest(self) -> None:
+        """Let the fingers stand still: what they hold firmly is a part of the hand until they move again."""
+        self._idle = True
+        if self._carried and self._is_firm():
+            self._physics.hold(self._carried, self.individual)
+
+    def _is_firm(self) -> bool:
+        """Whether friction bears the true weight of what is carried; else it will slip, which the weld shows better."""
+        block = self._model.body(part_name(self._names[self._carried], "block")).id
+        weight_n = float(self._model.body_subtreemass[block] * np.linalg.norm(self._model.opt.gravity))
+        return self._grip is not None and weight_n <= self._grip.bears_n
 
     def slips(self, now: float) -> bool:
         """Tell whether more pulls at the carried object than friction bears.
 
         To be called in each step, between `mj_step2` and the next `mj_step1`.
         """
-        return self._grip is not None and self._grip.is_overloaded(self._data, now)
+        palm = self._data.xmat[self._palm].reshape(3, 3)
+        return self._grip is not None and self._grip.is_overloaded(now, palm, self._pull)
 
     def _limit(self, force_n: float) -> None:
         """Limit the force of the fingers."""
@@ -110,21 +124,37 @@ class SimulatedGripper(ModelledGripper):
 
     def _hold(self, thing: str, in_palm: Pose, grip: SavedGrip | None) -> None:
         """Activate the weld."""
-        equality = self._model.equality(weld_name(self._name, self._names[thing])).id
+        equality = self._weld(thing)
         if grip is None:
             force = abs(float(self._data.actuator_force[self._actuator]))
             normals, friction = self._contacts_with(thing)
-            self._grip = make_grip(self._data, equality, self._palm, normals, friction, force)
+            self._grip = make_grip(self._data.xmat[self._palm].reshape(3, 3), normals, friction, force)
         else:
-            self._grip = Grip(equality, self._palm, np.array(grip.pressing), grip.force_n, grip.bears_n)
+            self._grip = Grip(np.array(grip.pressing), grip.force_n, grip.bears_n)
         row, turn = self._model.eq_data[equality], quaternion_from_rotation(in_palm.rotation)
         row[:3], row[3:6], row[6:10], row[10] = 0.0, in_palm.position, turn, 1.0
         self._data.eq_active[equality] = 1
 
     def _let_go(self, thing: str) -> None:
         """Remove the weld."""
-        equality = self._model.equality(weld_name(self._name, self._names[thing])).id
-        self._data.eq_active[equality], self._grip = 0, None
+        self._data.eq_active[self._weld(thing)], self._grip = 0, None
+        self._physics.release(thing)
+
+    def _weld(self, thing: str) -> int:
+        """Return the number of the weld that holds a thing."""
+        return int(self._model.equality(weld_name(self._name, self._names[thing])).id)
+
+    def _pull(self) -> Array:
+        """Return the force (3,) in N, world axes, of the hand on what is carried, in the last step."""
+        force = self._physics.pull_on(self._carried)
+        return self._pull_of_weld() if force is None else force
+
+    def _pull_of_weld(self) -> Array:
+        """Return the force (3,) in N of the weld; 0 before it acts."""
+        owners = self._data.efc_id[: self._data.ne].tolist()  # the rows of equality constraints come before all others
+        weld = self._weld(self._carried)
+        first = owners.index(weld) if weld in owners else None
+        return np.zeros(3) if first is None else -self._data.efc_force[first : first + 3]
 
     def _save_grip(self) -> SavedGrip | None:
         """Return how friction holds what is carried."""

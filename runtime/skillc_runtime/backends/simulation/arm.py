@@ -268,8 +268,12 @@ class ModelledArm(Arm):
         self._hand.configure(tool, self._flange.rotation, payload.centre)
         np.multiply(self._model.opt.gravity, -payload.mass_kg, out=self._weight)
 
-    def _update_mass_matrix(self) -> None:
+    def _compute_full_mass(self) -> None:
+        """Compute the mass matrix of the whole cell, without what hands hold."""
         mujoco.mj_fullM(self._model, self._data, self._full_mass)
+
+    def _update_mass_matrix(self) -> None:
+        self._compute_full_mass()
         self._here.mass_matrix[:] = self._full_mass[self._dofs, self._dofs]
         if self.payload.mass_kg > 0.0:
             add_payload_mass(self._here.mass_matrix, self._hand.lever, self._here.jacobian, self.payload.mass_kg)

@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.backends.simulation.contact_bits import CARRIES, MOVABLE, WORKS
+from skillc_runtime.backends.simulation.hold import Hold, add_mount
 from skillc_runtime.backends.simulation.names import part_name, solid_geom_name
 from skillc_runtime.collision.solid_geoms import add_solid
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
@@ -49,13 +50,13 @@ def _add_slide(added: Any, name: str, slide: Slide) -> None:
     joint.solref_friction, joint.solimp_friction = STICKING
 
 
-def add_movable_body(spec: Any, name: str, body: RigidBody) -> None:
-    """Add a body with a free joint, its mass and its own friction."""
-    place = body.pose
-    added = spec.worldbody.add_body(
-        name=part_name(name, "block"), pos=place.position, quat=quaternion_from_rotation(place.rotation)
-    )
-    added.add_freejoint(name=part_name(name, "free"))
+def add_movable_body(spec: Any, name: str, body: RigidBody, hold: Hold | None = None) -> None:
+    """Add a body, free to move or a part of the hand that holds it, with its mass and its own friction."""
+    frame = add_mount(spec, body.pose, hold)
+    added = frame.parent.add_body(name=part_name(name, "block"))
+    added.set_frame(frame)
+    if hold is None:
+        added.add_freejoint(name=part_name(name, "free"))
     for geom in _add_solids(spec, added, name, body):
         geom.contype, geom.conaffinity = MOVABLE
         geom.condim, geom.priority = 6, OWN_CONTACT

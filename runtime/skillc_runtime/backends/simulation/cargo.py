@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import base_body_name, part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
@@ -16,10 +17,11 @@ class Cargo:
     """The cargo of one mobile base: what touches it, or other cargo, when it starts to drive. It stays where it is."""
 
     def __init__(
-        self, scene: SceneSpec, robot: str, hands: Mapping[str, ModelledGripper], model: Any, data: Any
-    ) -> None:
+        self, scene: SceneSpec, robot: str, hands: Mapping[str, ModelledGripper], model: Any, data: Any,
+        contacts: Contacts,
+    ) -> None:  # fmt: skip
         """Prepare the cargo of a robot; `hands` are all grippers of the cell, by the IRI of their arm."""
-        self._model, self._data, self._all = model, data, tuple(hands.values())
+        self._model, self._data, self._contacts, self._all = model, data, contacts, tuple(hands.values())
         self._own = [hands[arm.individual] for arm in scene.arms if arm.robot == robot and arm.individual in hands]
         self._base = int(model.body(base_body_name(scene.names[robot])).id)
         blocks = {each.individual: part_name(scene.names[each.individual], "block") for each in scene.graspable}

@@ -15,6 +15,7 @@ from skillc_runtime.backends.simulation.camera import SimulatedCamera
 from skillc_runtime.backends.simulation.cargo import Cargo
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, encode_checkpoint
 from skillc_runtime.backends.simulation.claims import find_false_claims
+from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.backends.simulation.disturber import SimulatedDisturber
 from skillc_runtime.backends.simulation.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.driver_factory import make_driver
@@ -78,6 +79,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self.model: Any = build_model(scene, variation, timestep_s)
         self.data: Any = mujoco.MjData(self.model)
         self.data.time = checkpoint.time_s if checkpoint is not None else 0.0
+        self.contacts = Contacts(self.model, self.data)
         self._timestep, self._steps_per_command, self._step = timestep_s, steps_per_command, 0
         self._broken: str | None = None
         self._reports: list[tuple[Sequence[Change], str, Evidence]] = []
@@ -86,7 +88,10 @@ class ModelledCell(ABC, Generic[A, G]):
         self._grippers = DeviceMap("gripper", hands, names)
         bases = {b.individual: SimulatedBase(b, names[b.individual], self.model, self.data) for b in scene.bases}
         self._bases = DeviceMap("mobile base", bases, names)
-        self._cargo = {r: self.cargo_type(scene, r, self._hands, self.model, self.data) for r in self._bases}
+        self._cargo = {
+            each: self.cargo_type(scene, each, self._hands, self.model, self.data, self.contacts)
+            for each in self._bases
+        }
         poses = {s.individual: variation.of(s.individual).true_pose(s.pose) for s in scene.surfaces}
         self.coverage = {s.individual: CoverageMap(poses[s.individual], s.layout, s.least_n) for s in scene.surfaces}
         if checkpoint is not None:
@@ -105,7 +110,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self._buttons = DeviceMap("button", make_buttons(scene.fixtures, variation.fixtures, names, self.data), names)
         self._io_points = DeviceMap("I/O point", make_points(world.snapshot()), names)
         self.people = make_people(scene, variation, self._drivers, self.data)
-        self._touches = TouchRecorder(scene, self.model, self.data, self._held_things)
+        self._touches = TouchRecorder(scene, self.model, self.contacts, self._held_things)
         self.ground_truth: GroundTruth = SimulatedTruth(
             scene, variation, self._observers, self.coverage, self._buttons, self.people, self._touches, self._grippers,
             self.data,

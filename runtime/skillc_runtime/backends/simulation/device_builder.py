@@ -11,6 +11,7 @@ import numpy as np
 from skillc_runtime.backends.simulation.contact_bits import set_solid
 from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec
 from skillc_runtime.backends.simulation.fixture_variation import FixtureVariation
+from skillc_runtime.backends.simulation.hold import Hold, add_mount
 from skillc_runtime.backends.simulation.names import (
     box_geom_name,
     contact_sensor_name,
@@ -57,8 +58,10 @@ def add_arm(spec: Any, names: Mapping[str, str], arm: ArmSpec, mount: Any, base:
         _add_gripper(spec, names, arm, arm.gripper)
 
 
-def add_tool(spec: Any, names: Mapping[str, str], tool: ToolSpec, pad_stiffness: float | None) -> None:
-    """Add a tool, free to move, with its mass and ground truth sensors.
+def add_tool(
+    spec: Any, names: Mapping[str, str], tool: ToolSpec, pad_stiffness: float | None, hold: Hold | None = None
+) -> None:
+    """Add a tool, free to move or a part of the hand that holds it, with its mass and ground truth sensors.
 
     pad_stiffness: N/m, of the pad under its working face; None for a rigid tool.
     """
@@ -71,15 +74,15 @@ def add_tool(spec: Any, names: Mapping[str, str], tool: ToolSpec, pad_stiffness:
         _set_foundation(model, tool, pad_stiffness)
     root = model.worldbody.first_body()
     set_solid(root.geoms)
-    root.add_freejoint(name="free")
+    if hold is None:
+        root.add_freejoint(name="free")
     face = working_face(tool.size)
     root.add_site(name="face", pos=face.position, quat=quaternion_from_rotation(face.rotation))
     felt = model.geom("face")
     felt.parent.add_site(
         name="touch", type=mujoco.mjtGeom.mjGEOM_BOX, pos=felt.pos, size=felt.size + TOUCH_MARGIN_M, rgba=[0, 0, 0, 0]
     )
-    frame = spec.worldbody.add_frame(pos=tool.pose.position, quat=quaternion_from_rotation(tool.pose.rotation))
-    spec.attach(model, prefix=part_name(name, ""), frame=frame)
+    spec.attach(model, prefix=part_name(name, ""), frame=add_mount(spec, tool.pose, hold))
     _add_face_sensors(spec, name)
     _add_contact_sensor(spec, name, root)
 

@@ -10,6 +10,7 @@ import mujoco
 from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.checkpoint import SavedGrip, SavedGripper, list_numbers, make_pose
 from skillc_runtime.backends.simulation.contact_bits import HANDLE, PAD
+from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
 from skillc_runtime.backends.simulation.gripper_geoms import find_handles, find_pads
 from skillc_runtime.backends.simulation.names import part_name
@@ -42,9 +43,10 @@ class ModelledGripper(ABC):
         arm: ModelledArm,
         model: Any,
         data: Any,
+        contacts: Contacts,
         sensor: FingerSensor,
     ) -> None:
-        self._sensor = sensor
+        self._contacts, self._sensor = contacts, sensor
         self._facts, self._names, self._arm, self._model, self._data = facts, names, arm, model, data
         self._things = {thing.individual: thing for thing in things}
         self._handles = {thing: find_handles(model, names[thing]) for thing in self._things}
@@ -296,11 +298,10 @@ class ModelledGripper(ABC):
 
     def _contacts_with(self, thing: str) -> tuple[list[Array], float]:
         """Return the contact normals (3,), in the world, of pads on an object, and the least friction."""
-        contacts, handles = self._data.contact, self._handles.get(thing, NOTHING)
+        contacts, handles = self._contacts.data.contact, self._handles.get(thing, NOTHING)
         normals: list[Array] = []
         frictions: list[float] = []
-        for index in range(self._data.ncon):
-            one, other = contacts.geom[index]
+        for index, (one, other) in enumerate(self._contacts.geoms.tolist()):
             if {one, other} & self.pads and {one, other} & handles:
                 normals.append(contacts.frame[index, :3] * (1.0 if one in self.pads else -1.0))
                 frictions.append(float(contacts.friction[index, 0]))

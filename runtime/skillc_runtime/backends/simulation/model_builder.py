@@ -16,6 +16,7 @@ from skillc_runtime.backends.simulation.body_builder import (
     set_support,
 )
 from skillc_runtime.backends.simulation.device_builder import add_arm, add_fixture, add_pressing_sensor, add_tool
+from skillc_runtime.backends.simulation.hold import Hold, fix_fingers
 from skillc_runtime.backends.simulation.names import (
     base_body_name,
     box_geom_name,
@@ -41,22 +42,30 @@ WELD_SOLREF = (0.004, 1.0)
 WELD_SOLIMP = (0.99, 0.999, 0.0005, 0.5, 2.0)
 """A grasp as stiff as a 1 ms step allows: a few micrometres at 20 N."""
 
+NO_HOLDS: Mapping[str, Hold] = {}
+
 BOARD, STEEL = (0.93, 0.94, 0.95, 1.0), (0.4, 0.43, 0.47, 1.0)
 
 
-def build_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0.001) -> mujoco.MjModel:
-    """Build the model of a scene with its true differences from the facts.
+def build_model(
+    scene: SceneSpec, variation: Variation, timestep_s: float = 0.001, holds: Mapping[str, Hold] = NO_HOLDS
+) -> mujoco.MjModel:
+    """Build the model of a scene with its true differences from the facts; `holds` are by IRI of what is held.
 
     Raises SheetError if a data sheet's model cannot be read or lacks a part that the simulation needs.
     """
     try:
-        return describe_model(scene, variation, timestep_s).compile()
+        return describe_model(scene, variation, timestep_s, holds).compile()
     except ValueError as error:
         raise SheetError(f"the models of the data sheets cannot be used: {error}") from error
 
 
-def describe_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0.001) -> mujoco.MjSpec:
+def describe_model(
+    scene: SceneSpec, variation: Variation, timestep_s: float = 0.001, holds: Mapping[str, Hold] = NO_HOLDS
+) -> mujoco.MjSpec:
     """Return the specification of a scene with its true differences, which MuJoCo compiles to a model.
+
+    What is held, by IRI in `holds`, is a part of the hand, whose fingers do not move; all else lies free.
 
     Raises ValueError if a model cannot be read or lacks a part.
     """
@@ -75,18 +84,26 @@ def describe_model(scene: SceneSpec, variation: Variation, timestep_s: float = 0
     for arm in scene.arms:
         mount, frame = mounts.get(arm.robot or "", (spec.worldbody, Pose(np.zeros(3), np.eye(3))))
         add_arm(spec, scene.names, arm, mount, frame.inverse() @ arm.base)
-    for tool in scene.tools:
-        there = replace(tool, pose=variation.true_pose(tool.individual, tool.pose))
-        add_tool(spec, scene.names, there, None if tool.rigid else variation.pad_stiffness(tool))
-    for body in scene.movable:
-        lying = replace(body, pose=variation.true_pose(body.individual, body.pose))
-        add_movable_body(spec, scene.names[body.individual], lying)
+    for hold in holds.values():
+        fix_fingers(spec, hold)
+    _add_graspable(spec, scene, variation, holds)
     exclude_own_overlaps(spec, scene)
-    _add_welds(spec, scene)
+    _add_welds(spec, scene, holds)
     for tool, surface in product(scene.tools, scene.surfaces):
         if variation.of(surface.individual).present:
             add_pressing_sensor(spec, scene.names[tool.individual], scene.names[surface.individual])
     return spec
+
+
+def _add_graspable(spec: Any, scene: SceneSpec, variation: Variation, holds: Mapping[str, Hold]) -> None:
+    """Add tools and movable bodies, where they lie or in the hands that hold them."""
+    for tool in scene.tools:
+        there = replace(tool, pose=variation.true_pose(tool.individual, tool.pose))
+        stiffness = None if tool.rigid else variation.pad_stiffness(tool)
+        add_tool(spec, scene.names, there, stiffness, holds.get(tool.individual))
+    for body in scene.movable:
+        lying = replace(body, pose=variation.true_pose(body.individual, body.pose))
+        add_movable_body(spec, scene.names[body.individual], lying, holds.get(body.individual))
 
 
 def _empty(timestep_s: float) -> Any:
@@ -165,10 +182,11 @@ def _add_mounted_bodies(spec: Any, scene: SceneSpec, mounts: Mapping[str, tuple[
             add_fixed_body(spec, mount, scene.names[body.individual], body, frame.inverse() @ body.pose)
 
 
-def _add_welds(spec: Any, scene: SceneSpec) -> None:
-    """Add an inactive weld for every gripper and what it can hold; a grasp activates it."""
+def _add_welds(spec: Any, scene: SceneSpec, holds: Mapping[str, Hold]) -> None:
+    """Add an inactive weld for every gripper and what it can hold, unless that is held; a grasp activates it."""
     grippers = [scene.names[arm.gripper.individual] for arm in scene.arms if arm.gripper is not None]
-    for gripper, thing in product(grippers, (scene.names[each.individual] for each in scene.graspable)):
+    free = [scene.names[each.individual] for each in scene.graspable if each.individual not in holds]
+    for gripper, thing in product(grippers, free):
         equality = spec.add_equality(name=weld_name(gripper, thing), type=mujoco.mjtEq.mjEQ_WELD)
         equality.objtype = mujoco.mjtObj.mjOBJ_BODY
         equality.name1, equality.name2 = part_name(gripper, "palm"), part_name(thing, "block")

@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import mujoco
 import numpy as np
 
 from skillc_runtime.backends.simulation.contact_bits import HANDLE, LINK
+from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.devices.ground_truth import Touching
 from skillc_runtime.motion.pose import Array
@@ -40,8 +40,10 @@ class TouchRecorder:
     holds; both are IRIs.
     """
 
-    def __init__(self, scene: SceneSpec, model: Any, data: Any, held: Callable[[], Sequence[tuple[str, str]]]) -> None:
-        self._model, self._data, self._names, self._held = model, data, scene.names, held
+    def __init__(
+        self, scene: SceneSpec, model: Any, contacts: Contacts, held: Callable[[], Sequence[tuple[str, str]]]
+    ) -> None:
+        self._model, self._present, self._names, self._held = model, contacts, scene.names, held
         grippers = [arm.gripper.individual for arm in scene.arms if arm.gripper is not None]
         self._grippers = {scene.names[each] for each in grippers}
         self._robots = {scene.names[arm.individual] for arm in scene.arms} | self._grippers
@@ -65,9 +67,10 @@ class TouchRecorder:
     def sample(self, now: float) -> None:
         """Look at the contacts of the step that begins at `now` s, once their forces are computed."""
         self._steps += 1
-        if self._touched or self._data.ncon != self._count or self._steps == STEPS_PER_LOOK:
-            self._steps, self._count = 0, self._data.ncon
-            touching = self._data.contact.geom.ravel().tolist()
+        count = self._present.data.ncon
+        if self._touched or count != self._count or self._steps == STEPS_PER_LOOK:
+            self._steps, self._count = 0, count
+            touching = self._present.geoms.ravel().tolist()
             self._touched = not self._watched.isdisjoint(touching) and self._measure(now)
 
     def add(self, part: str, other: str, now: float, force_n: float | None) -> None:
@@ -83,7 +86,7 @@ class TouchRecorder:
         """Add the present contacts with their forces; tell whether there are any."""
         forces: defaultdict[tuple[str, str], Array] = defaultdict(lambda: np.zeros(3))
         for index, pair in self._contacts():
-            forces[pair] += _force(self._model, self._data, index)
+            forces[pair] += self._present.force(index)
         felt = {pair: float(np.linalg.norm(force)) for pair, force in forces.items()}
         for (part, other), force_n in felt.items():
             if force_n >= LEAST_N:
@@ -93,7 +96,7 @@ class TouchRecorder:
     def _contacts(self) -> Iterator[tuple[int, tuple[str, str]]]:
         """Yield each contact that counts, with the robot's part and what it touches."""
         holders = {self._names[thing]: self._names[gripper] for gripper, thing in self._held()}
-        for index, (one, other) in enumerate(self._data.contact.geom.tolist()):
+        for index, (one, other) in enumerate(self._present.geoms.tolist()):
             hands = [holders.get(self._parts[geom][0], self._parts[geom][0]) for geom in (one, other)]
             part, thing = (one, other) if self._is_robot(one, hands[0]) else (other, one)
             if self._is_robot(part, hands[part != one]) and hands[0] != hands[1] and not self._is_grasp(part, thing):
@@ -121,11 +124,3 @@ def _part(model: Any, geom: int) -> tuple[str, str]:
 
 def _describe(owner: str, part: str) -> str:
     return f"{owner} {part}" if part else owner
-
-
-def _force(model: Any, data: Any, contact: int) -> Array:
-    """Return the force (3,) of a contact in N, world axes."""
-    wrench = np.zeros(6)
-    mujoco.mj_contactForce(model, data, contact, wrench)
-    force: Array = data.contact.frame[contact].reshape(3, 3).T @ wrench[:3]
-    return force

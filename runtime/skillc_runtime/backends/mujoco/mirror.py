@@ -1,0 +1,104 @@
+"""Steps a model in which things are held, and shows its state in the data of the one in which all is free.
+
+So all that measures, records, films and saves a cell knows one model only, whatever is held.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.backends.mujoco.exchange import (
+    CHANGES,
+    FORCES,
+    LIMITS,
+    MOVED,
+    PLACED,
+    Piece,
+    copies,
+    find_pieces,
+    shown,
+    taken,
+)
+from skillc_runtime.backends.mujoco.held_load import Held, make_held, take_off_load
+from skillc_runtime.backends.mujoco.model_map import ModelMap
+from skillc_runtime.backends.simulation.machine_code import address_of, address_of_time
+from skillc_runtime.motion.arrays import Vector
+from skillc_runtime.motion.numerics.compiled import bind, compiled
+from skillc_runtime.motion.numerics.copying import Copies, copy, copy_pieces
+from skillc_runtime.motion.numerics.places import call_entry
+from skillc_runtime.motion.pose import Array
+
+
+@dataclass(frozen=True, slots=True)
+class HalfStep:
+    """Half a step of the tight model: what it takes from the free data before, and what it shows there after.
+
+    called (3,): the addresses of MuJoCo's function, of the model and of its data, all exact.
+    """
+
+    before: Copies
+    called: Vector
+    after: Copies
+    held: Held
+
+
+@compiled
+def run_half(step: HalfStep) -> None:
+    """Run half a step; arms do not know the load that they hold."""
+    copy_pieces(step.before)
+    call_entry(int(step.called[0]), int(step.called[1]), int(step.called[2]))
+    copy_pieces(step.after)
+    take_off_load(step.held)
+
+
+class Mirror:
+    """Steps the tight model, and shows its state in the data of the free one.
+
+    `blocks` are the outermost bodies of what is held, in the free model. `compute_places` computes what follows from
+    positions and speeds, `move` the forces, and moves; `take_changes` puts all where it is in the free data.
+    """
+
+    def __init__(
+        self, rows: ModelMap, free_model: Any, free: Any, tight_model: Any, tight: Any, blocks: list[int]
+    ) -> None:
+        self.rows, self.tight_model, self.tight, self.blocks = rows, tight_model, tight, blocks
+        first, second = (
+            np.array([address_of(name), tight_model._address, tight._address], dtype=np.float64)
+            for name in ("mj_step1", "mj_step2")
+        )
+        forces = taken(rows, FORCES, free, tight), taken(rows, LIMITS, free_model, tight_model)
+        time = address_of_time(tight), address_of_time(free), free.energy.itemsize
+        moved = copies(shown(rows, MOVED, free, tight), [time])
+        things = (_find_place(rows, each, free_model, free, tight) for each in blocks)
+        placed = copies(shown(rows, PLACED, free, tight), *things)
+        held, nothing = (make_held(rows, each, free, tight_model, tight) for each in (blocks, ()))
+        self.move = bind(run_half, HalfStep(copies(*forces), second, moved, nothing))
+        self.compute_places = bind(run_half, HalfStep(copies(), first, placed, held))
+        self.take_changes = bind(copy, copies(taken(rows, CHANGES, free, tight)))
+
+    def pull_on(self, block: int) -> Array:
+        """Return the force (3,) in N, world axes, of the hand on what is held, in the last step."""
+        mujoco.mj_rnePostConstraint(self.tight_model, self.tight)
+        force: Array = self.tight.cfrc_int[self.rows.bodies[block], 3:].copy()
+        return force
+
+
+def full_mass(model: Any, data: Any, out: Array) -> None:
+    """Compute the mass matrix (nv, nv) of a model at the positions that its data show."""
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    mujoco.mj_crb(model, data)
+    mujoco.mj_fullM(model, data, out)
+
+
+def _find_place(rows: ModelMap, block: int, free_model: Any, free: Any, tight: Any) -> Iterator[Piece]:
+    """Yield what shows where a thing is that is held, in its coordinates in the free model."""
+    held, first = int(rows.bodies[block]), int(free_model.jnt_qposadr[free_model.body_jntadr[block]])
+    for source, start in ((tight.xpos[held], first), (tight.xquat[held], first + 3)):
+        every = np.arange(source.size)
+        yield from find_pieces(source, every, free.qpos, start + every)

@@ -1,0 +1,156 @@
+"""Steps the physics of a cell; what hands hold firmly is a part of them for as long as they hold it.
+
+A thing that a weld holds costs six degrees of freedom and six constraints, and the fingers around it two or three,
+though none of them moves. So while a grasp is firm, steps are computed with another model of the same scene, the tight
+one, in which the thing is fixed to the palm and the fingers to their places. The cell's own model, in which all is free
+and the weld is active, stays what everybody else reads and writes: after each step it shows the state of the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from skillc_runtime.backends.mujoco.divergence import DivergenceMonitor
+from skillc_runtime.backends.mujoco.mirror import Mirror, full_mass
+from skillc_runtime.backends.mujoco.model_map import map_models
+from skillc_runtime.backends.mujoco.momentum import join, part
+from skillc_runtime.backends.simulation.contacts import Contacts
+from skillc_runtime.backends.simulation.hold import read_hold
+from skillc_runtime.backends.simulation.machine_code import address_of, has_room
+from skillc_runtime.backends.simulation.model_builder import build_model
+from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.backends.simulation.variation import Variation
+from skillc_runtime.motion.numerics.compiled import COMPILES
+from skillc_runtime.motion.pose import Array
+
+
+@dataclass(slots=True)
+class Physics:
+    """The physics of a cell, whose model and data these are; `contacts` are those of the last step."""
+
+    scene: SceneSpec
+    variation: Variation
+    model: Any
+    data: Any
+    contacts: Contacts
+    tightens: bool = COMPILES and address_of("mj_step1") != 0
+    """Whether what is held becomes a part of the hand: without compiled functions, showing its state costs more."""
+    switches: int = 0
+    """How often steps went on with another model: who keeps addresses of what they use finds them again then."""
+    _holders: dict[str, str] = field(default_factory=dict)
+    _mirror: Mirror | None = None
+    _is_due: bool = False
+    _monitor: DivergenceMonitor = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._monitor = DivergenceMonitor(self.model, self.data)
+
+    def hold(self, thing: str, gripper: str) -> None:
+        """Let a thing be a part of the hand, whose fingers stand still, that a weld holds it in; both are IRIs."""
+        if self.tightens and thing not in self._holders and has_room(self.data):
+            self._loosen()
+            self._holders[thing], self._is_due = gripper, True
+
+    def release(self, thing: str) -> None:
+        """Let a thing, and the fingers around it, be free again; nothing happens if it is no part of a hand."""
+        if self._holders.pop(thing, None) is not None:
+            self._loosen()
+            self._is_due = bool(self._holders)
+
+    def prepare(self) -> None:
+        """Compute all that follows from the positions in the data of the cell, before the first step."""
+        mujoco.mj_forward(self.model, self.data)
+
+    def renew(self) -> None:
+        """Take over what was changed in the model or the data of the cell between two steps."""
+        if self._mirror is not None:
+            self._mirror.rows.renew(self.model, self._mirror.tight_model)
+            self._mirror.take_changes()
+        self.compute_places()
+
+    def compute_places(self) -> None:
+        """Compute what follows from positions and speeds: the first part of a step."""
+        if self._is_due:
+            mujoco.mj_step1(self.model, self.data)
+            self._tighten()
+        if self._mirror is None:
+            mujoco.mj_step1(self.model, self.data)
+        else:
+            self._mirror.compute_places()
+        self._monitor.check()
+
+    def move(self) -> None:
+        """Compute forces and move: the rest of a step, after `compute_places`."""
+        if self._is_due:
+            self._tighten()
+            self.compute_places()
+        if self._mirror is None:
+            mujoco.mj_step2(self.model, self.data)
+        else:
+            self._mirror.move()
+        self._monitor.check()
+
+    def take_changes(self) -> None:
+        """Take over where things were put in the data of the cell between two half steps."""
+        if self._mirror is not None:
+            self._mirror.take_changes()
+
+    def pull_on(self, thing: str) -> Array | None:
+        """Return the force (3,) in N, world axes, of a hand on a thing that is a part of it, in the last step.
+
+        None if it is none.
+        """
+        return None if self._mirror is None or thing not in self._holders else self._mirror.pull_on(self._block(thing))
+
+    def compute_mass(self, out: Array) -> None:
+        """Compute the mass matrix (nv, nv) of the model of the cell, in which what is held does not burden an arm."""
+        if self._mirror is None:
+            mujoco.mj_fullM(self.model, self.data, out)
+        else:
+            full_mass(self.model, self.data, out)
+
+    def find_bodies(self, bodies: list[int]) -> list[int]:
+        """Return the numbers of bodies in the model with which contacts are computed."""
+        return bodies if self._mirror is None else self._mirror.rows.bodies[bodies].tolist()
+
+    def _tighten(self) -> None:
+        """Go on with a model in which what is held is a part of the hand."""
+        names, self._is_due = self.scene.names, False
+        holds = {
+            thing: read_hold(self.model, self.data, names[gripper], names[thing])
+            for thing, gripper in self._holders.items()
+        }
+        model = build_model(self.scene, self.variation, self.model.opt.timestep, holds)
+        rows, data, blocks = map_models(self.model, model), mujoco.MjData(model), self._blocks()
+        rows.renew(self.model, model)
+        join(rows, self.model, self.data, model, data, blocks)
+        self._mirror = Mirror(rows, self.model, self.data, model, data, list(blocks))
+        self._step_with(model, data, np.argsort(rows.geoms))
+
+    def _loosen(self) -> None:
+        """Go on with the model of the cell."""
+        mirror, self._mirror = self._mirror, None
+        if mirror is not None:
+            part(mirror.rows, self.model, self.data, mirror.tight_model, mirror.tight, self._blocks(mirror.blocks))
+            mujoco.mj_step1(self.model, self.data)
+            self._step_with(self.model, self.data, np.arange(self.model.ngeom))
+
+    def _step_with(self, model: Any, data: Any, geoms: NDArray[np.int64]) -> None:
+        """Watch what steps use from now on; `geoms` are the numbers (ngeom,) in the cell's model of the geoms there."""
+        self._monitor = DivergenceMonitor(model, data)
+        self.contacts.read_from(model, data, geoms)
+        self.switches += 1
+
+    def _block(self, thing: str) -> int:
+        return int(self.model.body(part_name(self.scene.names[thing], "block")).id)
+
+    def _blocks(self, blocks: list[int] | None = None) -> dict[int, int]:
+        """Return the bodies of what is held, each with its first degree of freedom in the model of the cell."""
+        found = [self._block(thing) for thing in self._holders] if blocks is None else blocks
+        return {block: int(self.model.jnt_dofadr[self.model.body_jntadr[block]]) for block in found}
