@@ -72,7 +72,7 @@ def find_pieces(source: Array, rows: Rows, target: Array, to_rows: Rows) -> Iter
     )
     for first, end in pairwise(starts):
         if end > first:
-            yield begin + width * int(rows[first]), to_begin + width * int(to_rows[first]), width * (end - first)
+            yield to_begin + width * int(to_rows[first]), begin + width * int(rows[first]), width * (end - first)
 
 
 def copies(*pieces: Iterable[Piece]) -> Copies:

@@ -72,7 +72,7 @@ class Mirror:
             for name in ("mj_step1", "mj_step2")
         )
         forces = taken(rows, FORCES, free, tight), taken(rows, LIMITS, free_model, tight_model)
-        time = address_of_time(tight), address_of_time(free), free.energy.itemsize
+        time = address_of_time(free), address_of_time(tight), free.energy.itemsize
         moved = copies(shown(rows, MOVED, free, tight), [time])
         things = (_find_place(rows, each, free_model, free, tight) for each in blocks)
         placed = copies(shown(rows, PLACED, free, tight), *things)
