@@ -14,15 +14,18 @@ if TYPE_CHECKING or HAS_NUMPY:
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
+    IntegerArray = NDArray[np.int64]
 else:
     from skillc_runtime.motion import small_arrays as np
 
-    Array = np.ndarray
+    Array = IntegerArray = np.ndarray
 
-__all__ = ["HAS_NUMPY", "Array", "Matrix", "OutMatrix", "OutVector", "Vector", "np"]
+__all__ = ["HAS_NUMPY", "Array", "Integers", "Matrix", "OutMatrix", "OutVector", "Vector", "np"]
 
 Vector = Annotated[Array, 1, "read"]
 Matrix = Annotated[Array, 2, "read"]
 OutVector = Annotated[Array, 1, "written"]
 OutMatrix = Annotated[Array, 2, "written"]
-"""Arguments of compiled functions: arrays that are read, in any layout, or written, in C order."""
+Integers = Annotated[IntegerArray, 2, "integers"]
+"""Arguments of compiled functions: arrays that are read, in any layout, or written, in C order; integers (n, m) of 64
+bits, such as addresses, only in the memory of functions on memory."""

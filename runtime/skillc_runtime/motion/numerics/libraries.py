@@ -5,7 +5,7 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from skillc_runtime.motion.pose import Array, exp
+from skillc_runtime.motion.pose import Array, exp, rotation_from_quaternion
 
 
 def times(A: Array, x: Array, out: Array) -> None:
@@ -56,6 +56,11 @@ def cholesky_solve(L: Array, b: Array, out: Array) -> None:
 def rotation_by(vector: Array, out: Array) -> None:
     """out (3, 3) = the rotation about a vector (3,) in rad of the same frame."""
     out[:] = exp(vector)
+
+
+def rotation_of(quaternion: Array, out: Array) -> None:
+    """out (3, 3) = the rotation of a quaternion (4,), (w, x, y, z), normalised or not."""
+    out[:] = rotation_from_quaternion(quaternion)
 
 
 def rotation_between(start: Array, end: Array, out: Array) -> None:

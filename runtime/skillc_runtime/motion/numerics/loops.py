@@ -116,6 +116,16 @@ def rotation_by(vector: Array, out: Array) -> None:
 
 
 @inlined
+def rotation_of(quaternion: Array, out: Array) -> None:
+    """out (3, 3) = the rotation of a quaternion (4,), (w, x, y, z), normalised or not. See `motion.pose`."""
+    w, x, y, z = quaternion[0], quaternion[1], quaternion[2], quaternion[3]
+    s = 2 / (w * w + x * x + y * y + z * z)
+    out[0, 0], out[0, 1], out[0, 2] = 1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)
+    out[1, 0], out[1, 1], out[1, 2] = s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)
+    out[2, 0], out[2, 1], out[2, 2] = s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)
+
+
+@inlined
 def rotation_between(start: Array, end: Array, out: Array) -> None:
     """out (3,) = log(end start^T) in rad, along the axes of the parent of both rotations (3, 3). See `motion.pose`.
 

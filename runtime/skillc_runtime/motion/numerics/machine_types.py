@@ -47,7 +47,8 @@ def type_of(annotation: Any) -> Any:
     if get_origin(annotation) is tuple:
         return types.Tuple([type_of(each) for each in get_args(annotation)])
     dimensions, access = annotation.__metadata__
-    return types.Array(types.float64, dimensions, *(("A", True) if access == "read" else ("C", False)))
+    kind = types.int64 if access == "integers" else types.float64
+    return types.Array(kind, dimensions, *(("A", True) if access == "read" else ("C", False)))
 
 
 def _type_in_memory(annotation: Any) -> Any:
@@ -73,7 +74,8 @@ def _read_field(context: Any, builder: Any, memory: Any, table: Any, name: str) 
     kind = _type_in_memory(annotations[name])
     if isinstance(kind, Memory):
         return row
-    address = builder.inttoptr(_load_constant(builder, row, 0), NUMBER.as_pointer())
+    item = context.get_data_type(kind.dtype if isinstance(kind, types.Array) else kind)
+    address = builder.inttoptr(_load_constant(builder, row, 0), item.as_pointer())
     if not isinstance(kind, types.Array):
         return builder.load(address)
     shape = [_load_constant(builder, row, 1 + axis) for axis in range(kind.ndim)]

@@ -54,8 +54,14 @@ def list_arrays(memory: Any) -> list[Array]:
     kind: type = type(memory)
     for name, annotation in fields_of(kind).items():
         value = getattr(memory, name)
-        found.extend(list_arrays(value) if is_dataclass(annotation) else [np.asarray(value, np.float64)])
+        found.extend(list_arrays(value) if is_dataclass(annotation) else [_as_array(value, annotation)])
     return found
+
+
+def _as_array(value: Any, annotation: Any) -> Any:
+    """Return the array that has a row; a number is copied into a new one."""
+    integral = annotation is not float and annotation.__metadata__[1] == "integers"
+    return np.asarray(value, np.int64 if integral else np.float64)
 
 
 def call_entry(address: int, *arguments: float) -> int:
