@@ -1,4 +1,4 @@
-"""What a control period of a simulated arm costs, by what the arm does; whole recorded tasks.
+"""What a control period of a simulated cell costs beside its physics, by what the arm does; whole recorded tasks.
 
 Without arguments all tasks; `control.py TASK ...` runs these only. Each task is run twice: once to take its parts
 apart, once recorded and otherwise undisturbed. Costs are medians over bursts of ten periods, in calibration steps (see
@@ -26,7 +26,6 @@ from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.load import load
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.motion.path import path_through
@@ -52,17 +51,6 @@ LEAST_BURSTS = 10
 """Of fewer bursts no median is printed."""
 
 
-def _clock_s() -> float:
-    """Return what reading the clock adds to a time that is measured."""
-    began = thread_time()
-    for _ in range(1000):
-        thread_time()
-    return (thread_time() - began) / 1000
-
-
-CLOCK_S = _clock_s()
-
-
 def moving(scene: str) -> tuple[SimulatedCell, str]:
     """Return a cell whose arm is on its way along a line, very slowly, and that arm."""
     vocabulary = load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
@@ -79,7 +67,6 @@ def moving(scene: str) -> tuple[SimulatedCell, str]:
 class Costs:
     """What bursts have cost, in s a control period; ticks in s each."""
 
-    period: list[float] = field(default_factory=list)
     physics: list[float] = field(default_factory=list)
     loop: list[float] = field(default_factory=list)
     tick: list[float] = field(default_factory=list)
@@ -91,29 +78,23 @@ class TimedCell(SimulatedCell):
     def __init__(self, world: WorldModel) -> None:
         super().__init__(world, seed=0)
         self.costs = defaultdict[Situation, Costs](Costs)
-        self._advances, self._controlled, self._left = 0, 0.0, thread_time()
+        self._advances, self._left = 0, thread_time()
         self._paused_until: float | None = None
         SignalTap(self.live).add(lambda block: None)
 
     def advance(self, seconds: float) -> None:
         """Let time pass."""
-        now, self._controlled, began = self.now, 0.0, thread_time()
+        now, began = self.now, thread_time()
         super().advance(seconds)
         ended, periods = thread_time(), (self.now - now) / self.period_s
         costs = self.costs[self._situation()]
         costs.tick.append(began - self._left)
         costs.loop.append((ended - began) / periods)
-        costs.period.append(self._controlled / periods)
         if self._advances % 5 == 0:
             costs.physics.append(self._time_physics(10))
         self._advances += 1
         self._pause_once()
         self._left = thread_time()
-
-    def _control(self, arm: CompliantArmDriver, now: float) -> None:
-        began = thread_time()
-        super()._control(arm, now)
-        self._controlled += thread_time() - began - CLOCK_S
 
     def _time_physics(self, steps: int) -> float:
         model, twin = self.contacts.model, copy(self.contacts.data)  # what is stepped now
@@ -139,7 +120,7 @@ class TimedCell(SimulatedCell):
 
     def _pause_once(self) -> None:
         motion = self.arm(next(iter(self.arms))).motion
-        if self._paused_until is None and len(self.costs["overlay"].period) >= PAUSE_AT:
+        if self._paused_until is None and len(self.costs["overlay"].loop) >= PAUSE_AT:
             motion.pause()
             self._paused_until = self.now + PAUSE_S
         elif self._paused_until is not None and -np.inf < self._paused_until <= self.now:
@@ -171,14 +152,13 @@ def print_task(library: str, task: str) -> None:
     """Print a row for each situation of a task, then one for the whole."""
     calibration = calibration_step_us()
     for situation, costs in take_apart(library, task).items():
-        if len(costs.period) >= LEAST_BURSTS and costs.physics:
-            period, physics, loop, tick = (
-                1e6 * float(np.median(each)) / calibration
-                for each in (costs.period, costs.physics, costs.loop, costs.tick)
+        if len(costs.loop) >= LEAST_BURSTS and costs.physics:
+            physics, loop, tick = (
+                1e6 * float(np.median(each)) / calibration for each in (costs.physics, costs.loop, costs.tick)
             )
             print(
-                f"{task:18} {situation:12} {period:7.2f} {physics:8.2f} {loop:7.2f} {tick:7.1f} "
-                f"{period / physics:10.2f} {loop / physics:8.2f}"
+                f"{task:18} {situation:12} {physics:8.2f} {loop:7.2f} {loop - physics:8.2f} {tick:7.1f} "
+                f"{loop / physics:8.2f}"
             )
     real_time, cost_us = whole(library, task)
     print(f"{task:18} whole, recorded: {cost_us / calibration:.2f} per simulated ms, {real_time:.1f} x real time")
@@ -187,9 +167,7 @@ def print_task(library: str, task: str) -> None:
 if __name__ == "__main__":
     asked = sys.argv[1:]
     print(f"calibration step: {calibration_step_us():.2f} us; costs are in calibration steps")
-    print(
-        f"{'task':18} {'arm':12} {'period':>7} {'mj_step':>8} {'loop':>7} {'tick':>7} {'/ mj_step':>10} {'loop /':>8}"
-    )
+    print(f"{'task':18} {'arm':12} {'mj_step':>8} {'loop':>7} {'beside':>8} {'tick':>7} {'loop /':>8}")
     for task, library in TASKS.items():
         if not asked or task in asked:
             print_task(library, task)

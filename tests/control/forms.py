@@ -9,9 +9,9 @@ from dataclasses import replace
 import numpy as np
 from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
 
-from skillc_runtime.backends.mujoco.wrist import low_pass
-from skillc_runtime.backends.simulation.arm_sensing import ArmSensing, LastLink, add_payload_mass, measure
-from skillc_runtime.backends.simulation.motors import update_servo_targets
+from skillc_runtime.backends.mujoco.wrist import WristFilter, filter_wrist
+from skillc_runtime.backends.simulation.arm_sensing import ArmSensing, LastLink, MassMemory, measure, take_mass
+from skillc_runtime.backends.simulation.motors import MotorMemory, pursue
 from skillc_runtime.control.command_validator import update_holding
 from skillc_runtime.control.controllers import make_controllers
 from skillc_runtime.control.limits import EXPECTED, SpeedLimit
@@ -69,7 +69,8 @@ def servos(count: int) -> list[list[float]]:
     chance, targets, told = np.random.default_rng(12), np.zeros(6), []
     for step in range(count):
         speed, q, dq, lead, farthest = chance.uniform(-1.0, 1.0, (5, 6)) * [[step % 3 > 0], [0.02], [1], [0.01], [0.01]]
-        update_servo_targets(targets, speed, q, dq, np.abs(lead), np.abs(farthest), 0.001)
+        own, leads = np.zeros((3, 6)), (np.abs(lead), np.abs(farthest))
+        pursue(MotorMemory(own[0, :2], np.inf, targets, own[1], own[2], q, dq, speed, *leads, 0.001), 0.0)
         told.append(targets.tolist())
     return told
 
@@ -126,20 +127,22 @@ def measurements(count: int) -> list[list[float]]:
         J, joints, wrench, readings = np.zeros((6, 7)), np.zeros((6, 7)), np.zeros(6), chance.uniform(-20, 20, 9)
         link, base = exp(chance.uniform(-3, 3, 3)), exp(chance.uniform(-3, 3, 3))
         axes, (centre, position, origin, weight) = chance.uniform(-1, 1, (7, 6)), chance.uniform(-1, 1, (4, 3))
-        low_pass(readings, *chance.uniform(-20, 20, (2, 9)), 0.3)
+        raw, noise = chance.uniform(-20, 20, (2, 9))
+        filter_wrist(WristFilter(readings, raw, noise[None], np.zeros(1), 0.3, np.ones(1)), 0.0)
         q, dq, bias, noise = chance.uniform(-1, 1, (4, 7))
         velocity = np.zeros(3)
         sensing = ArmSensing(
             joints, hand.in_base, hand.rotation, J, wrench, velocity, q, dq, bias, hand.on_link, axes, centre,
             Pose(position, link), Pose(origin, base), weight, *chance.uniform(-9, 9, (4, 7)),
-            chance.uniform(-1, 1, (6, 9)), readings,
+            chance.uniform(-1, 1, (6, 9)), readings, chance.uniform(-1, 1, 6), noise[None], np.zeros(1), np.zeros(2),
         )  # fmt: skip
-        measure(sensing, noise)
+        measure(sensing, 0.0)
         dose, tool, (place, origin) = np.zeros((20, 30)), np.array([0.1, 0.05]), chance.uniform(-0.1, 0.1, (2, 3))
         x, y, world = np.linspace(-0.2, 0.2, 30), np.linspace(-0.1, 0.1, 20), Pose(origin, base)
         add_dose(dose, x, y, world, place, link, tool, 0.01)
         mass, sines = np.eye(7), Lissajous(*chance.uniform(-1, 1, (3, 3))).at(chance.uniform(0, 5))
-        add_payload_mass(mass, hand.lever, J, 0.3)
+        whole, unused = np.eye(9) + 0.1, np.zeros((1, 4), dtype=np.int64)
+        take_mass(MassMemory(mass, whole, 2.0, unused, np.array([0.3]), np.zeros(2), hand.lever, J), 0.0)
         kept = np.zeros(7)
         numbers = [update_holding(kept, *joints[:3], also, position) for also in (wrench, wrench * np.nan)]
         seen = (hand.in_base, J, joints, wrench, velocity, mass, dose, sines, kept)

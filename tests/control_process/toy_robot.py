@@ -75,7 +75,7 @@ class Robot:
     def __init__(self, scene: str, paced: bool) -> None:
         moved = [AddRelation(LAB + "Heron-1", AT, LAB + "Store")] if scene == "ur5e_whiteboard" else []
         self.cell = SimulatedCell(WorldModel(world(scene).with_changes(moved)))
-        self.cell._control = lambda *_: None  # type: ignore[method-assign]
+        self.cell.steps = self.cell.steps_without_control
         self.facts = self.cell.scene.arms[0]
         self.arm = self.cell.arms[self.facts.individual]
         sheet = self.facts.sheet
@@ -146,8 +146,7 @@ class Robot:
 
     def hold(self) -> None:
         """Let the controller of the robot hold the joints from the next period on."""
-        motors = self.arm._motors
-        motors._steps_without_command = motors._timeout_steps
+        self.arm._motors.be_silent()
 
     def step(self) -> None:
         """Run a period; a controller that gets no commands for a while stops by itself."""
@@ -155,7 +154,7 @@ class Robot:
         self.cycle += 1
         if self.condition == 1 and self.silent > STOP_CYCLES:
             self.condition = 4
-        if self.condition != 1 and self.arm._motors._steps_without_command < self.arm._motors._timeout_steps:
+        if self.condition != 1 and not self.arm._motors.silent:
             self.hold()
         self.cell.advance_period()
         self._grip()

@@ -9,7 +9,7 @@ import numpy as np
 from skillc_runtime.control.controllers import make_controllers
 from skillc_runtime.control.kinematics import JOINT_RAMP_S, Kinematics
 from skillc_runtime.control.measured import MeasuredArm
-from skillc_runtime.control.period import TOOL_JUMP_M_S
+from skillc_runtime.control.period import TASK, TOOL_JUMP_M_S
 from skillc_runtime.control.setup import ArmSetup
 from skillc_runtime.control.tool_task import ToolTask
 from skillc_runtime.devices.arm import ArmState, Command
@@ -20,21 +20,26 @@ from skillc_runtime.motion.pose import Array, Pose
 class ArmTask:
     """What one arm is doing: `joints` generates their reference, or is None while `tool` is controlled.
 
-    `now` s is the time of motions, which stops while the arm is not controlled. All motions have the share `speed`,
-    above 0 to 1, of theirs. place (3,): of the tool in the last period, m, in base. `MotionControl` and
+    All motions have the share `speed`, above 0 to 1, of theirs. place (3,): of the tool in the last period, m, in base;
+    clock (4,): see `period`. `MotionControl` and
     `ComplianceControl` change it for skills; the driver asks it for a command once a control period.
     """
 
     def __init__(self, setup: ArmSetup) -> None:
         """Hold the joints at their positions."""
         state = setup.arm.state()
-        self.limits, self.period, self.now, self.speed = setup.limits, setup.period, 0.0, 1.0
+        self.limits, self.period, self.speed, self.clock = setup.limits, setup.period, 1.0, np.zeros(4)
         self._arm, self.place = setup.arm, state.tool.position.copy()
         self.measured = MeasuredArm(setup.base, self.contact_wrench, state)
         self.controllers = make_controllers(setup.gains, setup.limits, setup.virtual, state, setup.period)
         self.kinematics, self.workspace = Kinematics(setup.virtual), setup.safety.workspace
         self.tool = ToolTask(setup.gains, self.controllers.tool, state.tool)
         self.joints: JointReferenceGenerator | None = self._joint_reference(state.q, np.zeros_like(state.q))
+
+    @property
+    def now(self) -> float:
+        """The time of motions in s, which stops while the arm is not controlled."""
+        return float(self.clock[TASK])
 
     def contact_wrench(self) -> Array:
         """Return the wrench (6,) of the environment on the tool, N and N m, base axes."""

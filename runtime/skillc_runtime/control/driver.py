@@ -17,14 +17,12 @@ from skillc_runtime.control.period import (
     TOOL_MOVED,
     WATCHED,
 )
-from skillc_runtime.control.period_memory import ControlPeriod
+from skillc_runtime.control.period_memory import Control, ControlPeriod
 from skillc_runtime.control.setup import ArmSetup
 from skillc_runtime.devices.arm import ArmState, Command
 from skillc_runtime.motion.numerics.compiled import compile_imported
+from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Compliance, Reference
-
-LONGEST_GAP_S = 0.02
-"""After a longer gap between control periods, or one below zero, motions are delayed by the lost time."""
 
 
 class CompliantArmDriver:
@@ -49,7 +47,6 @@ class CompliantArmDriver:
         self.fault: str | None = None
         self.broken: str | None = None
         self.violation: str | None = None
-        self._seen = self._lost = 0.0
 
     @property
     def speed(self) -> float:
@@ -79,23 +76,37 @@ class CompliantArmDriver:
 
     def step(self, now: float) -> None:
         """Run one control period at `now` s. ControlError if a measurement or a command is not finite."""
-        task, gap, self._seen = self._task, now - self._seen, now
-        if not 0 <= gap <= max(LONGEST_GAP_S, 2 * task.period):
-            self._lost += gap - task.period
-        task.now = now - self._lost
-        state = task.measured.state = self._period.measure()
+        period = self._period
+        period.begin(now)
+        self._task.measured.state = period.measure()
+        self.act(period.control() if period.is_computed else period.watch())
+
+    @property
+    def functions(self) -> tuple[Control, Control] | None:
+        """What `step` calls if nothing happens, before and after it measures; then `values` (nv,) are commanded.
+
+        None if only Python can; if the second one returns bits, `act` does the rest.
+        """
+        return self._period.functions
+
+    @property
+    def values(self) -> Array:
+        """The command (nv,) that `functions` compute; the array changes, and stays."""
+        return self._period.values
+
+    def act(self, events: int) -> None:
+        """Do what is left of a control period whose measured state, and perhaps command, has been computed."""
         try:
-            acts = self._command(state)
+            acts = self._command(events, self._task.measured.state)
         except ControlError as fault:
             self.broken = str(fault)
             raise
         if acts and (reason := self.compliance.act()) is not None:
             self.abort(reason)
 
-    def _command(self, state: ArmState) -> bool:
-        """Check the measured state, and command the arm for a control period; tell whether a push has an action."""
+    def _command(self, events: int, state: ArmState) -> bool:
+        """Act on what was found, and command the arm for a control period; tell whether a push has an action."""
         task, period = self._task, self._period
-        events = period.control(is_watched=False) if period.is_computed else period.watch()
         if events & WATCHED:
             self._handle(events, state)
             events = period.control(is_watched=True) if period.is_computed else 0

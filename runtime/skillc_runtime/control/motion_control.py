@@ -11,7 +11,7 @@ from skillc_runtime.motion.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 
-NO_REFERENCE = np.full((8, 3), np.nan).tobytes()
+NO_REFERENCE: Array = np.full((8, 3), np.nan)
 
 
 class MotionControl:
@@ -33,10 +33,26 @@ class MotionControl:
         tool, jacobian = task.kinematics.tool_at(reference.q, task.measured.state)
         return Reference.of(tool, jacobian @ reference.dq, jacobian @ reference.ddq).transform(task.base())
 
-    def copy_tool_reference(self) -> bytes:
-        """Return the rows (8, 3) of the tool's reference in base as float64; NaN while the joints are controlled."""
+    @property
+    def live_reference(self) -> Array:
+        """The rows (8, 3) of the tool's reference in base, not a copy; NaN while the joints are controlled."""
         task = self._task
-        return task.tool.reference.rows.tobytes() if task.joints is None else NO_REFERENCE
+        return task.tool.reference_generator.plan.rows if task.joints is None else NO_REFERENCE
+
+    @property
+    def live_rows(self) -> tuple[Array, Array]:
+        """The rows (8, 3) of the tool's reference in base while it `moves_tool`, and those of its path; not copies."""
+        plan = self._task.tool.reference_generator.plan
+        return plan.rows, plan.path
+
+    @property
+    def moves_tool(self) -> bool:
+        """Whether the tool is controlled, and not the joints."""
+        return self._task.joints is None
+
+    def copy_tool_reference(self) -> bytes:
+        """Return a copy of `live_reference` as float64."""
+        return self.live_reference.tobytes()
 
     @property
     def path(self) -> Reference:

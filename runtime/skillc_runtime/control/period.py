@@ -36,6 +36,13 @@ the law yields no number; an overlay has faded out; a push has come to an action
 WATCHED: Final = NOT_FINITE | TOOL_MOVED | BEYOND_LIMIT
 """What is found before a command is computed."""
 
+SEEN, LOST, TASK, IS_WATCHED = range(4)
+"""Entries of `ArmMemory.clock`: s of the last period and all time lost between periods, by the clock of the cell; the
+present s of motions; 1 if what is measured was checked already."""
+
+LONGEST_GAP_S = 0.02
+"""After a longer gap between control periods, or one below zero, motions are delayed by the lost time."""
+
 TOOL_JUMP_M_S = 3.0
 """A tool that seems to move faster was moved on the hand, for example by grasping."""
 
@@ -45,7 +52,7 @@ class ArmMemory:
     """What is measured of an arm, and what is kept of it between control periods.
 
     holds (nv,): what holds it at its last known position, N m or rad; bias_holds (1,): 1 for the former. place (3,): of
-    the tool in the period before, m, in base.
+    the tool in the period before, m, in base. clock (4,): see above; period: s.
     """
 
     state: ArmState
@@ -53,6 +60,20 @@ class ArmMemory:
     bias_holds: float
     place: OutVector
     safety: SafetyMemory
+    clock: OutVector
+    period: float
+
+
+@compiled
+def begin_period(arm: ArmMemory, now: float) -> int:
+    """Compute the time of motions in a period that begins at `now` s: it stops while the arm is not controlled."""
+    clock = arm.clock
+    gap = now - clock[SEEN]
+    clock[SEEN] = now
+    if not 0.0 <= gap <= max(LONGEST_GAP_S, 2 * arm.period):
+        clock[LOST] += gap - arm.period
+    clock[TASK] = now - clock[LOST]
+    return 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,9 +89,9 @@ class ImpedancePeriod:
 
 
 @inlined
-def watch(arm: ArmMemory, period: float) -> int:
-    """Check the state measured after `period` s; return bits. Nothing else is looked at if it is not finite."""
-    state, place, square = arm.state, arm.place, 0.0
+def watch(arm: ArmMemory) -> int:
+    """Check the measured state; return bits. Nothing else is looked at if it is not finite."""
+    state, place, square, period = arm.state, arm.place, 0.0, arm.period
     at = state.tool.position
     if not squared(state.q) + squared(state.dq) + squared(state.wrench) + squared(at) < inf:
         return NOT_FINITE
@@ -90,31 +111,29 @@ def watch(arm: ArmMemory, period: float) -> int:
 
 
 @compiled
-def watch_arm(arm: ArmMemory, period: float) -> int:
-    """Check the measured state at the beginning of a period in s; return bits."""
-    return watch(arm, period)
+def watch_arm(arm: ArmMemory, now: float) -> int:
+    """Check the measured state at the beginning of a period; return bits."""
+    return watch(arm)
 
 
 @inlined
-def _begin(
-    arm: ArmMemory, compliance: ComplianceMemory, plan: ReferencePlan, now: float, period: float, is_watched: bool
-) -> int:
-    """Check the measured state; without a bit of `WATCHED` advance compliance and reference to `now` s. Return bits."""
-    events = 0 if is_watched else watch(arm, period)
+def _begin(arm: ArmMemory, compliance: ComplianceMemory, plan: ReferencePlan) -> int:
+    """Check the measured state; without a bit of `WATCHED` advance compliance and reference. Return bits."""
+    events = 0 if arm.clock[IS_WATCHED] != 0.0 else watch(arm)
     if events != 0:
         return events
-    follow_target(compliance, period)
-    return OVERLAY_OVER if sample_plan(plan, now) else 0
+    follow_target(compliance, arm.period)
+    return OVERLAY_OVER if sample_plan(plan, arm.clock[TASK]) else 0
 
 
 @compiled
-def control_by_impedance(memory: ImpedancePeriod, now: float, period: float, is_watched: bool) -> int:
-    """Compute the command of a period at `now`, both in s; return bits.
+def control_by_impedance(memory: ImpedancePeriod, now: float) -> int:
+    """Compute the command of the period that has begun; return bits.
 
-    Nothing is commanded if something is found before; the caller acts on that, and calls again with `is_watched`.
+    Nothing is commanded if something is found before; the caller acts on that, and calls again with `IS_WATCHED`.
     """
-    arm = memory.arm
-    events = _begin(arm, memory.compliance, memory.plan, now, period, is_watched)
+    arm, period = memory.arm, memory.arm.period
+    events = _begin(arm, memory.compliance, memory.plan)
     if events & WATCHED:
         return events
     impedance(memory.tau, memory.law, arm.state, memory.plan, memory.compliance, period)
@@ -144,10 +163,10 @@ class ForwardDynamicsPeriod:
 
 
 @compiled
-def control_by_forward_dynamics(memory: ForwardDynamicsPeriod, now: float, period: float, is_watched: bool) -> int:
-    """Compute the command of a period at `now`, both in s, which is in the limits of the law; as the one above."""
-    arm, law, virtual = memory.arm, memory.law, memory.virtual
-    events = _begin(arm, memory.compliance, memory.plan, now, period, is_watched)
+def control_by_forward_dynamics(memory: ForwardDynamicsPeriod, now: float) -> int:
+    """Compute the command of the period that has begun, which is in the limits of the law; as the one above."""
+    arm, law, virtual, period = memory.arm, memory.law, memory.virtual, memory.arm.period
+    events = _begin(arm, memory.compliance, memory.plan)
     if events & WATCHED:
         return events
     copy_vector(arm.state.wrench, law.felt)
@@ -174,9 +193,9 @@ class PushPeriod:
 
 
 @compiled
-def advance_all_pushes(memory: PushPeriod, period: float) -> int:
-    """Advance pushes by a period in s, after its command; return bits."""
-    acts = advance_pushes(memory.pushes, memory.contact, memory.arm.safety, memory.arm.state, period)
+def advance_all_pushes(memory: PushPeriod, now: float) -> int:
+    """Advance pushes by a period, after its command; return bits."""
+    acts = advance_pushes(memory.pushes, memory.contact, memory.arm.safety, memory.arm.state, memory.arm.period)
     return PUSH_ACTS if acts else 0
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from skillc_runtime.control.arm_task import ArmTask
@@ -11,23 +9,25 @@ from skillc_runtime.control.command_validator import CommandValidator
 from skillc_runtime.control.forward_dynamics import ForwardDynamics
 from skillc_runtime.control.impedance import Impedance
 from skillc_runtime.control.period import (
+    IS_WATCHED,
     ArmMemory,
     ForwardDynamicsPeriod,
     ImpedancePeriod,
     PushPeriod,
     advance_all_pushes,
+    begin_period,
     control_by_forward_dynamics,
     control_by_impedance,
     copy_state,
     make_state,
     watch_arm,
 )
-from skillc_runtime.devices.arm import Arm, ArmState, Command, Torque, copy_command
-from skillc_runtime.motion.numerics.compiled import COMPILES, bind
+from skillc_runtime.devices.arm import Arm, ArmState, Command, Torque, command_values, copy_command
+from skillc_runtime.motion.numerics.compiled import COMPILES, Bound, bind
 from skillc_runtime.motion.pose import Array
 
-Control = Callable[[float, float, bool], int]
-"""Computes the command of a period at a time, both in s; returns bits of `period`."""
+Control = Bound[[float], int]
+"""Computes the command of a period; returns bits of `period`."""
 
 
 class ControlPeriod:
@@ -48,7 +48,10 @@ class ControlPeriod:
             float(arm.interface == "torque"),
             task.place,
             validator.safety.memory,
+            task.clock,
+            task.period,
         )
+        self.begin = bind(begin_period, self._memory)
         self._watch, self._contact = bind(watch_arm, self._memory), np.zeros(3)
         self._advance = bind(advance_all_pushes, PushPeriod(self._memory, pushes, self._contact))
         self._tau = np.zeros_like(state.q)
@@ -61,6 +64,21 @@ class ControlPeriod:
     def is_computed(self) -> bool:
         """Whether `command` is that of this period: the tool is controlled, by a law that is computed on memory."""
         return self._control is not None and self._task.joints is None
+
+    @property
+    def functions(self) -> tuple[Control, Control] | None:
+        """What a period calls, before and after the state is measured, if nothing happens; None if Python does more."""
+        generator = self._task.tool.reference_generator
+        if not self.is_computed or not self._lasts or generator.is_given:
+            return None
+        if generator.plan is not self._plan:
+            self._bind()
+        return None if self._control is None else (self.begin, self._control)
+
+    @property
+    def values(self) -> Array:
+        """The command (nv,) that `functions` compute; the array changes, and stays."""
+        return command_values(self._live)
 
     @property
     def command(self) -> Command:
@@ -76,21 +94,24 @@ class ControlPeriod:
 
     def watch(self) -> int:
         """Check the measured state; return bits of `period`."""
-        return self._watch(self._task.period)
+        return self._watch(0.0)
 
-    def control(self, is_watched: bool) -> int:
+    def control(self, is_watched: bool = False) -> int:
         """Compute `command`, unless something is found before; return bits of `period`."""
         task, generator = self._task, self._task.tool.reference_generator
         if generator.plan is not self._plan:
             self._bind()
         generator.prepare(task.now)
         assert self._control is not None
-        return self._control(task.now, task.period, is_watched)
+        task.clock[IS_WATCHED] = is_watched
+        events = self._control(0.0)
+        task.clock[IS_WATCHED] = 0.0
+        return events
 
     def advance_pushes(self) -> int:
         """Advance pushes after a command of any law; return bits of `period`."""
         self._contact[:] = self._task.contact_wrench()[:3]
-        return self._advance(self._task.period)
+        return self._advance(0.0)
 
     def give_up(self, state: ArmState) -> None:
         """Raise ControlError, for joints that do not follow."""

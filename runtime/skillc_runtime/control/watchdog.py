@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from math import inf
 
+import numpy as np
+
+from skillc_runtime.motion.pose import Array
+
 HEARTBEAT_TIMEOUT_S = 0.25
 """Time without heartbeat after which all devices are stopped; a tree ticks at 50 to 100 Hz."""
 
@@ -11,37 +15,37 @@ HEARTBEAT_TIMEOUT_S = 0.25
 class HeartbeatWatchdog:
     """Implements `Watchdog`: a client that has sent a heartbeat must continue until it retires.
 
-    Times: s of the cell.
+    Times: s of the cell; due (1,): when the next heartbeat has to have arrived.
     """
 
     def __init__(self, timeout_s: float = HEARTBEAT_TIMEOUT_S) -> None:
         self._timeout = timeout_s
         self._last: dict[object, float] = {}
         self._late: set[object] = set()
-        self._due = inf
+        self.due: Array = np.full(1, inf)
 
     def beat(self, who: object, now: float) -> bool:
         """Receive a heartbeat; False if it is too late and devices have been stopped."""
         if who in self._late:
             return False
         self._last[who] = now
-        self._due = self._earliest()
+        self.due[0] = self._earliest()
         return True
 
     def retire(self, who: object) -> None:
         """Expect no further heartbeats of a client."""
         self._last.pop(who, None)
         self._late.discard(who)
-        self._due = self._earliest()
+        self.due[0] = self._earliest()
 
     def expired(self, now: float) -> bool:
         """Tell, once for each late client, that devices must be stopped."""
-        if now <= self._due:
+        if now <= self.due[0]:
             return False
         late = {who for who, last in self._last.items() if now - last > self._timeout}
         self._late |= late
         self._last = {who: last for who, last in self._last.items() if who not in late}
-        self._due = self._earliest()
+        self.due[0] = self._earliest()
         return True
 
     def _earliest(self) -> float:

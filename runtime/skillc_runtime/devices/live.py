@@ -4,9 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 from skillc_runtime.devices.control_report import ControlReport
+from skillc_runtime.motion.numerics.program import Part
 from skillc_runtime.motion.pose import Pose
+
+Place: TypeAlias = tuple[int, int]
+"""Address and size of an array of float64."""
+
+Places: TypeAlias = tuple[Place, ...]
 
 ReadBytes = Callable[[], bytes]
 """Returns a copy of an array of float64."""
@@ -72,6 +79,9 @@ class LiveSignals:
 
     `period_s` is the control period; that of a device with its own time may vary. Listeners are called after the
     controllers; they must neither wait nor raise. `refresh` brings all of it up to now, by whoever may call `advance`.
+
+    `places` returns where in memory, address and size, all is that arms and sensors return copies of, in their order,
+    and `parts` takes part in each period instead of listeners; None for a cell whose signals have no lasting places.
     """
 
     period_s: float
@@ -81,3 +91,5 @@ class LiveSignals:
     bodies: LiveBodies = NO_BODIES
     listeners: list[Callable[[], None]] = field(default_factory=list)
     refresh: Callable[[], None] = lambda: None
+    places: Callable[[], Places] | None = None
+    parts: list[Part] = field(default_factory=list)

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, Vector
 from skillc_runtime.motion.layout import Layout
-from skillc_runtime.motion.numerics.compiled import compiled
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import add_under, product, times
 from skillc_runtime.motion.pose import Array, Pose
 
@@ -24,13 +24,14 @@ NEAR_PLANE_M = 0.03
 class CoverageMap:
     """The contact time of every cell of one surface: `dose` (rows along y, columns along x) in s; 0 is unwiped.
 
-    `surface` is the true frame at the centre of the surface in the world; `layout` gives the cells that count, and the
-    size (2,) in m of all of them. A tool works if it is pressed on the surface with at least `least_n` N.
+    `surface` is the true frame at the centre of the surface in the world, `world` the world in the surface; `layout`
+    gives the cells that count, and the size (2,) in m of all of them. A tool works if it is pressed on the surface with
+    at least `least_n` N.
     """
 
     def __init__(self, surface: Pose, layout: Layout, least_n: float) -> None:
-        self.least_n, self.normal = least_n, surface.rotation[:, 2]
-        self._in_surface, self.size = surface.inverse(), layout.size
+        self.least_n, self.normal = least_n, surface.rotation[:, 2].copy()
+        self.world, self.size = surface.inverse(), layout.size
         self.x, self.y = _centres(float(layout.size[0])), _centres(float(layout.size[1]))
         self.mask = layout.work_mask(self.x, self.y)
         self.dose: NDArray[np.float64] = np.zeros((self.y.size, self.x.size))
@@ -56,19 +57,26 @@ class CoverageMap:
         position (3,) in m, rotation (3, 3): the centre of the undeformed face in the world, x and y along its edges; it
         is below the surface when pressed, with one side above if tilted. tool (2,): its size in m.
         """
-        add_dose(self.dose, self.x, self.y, self._in_surface, position, rotation, tool, seconds)
-
-    def near(self, position: Array, reach_m: float) -> bool:
-        """Tell whether a point (3,) m of the world is near the surface's plane, within `reach_m` of its edge."""
-        point = self._in_surface.apply(position)
-        over = abs(point[0]) <= self.x[-1] + reach_m and abs(point[1]) <= self.y[-1] + reach_m
-        return bool(over and abs(point[2]) <= NEAR_PLANE_M)
+        add_dose(self.dose, self.x, self.y, self.world, position, rotation, tool, seconds)
 
 
 def _centres(length: float) -> Array:
     """Return the centres of the cells along an edge in m, symmetric to 0; the cells divide the edge evenly."""
     count = max(1, round(length / CELL_M))
     return np.asarray((np.arange(count) + 0.5) * (length / count) - length / 2, dtype=np.float64)
+
+
+@inlined
+def put_dose(
+    dose: Array, x: Array, y: Array, world: Pose, position: Array, rotation: Array, tool: Array, seconds: float
+) -> None:
+    """Do what `add_dose` does."""
+    middle, axes = np.empty(3), np.empty((3, 3))
+    times(world.rotation, position, middle)
+    for i in range(3):
+        middle[i] += world.position[i]
+    product(world.rotation, rotation, axes)
+    add_under(dose, x, y, middle, axes, tool, seconds, TOUCHES_M)
 
 
 @compiled
@@ -86,9 +94,16 @@ def add_dose(
 
     world: its pose in the surface; position (3,) m, rotation (3, 3) and tool as in `CoverageMap.add`.
     """
-    middle, axes = np.empty(3), np.empty((3, 3))
-    times(world.rotation, position, middle)
+    put_dose(dose, x, y, world, position, rotation, tool, seconds)
+
+
+@inlined
+def is_near(x: Array, y: Array, world: Pose, position: Array, reach_m: float) -> bool:
+    """Tell whether a point (3,) m of the world is near the surface's plane, within `reach_m` of its edge."""
+    point = np.empty(3)
+    times(world.rotation, position, point)
     for i in range(3):
-        middle[i] += world.position[i]
-    product(world.rotation, rotation, axes)
-    add_under(dose, x, y, middle, axes, tool, seconds, TOUCHES_M)
+        point[i] += world.position[i]
+    if abs(point[0]) > x[x.size - 1] + reach_m or abs(point[1]) > y[y.size - 1] + reach_m:
+        return False
+    return bool(abs(point[2]) <= NEAR_PLANE_M)

@@ -36,7 +36,7 @@ class ReferenceGenerator:
     def __init__(self, pose: Pose, deceleration: float) -> None:
         """Hold a pose; abandoned motions stop with `deceleration` m/s^2."""
         self._deceleration, self.speed = deceleration, 1.0
-        self.plan, self._looked, self._is_given = make_plan(), np.zeros((8, 3)), False
+        self.plan, self._looked, self.is_given = make_plan(), np.zeros((8, 3)), False
         self._plan_with(self.plan.table)
         self._overlays: dict[int, tuple[FadedOverlay, Array]] = {}
         self._next_handle = 0
@@ -191,7 +191,7 @@ class ReferenceGenerator:
 
     def prepare(self, now: float) -> None:
         """Let the plan have what it cannot sample itself: motions and overlays that have no numbers."""
-        if self._is_given:
+        if self.is_given:
             self._give_motion(self.plan.path, now)
             self._give_overlays(now)
 
@@ -208,7 +208,7 @@ class ReferenceGenerator:
         self._write()
 
     def _motion(self, now: float) -> Reference:
-        if self._is_given:
+        if self.is_given:
             self._give_motion(self._looked, now)
         self._look(now)
         return Reference(self._looked.copy())
@@ -235,7 +235,7 @@ class ReferenceGenerator:
         plan.overlays[:, plans.OVERLAY_KIND] = 0.0
         for row, (faded, axes) in zip(plan.overlays, self._overlays.values(), strict=False):
             _write_overlay(row, faded, axes)
-        self._is_given = kind == plans.GIVEN or bool((plan.overlays[:, plans.OVERLAY_KIND] == GIVEN).any())
+        self.is_given = kind == plans.GIVEN or bool((plan.overlays[:, plans.OVERLAY_KIND] == GIVEN).any())
         if table is not plan.table:
             self._plan_with(table)
 

@@ -13,6 +13,7 @@ import sys
 import time
 from collections.abc import Callable
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from threading import RLock
 from typing import Any
@@ -37,9 +38,10 @@ from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.load import load
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.simulation.steps import InPython
 from skillc_runtime.backends.simulation.variation import exact_variation
-from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.devices.arm import Command
+from skillc_runtime.motion.numerics.program import Part
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
@@ -54,8 +56,10 @@ class PeerCell(SimulatedCell):
 
     commands: dict[str, Callable[[float], Command | None]]
 
-    def _control(self, arm: CompliantArmDriver, now: float) -> None:
-        individual = next(name for name, driver in self._drivers.items() if driver is arm)
+    def _control_part(self, individual: str) -> Part:
+        return InPython(partial(self._pass_command, individual))
+
+    def _pass_command(self, individual: str, now: float) -> None:
         command = self.commands[individual](now)
         self.arms[individual].state()
         if command is not None:

@@ -31,8 +31,5 @@ class CommandSlot(Motors):
     def _rest(self) -> None:
         self.command_for_device.kind[0] = NOTHING
 
-    def _move(self) -> None:
-        """Do nothing: the device moves."""
-
     def _hold(self, first: bool) -> None:
         """Do nothing: the device holds itself."""

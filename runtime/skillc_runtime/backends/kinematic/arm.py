@@ -54,6 +54,10 @@ class KinematicArm(ModelledArm):
         self._measured_at = self._data.time
         return super().state()
 
+    @property
+    def measuring(self) -> None:
+        """None: Python measures."""
+
     def tool_point(self) -> Array:
         """Return the tool centre point (3,) in m in the world."""
         live = self._sensing.link

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import mujoco
 
@@ -14,11 +14,15 @@ from skillc_runtime.backends.simulation.camera import EXACT_INSPECTION, Simulate
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_checkpoint
 from skillc_runtime.backends.simulation.contact_bits import SOLID
+from skillc_runtime.backends.simulation.observer import Carrier
+from skillc_runtime.backends.simulation.parts import HeldTool
 from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
 from skillc_runtime.backends.simulation.saved_cell import read_scene_again
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.backends.simulation.steps import InPython
 from skillc_runtime.backends.simulation.variation import Variation, exact_variation
 from skillc_runtime.devices.backend import BackendStart
+from skillc_runtime.motion.numerics.program import Part
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.model import WorldModel
@@ -100,11 +104,18 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         self._touch = Touch(self.scene, list(self.arms.values()), self.model, self.data)
         self._compute_state()
 
+    def _parts(self) -> Iterator[Part]:
+        yield from self._buttons.values()
+        for arm, gripper in self._hands.items():
+            yield HeldTool(gripper, Carrier(self._drivers[arm], self.arms[arm].live_base), self._observers)
+        yield InPython(self._move)
+
     def _move(self, now: float) -> None:
-        self._observe(now)
+        for individual in self._hands:
+            self._notice_loss(individual)
         for arm in self.arms.values():
             arm.step(self._timestep)
-        self._move_bases()
+        self._move_bases(now)
         self.data.time += self._timestep
         self._compute_state()
 
@@ -141,11 +152,3 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
             riders = self._riders[individual].follow(gripper.carries)
             self._touch.hold(number, gripper.carries, riders)
         return found
-
-    def _observe(self, now: float) -> None:
-        for button in self._buttons.values():
-            button.sample(now)
-        for arm, gripper in self._hands.items():
-            if gripper.carries in self._observers:
-                self._observers[gripper.carries].sample(now, self._drivers[arm])
-        self._notice_losses()

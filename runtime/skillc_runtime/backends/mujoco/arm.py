@@ -15,6 +15,9 @@ from skillc_runtime.motion.pose import Array, Pose
 class SimulatedArm(ModelledArm):
     """One arm of a simulated cell; it is called between `mj_step1` and `mj_step2`."""
 
+    # The model of the cell, in which what is held does not burden an arm, may not be the one that is stepped.
+    mass_functions = ("mj_kinematics", "mj_comPos", "mj_crb", "mj_fullM")
+
     def __init__(
         self,
         facts: ArmSpec,
@@ -25,7 +28,7 @@ class SimulatedArm(ModelledArm):
         steps_per_command: int = 1,
     ) -> None:
         """Place the joints at `start` (nv,) in rad; the noise of the sensors follows from the seed."""
-        noise, model, data, self._physics = make_joint_noise(facts, seed), physics.model, physics.data, physics
+        noise, model, data = make_joint_noise(facts, seed), physics.model, physics.data
         self._wrist: Wrist | None = None
         super().__init__(facts, names, model, data, start, steps_per_command, noise)
         if self._feels_force and (gripper := self._gripper_name) is not None:
@@ -33,13 +36,10 @@ class SimulatedArm(ModelledArm):
             self._wrist = Wrist(model, data, gripper, time_s, self._gain, self._readings, noise)
             self.set_load(None)
 
-    def after_step(self) -> None:
-        """Filter the wrist sensor; to be called once per step."""
-        if self._wrist is not None:
-            self._wrist.sample()
-
-    def _compute_full_mass(self) -> None:
-        self._physics.compute_mass(self._full_mass)
+    @property
+    def wrist(self) -> Wrist | None:
+        """The force-torque sensor, which takes part in each step; None without one."""
+        return self._wrist
 
     def _configure(self, payload: Payload, tool: Pose) -> None:
         super()._configure(payload, tool)

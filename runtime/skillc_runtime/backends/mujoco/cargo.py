@@ -45,6 +45,11 @@ class InertialCargo(Cargo):
         self._velocities: dict[int, Array] = {}
         """The velocity (6,) of the base at each body of the cargo in the step before: m/s and rad/s, in the world."""
 
+    @property
+    def at_rest(self) -> bool:
+        """Whether nothing is left to be done while the base is at rest."""
+        return not self._driving and not self._members
+
     def move(self, motion: Pose | None) -> None:
         """Move the cargo with the base, new = motion @ old in the world; None while the base is at rest."""
         if motion is None and not self._driving:

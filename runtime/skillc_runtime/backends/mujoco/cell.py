@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import cached_property
+from collections.abc import Callable, Iterator
+from functools import cached_property, partial
 
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.mujoco.cargo import InertialCargo
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
+from skillc_runtime.backends.mujoco.parts import DivergenceWatch, HalfStep, SlipWatch
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.stillness import lie_still
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_checkpoint
+from skillc_runtime.backends.simulation.observer import Carrier
+from skillc_runtime.backends.simulation.parts import HeldTool
 from skillc_runtime.backends.simulation.saved_cell import read_scene_again
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.backends.simulation.steps import InPython, OnMemory
 from skillc_runtime.backends.simulation.variation import Variation, draw_variation
 from skillc_runtime.devices.backend import BackendStart
+from skillc_runtime.motion.numerics.program import Part
 from skillc_runtime.world.state.model import WorldModel
 
 
@@ -33,7 +38,6 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
 
     cargo_type = InertialCargo
     has_physics = True
-    _drives = False
 
     def __init__(
         self,
@@ -82,30 +86,25 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         """Compute what follows from what was changed in `data` or `model` between two steps."""
         self.physics.renew()
 
-    def _move(self, now: float) -> None:
-        self.physics.move()
-        for arm in self.arms.values():
-            arm.after_step()
-        self._observe(now)
-        if self._bases:
-            self._drive()
-        self.physics.compute_places()
-
-    def _drive(self) -> None:
+    def _drive(self, now: float) -> None:
         """Move bases with their cargo, which goes on with its own speed in the step after a base has come to rest."""
-        drove, self._drives = self._drives, not all(base.at_rest for base in self._bases.values())
-        self._move_bases()
-        if drove or self._drives:
-            self.physics.take_changes()
+        self._move_bases(now)
+        self.physics.take_changes()
 
-    def _observe(self, now: float) -> None:
-        self._touches.sample(now)
-        for button in self._buttons.values():
-            button.sample(now)
+    def _parts(self) -> Iterator[Part]:
+        yield HalfStep(self.physics, "mj_step2")
+        yield DivergenceWatch(self.physics)
+        yield from (arm.wrist for arm in self.arms.values() if arm.wrist is not None)
+        yield self._touches
+        yield from self._buttons.values()
         for arm, gripper in self._hands.items():
-            if gripper.carries is not None:
-                if gripper.carries in self._observers:
-                    self._observers[gripper.carries].sample(now, self._drivers[arm])
-                if gripper.slips(now):
-                    gripper.lose()
-        self._notice_losses()
+            yield HeldTool(gripper, Carrier(self._drivers[arm], self.arms[arm].live_base), self._observers)
+            yield SlipWatch(gripper)
+        for arm, gripper in self._hands.items():
+            yield OnMemory(gripper.may_be_lost, partial(self._look_for_loss, arm))
+        yield InPython(self._drive, self._bases_rest)
+        yield HalfStep(self.physics, "mj_step1")
+        yield DivergenceWatch(self.physics)
+
+    def _look_for_loss(self, arm: str, events: int, now: float) -> bool:
+        return self._notice_loss(arm)

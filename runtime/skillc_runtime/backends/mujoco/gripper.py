@@ -15,9 +15,11 @@ from skillc_runtime.backends.mujoco.pressing_force import pressing_force
 from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.checkpoint import SavedGrip
 from skillc_runtime.backends.simulation.finger_sensor import make_finger_sensor
-from skillc_runtime.backends.simulation.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.gripper import LossWatch, ModelledGripper, may_be_lost
 from skillc_runtime.backends.simulation.names import part_name, weld_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
+from skillc_runtime.motion.numerics.compiled import bind
+from skillc_runtime.motion.numerics.program import IDLE, Rows, row_of
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.world.space.bodies import RigidBody
 
@@ -45,6 +47,9 @@ class SimulatedGripper(ModelledGripper):
         self._data.ctrl[self._actuator] = self._target = self._goal
         self._still_since, self._limit_n = 0.0, float(model.actuator_forcerange[self._actuator, 1])
         self._grip: Grip | None = None
+        self.may_be_lost = bind(
+            may_be_lost, LossWatch(self._sensor.values, self._length, self._held, model.opt.timestep)
+        )
 
     @property
     def _true_opening_m(self) -> float:
@@ -117,6 +122,11 @@ class SimulatedGripper(ModelledGripper):
         """
         palm = self._data.xmat[self._palm].reshape(3, 3)
         return self._grip is not None and self._grip.is_overloaded(now, palm, self._pull)
+
+    @property
+    def slip_rows(self) -> Rows | None:
+        """The function that tells when the load on the grasp has to be looked at; none without a grasp."""
+        return IDLE if self._grip is None else row_of(self._grip.is_due)
 
     def _limit(self, force_n: float) -> None:
         """Limit the force of the fingers."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import mujoco
 import numpy as np
@@ -28,7 +28,7 @@ from skillc_runtime.backends.mujoco.held_load import Held, make_held, take_off_l
 from skillc_runtime.backends.mujoco.model_map import ModelMap
 from skillc_runtime.backends.simulation.machine_code import address_of, address_of_time
 from skillc_runtime.motion.arrays import Vector
-from skillc_runtime.motion.numerics.compiled import bind, compiled
+from skillc_runtime.motion.numerics.compiled import Bound, bind, compiled
 from skillc_runtime.motion.numerics.copying import Copies, copy, copy_pieces
 from skillc_runtime.motion.numerics.places import call_entry
 from skillc_runtime.motion.pose import Array
@@ -47,20 +47,25 @@ class HalfStep:
     held: Held
 
 
+Half = Literal["mj_step1", "mj_step2"]
+"""The function of MuJoCo that computes half a step: what follows from positions and speeds; forces and motion."""
+
+
 @compiled
-def run_half(step: HalfStep) -> None:
-    """Run half a step; arms do not know the load that they hold."""
+def run_half(step: HalfStep, now: float) -> int:
+    """Run half of the step that begins at `now` s; arms do not know the load that they hold."""
     copy_pieces(step.before)
     call_entry(int(step.called[0]), int(step.called[1]), int(step.called[2]))
     copy_pieces(step.after)
     take_off_load(step.held)
+    return 0
 
 
 class Mirror:
     """Steps the tight model, and shows its state in the data of the free one.
 
-    `blocks` are the outermost bodies of what is held, in the free model. `compute_places` computes what follows from
-    positions and speeds, `move` the forces, and moves; `take_changes` puts all where it is in the free data.
+    `blocks` are the outermost bodies of what is held, in the free model. `halves` run half a step each; `take_changes`
+    puts all where it is in the free data.
     """
 
     def __init__(
@@ -77,8 +82,10 @@ class Mirror:
         things = (_find_place(rows, each, free_model, free, tight) for each in blocks)
         placed = copies(shown(rows, PLACED, free, tight), *things)
         held, nothing = (make_held(rows, each, free, tight_model, tight) for each in (blocks, ()))
-        self.move = bind(run_half, HalfStep(copies(*forces), second, moved, nothing))
-        self.compute_places = bind(run_half, HalfStep(copies(), first, placed, held))
+        self.halves: dict[Half, Bound[[float], int]] = {
+            "mj_step1": bind(run_half, HalfStep(copies(), first, placed, held)),
+            "mj_step2": bind(run_half, HalfStep(copies(*forces), second, moved, nothing)),
+        }
         self.take_changes = bind(copy, copies(taken(rows, CHANGES, free, tight)))
 
     def pull_on(self, block: int) -> Array:
@@ -86,14 +93,6 @@ class Mirror:
         mujoco.mj_rnePostConstraint(self.tight_model, self.tight)
         force: Array = self.tight.cfrc_int[self.rows.bodies[block], 3:].copy()
         return force
-
-
-def full_mass(model: Any, data: Any, out: Array) -> None:
-    """Compute the mass matrix (nv, nv) of a model at the positions that its data show."""
-    mujoco.mj_kinematics(model, data)
-    mujoco.mj_comPos(model, data)
-    mujoco.mj_crb(model, data)
-    mujoco.mj_fullM(model, data, out)
 
 
 def _find_place(rows: ModelMap, block: int, free_model: Any, free: Any, tight: Any) -> Iterator[Piece]:

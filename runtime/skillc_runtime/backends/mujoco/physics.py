@@ -16,17 +16,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillc_runtime.backends.mujoco.divergence import DivergenceMonitor
-from skillc_runtime.backends.mujoco.mirror import Mirror, full_mass
+from skillc_runtime.backends.mujoco.mirror import Half, Mirror
 from skillc_runtime.backends.mujoco.model_map import map_models
 from skillc_runtime.backends.mujoco.momentum import join, part
 from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.backends.simulation.hold import read_hold
-from skillc_runtime.backends.simulation.machine_code import address_of, has_room
+from skillc_runtime.backends.simulation.machine_code import address_of, has_room, row_calling
 from skillc_runtime.backends.simulation.model_builder import build_model
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation
 from skillc_runtime.motion.numerics.compiled import COMPILES
+from skillc_runtime.motion.numerics.program import Rows, row_of
 from skillc_runtime.motion.pose import Array
 
 
@@ -46,10 +47,11 @@ class Physics:
     _holders: dict[str, str] = field(default_factory=dict)
     _mirror: Mirror | None = None
     _is_due: bool = False
-    _monitor: DivergenceMonitor = field(init=False)
+    monitor: DivergenceMonitor = field(init=False)
+    """Watches the model that is stepped."""
 
     def __post_init__(self) -> None:
-        self._monitor = DivergenceMonitor(self.model, self.data)
+        self.monitor = DivergenceMonitor(self.model, self.data)
 
     def hold(self, thing: str, gripper: str) -> None:
         """Let a thing be a part of the hand, whose fingers stand still, that a weld holds it in; both are IRIs."""
@@ -73,28 +75,35 @@ class Physics:
             self._mirror.rows.renew(self.model, self._mirror.tight_model)
             self._mirror.take_changes()
         self.compute_places()
+        self.monitor.step(self.data.time)
 
     def compute_places(self) -> None:
         """Compute what follows from positions and speeds: the first part of a step."""
         if self._is_due:
             mujoco.mj_step1(self.model, self.data)
             self._tighten()
-        if self._mirror is None:
-            mujoco.mj_step1(self.model, self.data)
-        else:
-            self._mirror.compute_places()
-        self._monitor.check()
+        self._run("mj_step1")
 
     def move(self) -> None:
         """Compute forces and move: the rest of a step, after `compute_places`."""
         if self._is_due:
             self._tighten()
             self.compute_places()
+        self._run("mj_step2")
+
+    def find_rows(self, half: Half) -> Rows | None:
+        """Return what computes half a step as things are now; None if only Python can."""
+        if self._is_due:
+            return None
         if self._mirror is None:
-            mujoco.mj_step2(self.model, self.data)
+            return row_calling(half, self.model, self.data) if has_room(self.data) else None
+        return row_of(self._mirror.halves[half]) if has_room(self._mirror.tight) else None
+
+    def _run(self, half: Half) -> None:
+        if self._mirror is None:
+            getattr(mujoco, half)(self.model, self.data)
         else:
-            self._mirror.move()
-        self._monitor.check()
+            self._mirror.halves[half](self.data.time)
 
     def take_changes(self) -> None:
         """Take over where things were put in the data of the cell between two half steps."""
@@ -107,13 +116,6 @@ class Physics:
         None if it is none.
         """
         return None if self._mirror is None or thing not in self._holders else self._mirror.pull_on(self._block(thing))
-
-    def compute_mass(self, out: Array) -> None:
-        """Compute the mass matrix (nv, nv) of the model of the cell, in which what is held does not burden an arm."""
-        if self._mirror is None:
-            mujoco.mj_fullM(self.model, self.data, out)
-        else:
-            full_mass(self.model, self.data, out)
 
     def find_bodies(self, bodies: list[int]) -> list[int]:
         """Return the numbers of bodies in the model with which contacts are computed."""
@@ -143,7 +145,7 @@ class Physics:
 
     def _step_with(self, model: Any, data: Any, geoms: NDArray[np.int64]) -> None:
         """Watch what steps use from now on; `geoms` are the numbers (ngeom,) in the cell's model of the geoms there."""
-        self._monitor = DivergenceMonitor(model, data)
+        self.monitor = DivergenceMonitor(model, data)
         self.contacts.read_from(model, data, geoms)
         self.switches += 1
 

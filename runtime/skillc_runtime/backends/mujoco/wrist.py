@@ -3,19 +3,54 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import mujoco
 import numpy as np
 
 from skillc_runtime.backends.simulation.names import part_name, wrist_sensor_name
-from skillc_runtime.backends.simulation.noise import Noise
-from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
-from skillc_runtime.motion.numerics.compiled import compiled
+from skillc_runtime.backends.simulation.noise import Noise, make_no_noise
+from skillc_runtime.backends.simulation.steps import OnMemory
+from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import bind, compiled
 from skillc_runtime.motion.pose import Array, Pose, skew
 
 
-class Wrist:
+@dataclass(frozen=True, slots=True)
+class WristFilter:
+    """The low-pass filter of a sensor.
+
+    readings (9,) move by `share` of the difference to the noisy raw ones (9,) in each step; noise (n, 9), of which
+    `used` (1,) rows are used up; started (1,): 0 before the first sample, which the readings begin with.
+    """
+
+    readings: OutVector
+    raw: Vector
+    noise: Matrix
+    used: OutVector
+    share: float
+    started: OutVector
+
+
+@compiled
+def filter_wrist(wrist: WristFilter, now: float) -> int:
+    """Filter the readings of one step; return 1, and do nothing, if all noise is used up."""
+    if wrist.started[0] == 0.0:
+        for i in range(wrist.raw.size):
+            wrist.readings[i] = wrist.raw[i]
+        wrist.started[0] = 1.0
+        return 0
+    row = int(wrist.used[0])
+    if row == wrist.noise.shape[0]:
+        return 1
+    wrist.used[0] += 1.0
+    for i in range(wrist.raw.size):
+        wrist.readings[i] += wrist.share * (wrist.raw[i] + wrist.noise[row, i] - wrist.readings[i])
+    return 0
+
+
+class Wrist(OnMemory):
     """The sensor S between flange and gripper, whose frame is the gripper's root.
 
     MuJoCo reports what the parent does to the child: a hanging child of 2 kg reads +20 N upwards. An accelerometer
@@ -23,7 +58,7 @@ class Wrist:
     t_ext = c x m s - t_S, at the tool centre point p: t_ext - p x f_ext. This removes weight and inertia, except for
     rotational inertia. It is one constant matrix until the next grasp: w = G [f; t; s], along the sensor's axes.
 
-    gain (6, 9): G; readings (9,): [f; t; s], low-passed, zeros before any sample.
+    gain (6, 9): G; readings (9,): [f; t; s], low-passed, zeros before any sample. `step` filters one simulation step.
     """
 
     def __init__(
@@ -38,12 +73,11 @@ class Wrist:
     ) -> None:
         """Find the sensor of a gripper, which writes `gain` and `readings`; `noise` is that of the readings (9,)."""
         first = model.sensor(wrist_sensor_name(gripper, "force")).adr[0]
-        self._raw = data.sensordata[first : first + 9]
-        self._share = 1.0 - math.exp(-model.opt.timestep / time_constant_s) if time_constant_s > 0 else 1.0
-        self.gain, self.readings, self._started = gain, readings, False
-        self._noise = noise
+        share = 1.0 - math.exp(-model.opt.timestep / time_constant_s) if time_constant_s > 0 else 1.0
+        self.gain, self.readings, self._noise = gain, readings, noise or make_no_noise(9)
+        raw, rows, used = data.sensordata[first : first + 9], self._noise.rows, self._noise.used
+        super().__init__(bind(filter_wrist, WristFilter(readings, raw, rows, used, share, np.zeros(1))))
         self._hand_mass, self._hand_centre = _hand(model, part_name(gripper, "palm"))
-        self._quiet = np.zeros(9)
 
     def configure(self, tool: Pose, payload_kg: float, payload_centre: Array) -> None:
         """Set the tool centre point and a payload with its centre of mass (3,) in m, both in the sensor's frame."""
@@ -54,19 +88,11 @@ class Wrist:
         to_tool[3:, :3] = -skew(tool.position)
         self.gain[:] = to_tool @ at_sensor
 
-    def sample(self) -> None:
-        """Filter the reading of one simulation step; the first one initialises the filter."""
-        if self._started:
-            noise = self._quiet if self._noise is None else self._noise.row()
-            low_pass(self.readings, self._raw, noise, self._share)
-        else:
-            self.readings[:], self._started = self._raw, True
-
-
-@compiled
-def low_pass(readings: OutVector, raw: Vector, noise: Vector, share: float) -> None:
-    """Move the readings (9,) by a share of the difference to the noisy raw ones (9,)."""
-    readings += share * (raw + noise - readings)
+    def act(self, events: int, now: float) -> bool:
+        """Draw noise for the next steps, and filter this one."""
+        self._noise.draw()
+        self.step(now)
+        return False
 
 
 def _hand(model: Any, palm: str) -> tuple[float, Array]:

@@ -21,23 +21,26 @@ from skillc_runtime.backends.simulation.arm_sensing import (
     BIAS,
     CARRYING,
     EFFORT,
+    MASS_DUE,
+    MEASURED_AT,
     SPEED,
     ArmSensing,
     LastLink,
+    MassMemory,
     Q,
-    add_payload_mass,
     measure,
+    take_mass,
+    update_mass,
 )
+from skillc_runtime.backends.simulation.machine_code import address_of
 from skillc_runtime.backends.simulation.motors import Joints, Motors, ServoGains, Servos, TorqueMotors
 from skillc_runtime.backends.simulation.names import part_name
-from skillc_runtime.backends.simulation.noise import Noise
+from skillc_runtime.backends.simulation.noise import Noise, make_no_noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.devices.arm import Arm, ArmLoad, ArmState, Capabilities, Command, Mode, NotOffered
 from skillc_runtime.motion.numerics.compiled import bind
+from skillc_runtime.motion.numerics.program import IDLE, Rows, join, row_of
 from skillc_runtime.motion.pose import Array, Pose
-
-MASS_MATRIX_PERIOD_S = 0.01
-"""Period with which the mass matrix, which changes slowly, is computed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +63,9 @@ class ModelledArm(Arm):
 
     measures_effort: ClassVar[bool] = True
     """Whether `ArmState.effort` is what the motors exert."""
+
+    mass_functions: ClassVar[tuple[str, ...]] = ("mj_fullM",)
+    """The functions of MuJoCo that compute the mass matrix of the whole cell."""
 
     has_own_law: bool = False
     """Whether the robot itself has a compliant law, which takes targets of the tool."""
@@ -97,17 +103,16 @@ class ModelledArm(Arm):
         self._joints, self._velocity = np.zeros((6, count)), np.zeros(3)
         self._here = _blank(self._joints, self._hand.tool)
         self._state = _read_only(self._here)
-        self._full_mass, self._next_mass_time = np.zeros((model.nv, model.nv)), 0.0
-        self._weight, self._carrying, self._quiet = np.zeros(3), self._joints[CARRYING], np.zeros(count)
+        self._weight, self._carrying, self._payload_kg = np.zeros(3), self._joints[CARRYING], np.zeros(1)
+        self._noise, self._times = noise or make_no_noise(count), np.zeros(2)
         self._flange = find_site(model.site(part_name(name, "flange")))
         self._feels_force = facts.force_torque and gripper is not None
         self._gain, self._readings = np.zeros((6, 9)), np.zeros(9)
-        self._damping = np.zeros(count)
+        self._damping, self._zero, self._zero_at_tool = np.zeros(count), np.zeros(6), np.zeros(6)
         self._sensing = self._make_sensing()
-        self._measure = bind(measure, self._sensing)
-        self._speed_noise = noise
-        self._measured_s, self._braked = float(data.time), False
-        self._zero, self._is_tared = np.zeros(6), False
+        self._measure, mass = bind(measure, self._sensing), self._make_mass()
+        self._full_mass, self._take_mass, self._update_mass = mass.whole, bind(take_mass, mass), bind(update_mass, mass)
+        self._times[MEASURED_AT], self._braked = data.time, False
         self._configure(NO_PAYLOAD, self.fixed_tool)
         self._q[:] = start
         self._motors = self._make_motors(facts, slice(actuator, actuator + count), steps_per_command)
@@ -129,8 +134,13 @@ class ModelledArm(Arm):
     @property
     def base(self) -> Pose:
         """The pose of the arm's base in the world."""
-        live = self._sensing.base
+        live = self.live_base
         return Pose(live.position.copy(), live.rotation.copy())
+
+    @property
+    def live_base(self) -> Pose:
+        """The pose of the arm's base in the world; its arrays change."""
+        return self._sensing.base
 
     @property
     def live_joints(self) -> Array:
@@ -154,23 +164,32 @@ class ModelledArm(Arm):
 
     def state(self) -> ArmState:
         """Return the present state, in the arm's base frame."""
-        noise = self._speed_noise
-        self._measure(self._quiet if noise is None else noise.row())
-        self._measured_s = float(self._data.time)
-        if self._is_tared:
-            self._here.wrench[:] -= self._zero_in_base()
-        if self._data.time >= self._next_mass_time:
+        now = self._data.time
+        if self._measure(now):
+            self._noise.draw()
+            self._measure(now)
+        if now >= self._times[MASS_DUE]:
             self._update_mass_matrix()
         return self._state
+
+    @property
+    def measuring(self) -> Rows | None:
+        """The functions that update the state; None if only Python can."""
+        return join(row_of(self._measure), row_of(self._update_mass) if address_of("mj_fullM") else None)
+
+    def taking(self, values: Array) -> Rows | None:
+        """Return the function that takes commands of the interface from there (nv,); None if only Python can."""
+        return IDLE if self._braked else self._motors.taking(values)
 
     def command(self, command: Command) -> None:
         """Take a command for the next step; TypeError for another kind than `interface`."""
         if not self._braked:
             self._motors.command(command)
 
-    def before_step(self) -> None:
-        """Set the actuators as commanded, or so that the arm holds still if commands have stopped."""
-        self._motors.before_step()
+    @property
+    def motors(self) -> Motors:
+        """What sets the actuators in each step: as commanded, or to hold the arm still if commands have stopped."""
+        return self._motors
 
     def set_load(self, load: ArmLoad | None) -> None:
         """Count this as held from now on; None for the empty hand."""
@@ -184,7 +203,7 @@ class ModelledArm(Arm):
     @property
     def measured_s(self) -> float:
         """When the last state was measured, in s: the clock of a simulated arm is that of its cell."""
-        return self._measured_s
+        return float(self._times[MEASURED_AT])
 
     def flange_at(self, q: Array) -> Pose:
         """Return the flange in base for joints q (nv,) in rad."""
@@ -203,7 +222,7 @@ class ModelledArm(Arm):
         force, moment = wrist @ self._here.wrench[:3], wrist @ self._here.wrench[3:]
         self._zero[:3] += force
         self._zero[3:] += moment + np.cross(self._lever(), force)
-        self._is_tared = True
+        self._move_zero()
 
     @property
     def braked(self) -> bool:
@@ -219,10 +238,10 @@ class ModelledArm(Arm):
         at = self._flange.inverse() @ self._tool
         return at.position
 
-    def _zero_in_base(self) -> Array:
-        """Return the wrench (6,) of the sensor that counts as 0, at the tool centre point, along the base's axes."""
-        wrist, force = self._hand.in_base[3:6], self._zero[:3]
-        return np.concatenate([wrist.T @ force, wrist.T @ (self._zero[3:] - np.cross(self._lever(), force))])
+    def _move_zero(self) -> None:
+        """Compute the wrench (6,) of the sensor that counts as 0, along its axes, at the tool centre point."""
+        force = self._zero[:3]
+        self._zero_at_tool[:3], self._zero_at_tool[3:] = force, self._zero[3:] - np.cross(self._lever(), force)
 
     def _make_sensing(self) -> ArmSensing:
         data, hand, here = self._data, self._hand, self._here
@@ -248,7 +267,19 @@ class ModelledArm(Arm):
             damping=self._damping,
             gain=self._gain,
             readings=self._readings,
+            zero=self._zero_at_tool,
+            noise=self._noise.rows,
+            used=self._noise.used,
+            times=self._times,
         )
+
+    def _make_mass(self) -> MassMemory:
+        model, data, here = self._model, self._data, self._here
+        whole = np.zeros((model.nv, model.nv))
+        memory = model._address, data._address, whole.ctypes.data
+        called = np.array([(address_of(name), *memory) for name in self.mass_functions])
+        first, lever = float(self._dofs.start), self._hand.lever
+        return MassMemory(here.mass_matrix, whole, first, called, self._payload_kg, self._times, lever, here.jacobian)
 
     def _make_motors(self, facts: ArmSpec, actuators: slice, steps_per_command: int) -> Motors:
         data, here, timestep = self._data, self._here, self._model.opt.timestep
@@ -264,20 +295,18 @@ class ModelledArm(Arm):
         return Servos(joints, facts.modes, timestep, gains, steps_per_command)
 
     def _configure(self, payload: Payload, tool: Pose) -> None:
-        self.payload, self._tool, self._next_mass_time = payload, tool, 0.0
+        self.payload, self._tool, self._times[MASS_DUE] = payload, tool, 0.0
+        self._payload_kg[0] = payload.mass_kg
         self._hand.configure(tool, self._flange.rotation, payload.centre)
+        self._move_zero()
         np.multiply(self._model.opt.gravity, -payload.mass_kg, out=self._weight)
 
-    def _compute_full_mass(self) -> None:
-        """Compute the mass matrix of the whole cell, without what hands hold."""
-        mujoco.mj_fullM(self._model, self._data, self._full_mass)
-
     def _update_mass_matrix(self) -> None:
-        self._compute_full_mass()
-        self._here.mass_matrix[:] = self._full_mass[self._dofs, self._dofs]
-        if self.payload.mass_kg > 0.0:
-            add_payload_mass(self._here.mass_matrix, self._hand.lever, self._here.jacobian, self.payload.mass_kg)
-        self._next_mass_time = self._data.time + MASS_MATRIX_PERIOD_S - 1e-9
+        *before, last = (getattr(mujoco, name) for name in self.mass_functions)
+        for compute in before:
+            compute(self._model, self._data)
+        last(self._model, self._data, self._full_mass)
+        self._take_mass(self._data.time)
 
 
 def _blank(joints: Array, tool: Pose) -> ArmState:

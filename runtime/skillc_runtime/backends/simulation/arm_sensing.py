@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
+from skillc_runtime.motion.arrays import Integers, Matrix, OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import cross, product, times, transposed_times
+from skillc_runtime.motion.numerics.places import call_entry
 from skillc_runtime.motion.pose import Array, Pose
 
 TOOL = 6
@@ -16,6 +17,15 @@ TOOL = 6
 
 LEVER = 7
 """The row of the vector from there to the payload's centre of mass."""
+
+MEASURED_AT, MASS_DUE = 0, 1
+"""Entries of `ArmSensing.times`, s: of the last measurement, and when the mass matrix has to be computed again."""
+
+NOT_READY = 1 << 32
+"""The bit of measurements that have not been made, since Python has something to do first."""
+
+MASS_MATRIX_PERIOD_S = 0.01
+"""Period with which the mass matrix, which changes slowly, is computed."""
 
 Q, SPEED, BIAS, CARRYING, EFFORT, BEFORE = range(6)
 """Rows of the joint measurements; CARRYING: the torques that carry a payload; BEFORE: the speeds before, exact."""
@@ -53,10 +63,12 @@ def add_payload_bias(
 
 
 @inlined
-def compute_wrench(wrench: OutVector, gain: Matrix, readings: Vector, axes: Matrix) -> None:
-    """wrench (6,) = gain (6, 9) readings (9,), its halves along `axes` (3, 3), one a row."""
+def compute_wrench(wrench: OutVector, gain: Matrix, readings: Vector, zero: Vector, axes: Matrix) -> None:
+    """wrench (6,) = gain (6, 9) readings (9,) - zero (6,), its halves along `axes` (3, 3), one a row."""
     at_wrist = np.empty(6)
     times(gain, readings, at_wrist)
+    for i in range(6):
+        at_wrist[i] -= zero[i]
     transposed_times(axes, at_wrist[:3], wrench[:3])
     transposed_times(axes, at_wrist[3:], wrench[3:])
 
@@ -67,13 +79,15 @@ class ArmSensing:
 
     Written, in the arm's base frame. joints (6, nv): Q rad, SPEED and BEFORE rad/s, others N m; in_base (8, 3): see
     `LastLink`; rotation (3, 3), jacobian (6, nv): of the tool centre point, [linear m; angular rad] per rad; wrench
-    (6,): N and N m on the tool, zeros without sensor; velocity (3,): m/s, of the tool centre point.
+    (6,): N and N m on the tool, zeros without sensor; velocity (3,): m/s, of the tool centre point. times (2,): see
+    above.
 
     Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; on_link (8, 3): as there. In the world:
     motion_axes (nv, 6), MuJoCo's `cdof`, and centre (3,) m, where they hold; position (3,) m and rotation (3, 3) of
     last link and base; weight (3,) N of the payload. actuators, applied, passive (nv,): N m, in the last step, in which
     the servos' damping (nv,), N m s/rad, also acts on the change of the speeds. gain (6, 9) and readings (9,): of the
-    sensor, see `Wrist`.
+    sensor, see `Wrist`; zero (6,): what counts as 0 of the result. noise (n, nv): rad/s, a row for each measurement, of
+    which `used` (1,) are used up.
     """
 
     joints: OutMatrix
@@ -97,6 +111,10 @@ class ArmSensing:
     damping: Vector
     gain: Matrix
     readings: Vector
+    zero: Vector
+    noise: Matrix
+    used: OutVector
+    times: OutVector
 
 
 @inlined
@@ -123,21 +141,29 @@ def update_hand(arm: ArmSensing) -> None:
 
 
 @compiled
-def measure(arm: ArmSensing, noise: Vector) -> None:
-    """Compute the measurements: hand, Jacobian, velocity, wrench, bias with payload, speeds with noise (nv,) rad/s."""
-    joints, J, axes = arm.joints, arm.jacobian, arm.base.rotation
+def measure(arm: ArmSensing, now: float) -> int:
+    """Compute the measurements at `now` s: hand, Jacobian, velocity, wrench, bias with payload, speeds with noise.
+
+    Return `NOT_READY`, and compute nothing, if all noise is used up.
+    """
+    joints, J, axes, row = arm.joints, arm.jacobian, arm.base.rotation, int(arm.used[0])
+    if row == arm.noise.shape[0]:
+        return NOT_READY
+    arm.used[0] += 1.0
+    arm.times[MEASURED_AT] = now
     update_hand(arm)
     for j in range(arm.q.size):
-        joints[Q, j], joints[SPEED, j], joints[BIAS, j] = arm.q[j], arm.dq[j] + noise[j], arm.bias[j]
+        joints[Q, j], joints[SPEED, j], joints[BIAS, j] = arm.q[j], arm.dq[j] + arm.noise[row, j], arm.bias[j]
         exerted = arm.actuators[j] + arm.applied[j] + arm.passive[j]
         joints[EFFORT, j] = exerted - arm.damping[j] * (arm.dq[j] - joints[BEFORE, j])
         joints[BEFORE, j] = arm.dq[j]
     add_payload_bias(joints[BIAS], joints[CARRYING], arm.weight, axes, arm.in_base[LEVER], J)
-    compute_wrench(arm.wrench, arm.gain, arm.readings, arm.in_base[3:6])
+    compute_wrench(arm.wrench, arm.gain, arm.readings, arm.zero, arm.in_base[3:6])
     times(J[:3], joints[SPEED], arm.velocity)
+    return 0
 
 
-@compiled
+@inlined
 def add_payload_mass(mass: OutMatrix, lever: Vector, J: Matrix, payload_kg: float) -> None:
     """Add to a mass matrix (nv, nv) that of a point payload: m J_c^T J_c with J_c = J_v - lever x J_w."""
     joints = J.shape[1]
@@ -150,3 +176,50 @@ def add_payload_mass(mass: OutMatrix, lever: Vector, J: Matrix, payload_kg: floa
     for i in range(joints):
         for j in range(joints):
             mass[i, j] += payload_kg * spun[i, j]
+
+
+@dataclass(frozen=True, slots=True)
+class MassMemory:
+    """The mass matrix (nv, nv) of an arm, in kg m^2, and what it is computed from.
+
+    whole (n, n): of all joints of the model, of which those of the arm begin at number `first`. compute (m, 4), the
+    addresses of functions of MuJoCo, of model, data, and `whole`, which those before the last do not take; payload
+    (1,): kg; times (2,), lever (3,), jacobian (6, nv): of `ArmSensing`.
+    """
+
+    mass: OutMatrix
+    whole: OutMatrix
+    first: float
+    compute: Integers
+    payload: Vector
+    times: OutVector
+    lever: Vector
+    jacobian: Matrix
+
+
+@inlined
+def _take_mass(memory: MassMemory, now: float) -> None:
+    mass, first = memory.mass, int(memory.first)
+    for i in range(mass.shape[0]):
+        for j in range(mass.shape[1]):
+            mass[i, j] = memory.whole[first + i, first + j]
+    if memory.payload[0] > 0.0:
+        add_payload_mass(mass, memory.lever, memory.jacobian, memory.payload[0])
+    memory.times[MASS_DUE] = now + MASS_MATRIX_PERIOD_S - 1e-9
+
+
+@compiled
+def take_mass(memory: MassMemory, now: float) -> None:
+    """Take the mass matrix of the arm, with its payload, from that of the whole model, computed at `now` s."""
+    _take_mass(memory, now)
+
+
+@compiled
+def update_mass(memory: MassMemory, now: float) -> int:
+    """Compute the mass matrix if it is due at `now` s; for machine code."""
+    if now >= memory.times[MASS_DUE]:
+        for each in range(memory.compute.shape[0]):
+            function, model, data, whole = memory.compute[each]
+            call_entry(function, model, data, whole)
+        _take_mass(memory, now)
+    return 0

@@ -28,6 +28,11 @@ class Cargo:
         self._blocks = {individual: int(model.body(name).id) for individual, name in blocks.items()}
         self._loaded: list[int] | None = None
 
+    @property
+    def at_rest(self) -> bool:
+        """Whether nothing is left to be done while the base is at rest."""
+        return self._loaded is None
+
     def move(self, motion: Pose | None) -> None:
         """Move the cargo with the base, new = motion @ old in the world; None while the base is at rest."""
         if motion is None:

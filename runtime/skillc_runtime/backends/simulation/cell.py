@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from functools import partial
 from typing import Any, Generic, TypeVar
 
 import mujoco
@@ -26,10 +27,12 @@ from skillc_runtime.backends.simulation.model_builder import build_model
 from skillc_runtime.backends.simulation.mujoco_warnings import log_warnings
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.observer import ToolObserver
+from skillc_runtime.backends.simulation.parts import ControlledArm, Listening
 from skillc_runtime.backends.simulation.person import make_people
 from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
 from skillc_runtime.backends.simulation.saved_cell import read_posture, restore_cell, save_cell
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
+from skillc_runtime.backends.simulation.steps import Due, InPython, OnMemory, Steps, is_due
 from skillc_runtime.backends.simulation.stops import SimulatedStops
 from skillc_runtime.backends.simulation.touch_recorder import TouchRecorder
 from skillc_runtime.backends.simulation.truth import SimulatedTruth
@@ -44,6 +47,8 @@ from skillc_runtime.devices.device_states import DeviceStates
 from skillc_runtime.devices.device_stopper import DeviceStopper
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.motion.coverage import CoverageMap
+from skillc_runtime.motion.numerics.compiled import bind
+from skillc_runtime.motion.numerics.program import Part
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.frames import relocation_changes, size
@@ -60,7 +65,8 @@ class ModelledCell(ABC, Generic[A, G]):
     """A cell in lock step, implementing `Cell` and `Backend`; subclasses make arms and grippers, and move all of it.
 
     `variation` is how reality differs from the facts of `scene`. Between calls of `advance` all measurements are of the
-    present instant. The world model has the state of each arm: `Idle`, or `Fault` from a stop until it is acknowledged.
+    present instant. `steps` runs what takes part, in order; `steps_without_control` all but the controllers. The world
+    model has the state of each arm: `Idle`, or `Fault` from a stop until it is acknowledged.
     """
 
     cargo_type: type[Cargo] = Cargo
@@ -80,7 +86,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self.data: Any = mujoco.MjData(self.model)
         self.data.time = checkpoint.time_s if checkpoint is not None else 0.0
         self.contacts = Contacts(self.model, self.data)
-        self._timestep, self._steps_per_command, self._step = timestep_s, steps_per_command, 0
+        self._timestep, self._steps_per_command = timestep_s, steps_per_command
         self._broken: str | None = None
         self._reports: list[tuple[Sequence[Change], str, Evidence]] = []
         self.arms, self._hands = self._make_arms()
@@ -123,6 +129,9 @@ class ModelledCell(ABC, Generic[A, G]):
             lock_step=self, judge=self, truth=self.ground_truth, drawing=self.drawing, disturber=self.disturber,
             checkpoints=self, live=self.live,
         )  # fmt: skip
+        control, others = tuple(self._control_parts()), (*self._device_parts(), *self._parts())
+        self.steps = Steps(control, others, steps_per_command, timestep_s)
+        self.steps_without_control = Steps((), others, steps_per_command, timestep_s)
         world.weigh_evidence(self._weigh_evidence)
         self._report_idle()
 
@@ -199,21 +208,18 @@ class ModelledCell(ABC, Generic[A, G]):
         ControlError if a controller cannot continue, BackendBroken if the cell cannot; after that it never advances.
         """
         try:
-            for _ in range(round(seconds / self._timestep)):
-                self._advance_one()
+            self._advance(self.steps, round(seconds / self._timestep))
         finally:
             self.publish()
 
     def advance_period(self) -> None:
         """Run one control period; errors as of `advance`, but the world model is not written: `publish` does."""
-        for _ in range(self._steps_per_command):
-            self._advance_one()
+        self._advance(self.steps, self._steps_per_command)
 
     def hold_period(self) -> None:
         """Let a control period pass without commands: arms hold still by themselves, grippers and bases stop."""
         self._stopper.stop()
-        for _ in range(self._steps_per_command):
-            self._move_devices(self.data.time)
+        self.steps_without_control.run(self.data.time, self._steps_per_command)
 
     def publish(self) -> None:
         """Write to the world model what devices have reported since the last call."""
@@ -287,39 +293,54 @@ class ModelledCell(ABC, Generic[A, G]):
         """Compute what follows from positions in `data` that were changed between two steps."""
 
     @abstractmethod
-    def _move(self, now: float) -> None:
-        """Move everything by one step that begins at `now` s, and observe it."""
+    def _parts(self) -> Iterator[Part]:
+        """Yield what moves everything by one step, once devices and people have acted, and observes it."""
 
-    def _advance_one(self) -> None:
+    def _advance(self, steps: Steps, count: int) -> None:
         if self._broken is not None:
             raise BackendBroken(self._broken)
         try:
-            self._step_devices(self.data.time)
+            steps.run(self.data.time, count)
         except BackendBroken as error:
             self._broken = str(error)
             raise
 
-    def _step_devices(self, now: float) -> None:
-        if self._step % self._steps_per_command == 0:
-            if self.watchdog.expired(now):
-                self.stop_all("the tree is not ticked any more")
-            for individual, arm in self._drivers.items():
-                if individual not in self._stopper.lost:
-                    self._control(arm, now)
-            for listen in self.live.listeners:
-                listen()
-        self._move_devices(now)
+    def _control_parts(self) -> Iterator[Part]:
+        """Yield what runs once a control period: the watchdog, controllers, listeners."""
+        yield OnMemory(bind(is_due, Due(self.watchdog.due)), self._watch)
+        yield from map(self._control_part, self._drivers)
+        yield InPython(self._tell, lambda: not self.live.listeners)
+        yield Listening(lambda: self.live.parts)
 
-    def _move_devices(self, now: float) -> None:
+    def _control_part(self, individual: str) -> Part:
+        """Return what runs the control periods of an arm."""
+        is_lost = partial(self._stopper.lost.__contains__, individual)
+        return ControlledArm(self.arms[individual], self._drivers[individual], is_lost)
+
+    def _device_parts(self) -> Iterator[Part]:
+        """Yield what acts in each step: grippers, motors, people."""
         for gripper in self._grippers.values():
-            gripper.step(self._timestep)
+            yield InPython(partial(self._step_gripper, gripper), partial(_is_idle, gripper))
         for arm in self.arms.values():
-            arm.before_step()
+            yield arm.motors
+        yield InPython(self._step_people, lambda: not self.people)
+        yield InPython(self.disturber.step, lambda: not self.disturber.acts)
+
+    def _watch(self, events: int, now: float) -> bool:
+        if self.watchdog.expired(now):
+            self.stop_all("the tree is not ticked any more")
+        return True
+
+    def _tell(self, now: float) -> None:
+        for listen in self.live.listeners:
+            listen()
+
+    def _step_gripper(self, gripper: G, now: float) -> None:
+        gripper.step(self._timestep)
+
+    def _step_people(self, now: float) -> None:
         for person in self.people:
             person.step(now)
-        self.disturber.step(now)
-        self._move(now)
-        self._step += 1
 
     def _make_inspection_camera(self) -> SimulatedCamera:
         """Return the camera that inspects surfaces; its errors follow from the seed."""
@@ -341,17 +362,22 @@ class ModelledCell(ABC, Generic[A, G]):
         """Return each gripper that holds something, with that."""
         return [(name, hand.holding) for name, hand in self._grippers.items() if hand.holding is not None]
 
-    def _notice_losses(self) -> None:
-        """Stop each arm whose fingers measure that what they held is lost, and report the pose where it was noticed."""
-        for individual, gripper in self._hands.items():
-            if (why := gripper.loss_message()) is not None:
-                state, thing, arm = self._world.snapshot(), gripper.counted, self._drivers[individual]
-                left_at = arm.measured.pose @ working_face(size(state, thing)).inverse()
-                gripper.detach()
-                arm.abort(why)
-                self._report(relocation_changes(state, thing, left_at), why, "assumed")
+    def _notice_loss(self, individual: str) -> bool:
+        """Tell whether fingers measure that what they held is lost; if so, stop the arm, and report where it was."""
+        gripper = self._hands[individual]
+        if (why := gripper.loss_message()) is not None:
+            state, thing, arm = self._world.snapshot(), gripper.counted, self._drivers[individual]
+            left_at = arm.measured.pose @ working_face(size(state, thing)).inverse()
+            gripper.detach()
+            arm.abort(why)
+            self._report(relocation_changes(state, thing, left_at), why, "assumed")
+        return why is not None
 
-    def _move_bases(self) -> None:
+    def _bases_rest(self) -> bool:
+        """Whether no base moves, and its cargo neither."""
+        return all(base.at_rest and self._cargo[robot].at_rest for robot, base in self._bases.items())
+
+    def _move_bases(self, now: float) -> None:
         """Move bases with their cargo by one step."""
         for robot, base in self._bases.items():
             self._cargo[robot].move(base.step(self._timestep))
@@ -359,6 +385,6 @@ class ModelledCell(ABC, Generic[A, G]):
                 self._touches.add(self.scene.names[robot], base.touched, self.now, None)
                 base.touched = None
 
-    def _control(self, arm: CompliantArmDriver, now: float) -> None:
-        """Run a control period of one arm."""
-        arm.step(now)
+
+def _is_idle(gripper: ModelledGripper) -> bool:
+    return not gripper.moving

@@ -3,36 +3,51 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import isnan
 
 import numpy as np
 
 from skillc_runtime.backends.simulation.imperfections import Bias, Imperfection, WhiteNoise, distort
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec
 from skillc_runtime.devices.rng import rng_for
+from skillc_runtime.motion.pose import Array
+
+LAST, NEXT, IS_EXACT = range(3)
+"""Entries of `FingerSensor.values`: the last value in m, NaN before the first; s, from when on the next request
+measures; 1 without errors."""
 
 
 @dataclass(slots=True)
 class FingerSensor:
     """Measures an opening once a period, at the first request in it, and returns that value until the period ends.
 
-    imperfections: none for an exact sensor; greatest_error_m: of a sample, in m. last_m: the
-    last value that was read, in m; None before the first.
+    imperfections: none for an exact sensor; greatest_error_m: of a sample, in m; values (3,): see above.
     """
 
     period_s: float = 0.0
     imperfections: tuple[Imperfection, ...] = ()
     greatest_error_m: float = 0.0
-    last_m: float | None = field(default=None, init=False)
-    _next: float = field(default=-np.inf, init=False)
+    values: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Begin without a value."""
+        self.values = np.array([np.nan, -np.inf, float(not self.imperfections)])
+
+    @property
+    def last_m(self) -> float | None:
+        """The last value that was read, in m; None before the first."""
+        last = float(self.values[LAST])
+        return None if isnan(last) else last
 
     def read(self, now: float, opening_m: float) -> float:
         """Return the measured opening in m, at least 0, of the true one at `now` in s."""
         if not self.imperfections:
-            self.last_m = opening_m
-        elif now >= self._next:
+            self.values[LAST] = opening_m
+        elif now >= self.values[NEXT]:
             sample = distort(np.array([opening_m]), self.imperfections)
-            self.last_m = self.last_m if sample is None else max(0.0, float(sample[0]))
-            self._next = now + self.period_s
+            if sample is not None:
+                self.values[LAST] = max(0.0, float(sample[0]))
+            self.values[NEXT] = now + self.period_s
         return self.last_m or 0.0
 
 

@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from dataclasses import dataclass
 from typing import Any
 
 import mujoco
+import numpy as np
 
 from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.checkpoint import SavedGrip, SavedGripper, list_numbers, make_pose
 from skillc_runtime.backends.simulation.contact_bits import HANDLE, PAD
 from skillc_runtime.backends.simulation.contacts import Contacts
-from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
+from skillc_runtime.backends.simulation.finger_sensor import IS_EXACT, LAST, NEXT, FingerSensor
 from skillc_runtime.backends.simulation.gripper_geoms import find_handles, find_pads
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
 from skillc_runtime.devices.arm import ArmLoad
-from skillc_runtime.devices.gripper import has_closed_further
+from skillc_runtime.devices.gripper import CLOSED_FURTHER_M, has_closed_further
 from skillc_runtime.devices.ground_truth import HandSample
+from skillc_runtime.motion.arrays import OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.bodies import RigidBody
@@ -26,6 +30,36 @@ OPPOSING = -0.7
 """Cosine below which two contact normals count as opposite sides."""
 
 NOTHING: frozenset[int] = frozenset()
+
+
+COUNTS, HELD_AT = 0, 1
+"""Entries of `LossWatch.held`: 1 while something counts as held; the measured opening in m when it began to."""
+
+
+@dataclass(frozen=True, slots=True)
+class LossWatch:
+    """What tells of a loss: sensor (3,): see `FingerSensor`; opening (1,): the true one in m; held (2,): see above.
+
+    step_s: how much later than at the beginning of a step the opening is measured.
+    """
+
+    sensor: OutVector
+    opening: Vector
+    held: Vector
+    step_s: float
+
+
+@compiled
+def may_be_lost(watch: LossWatch, now: float) -> int:
+    """Return 1 if what counts as held may be lost, or the sensor has to measure; `has_closed_further` tells."""
+    if watch.held[COUNTS] == 0.0:
+        return 0
+    if watch.sensor[IS_EXACT] != 0.0:
+        watch.sensor[LAST] = watch.opening[0]
+    elif now + watch.step_s >= watch.sensor[NEXT]:
+        return 1
+    held_at = watch.held[HELD_AT]
+    return 1 if watch.sensor[LAST] < held_at - min(CLOSED_FURTHER_M, held_at / 2) else 0
 
 
 class ModelledGripper(ABC):
@@ -56,7 +90,7 @@ class ModelledGripper(ABC):
         self._palm = model.body(part_name(self._name, "palm")).id
         self._tool_centre = model.site(part_name(self._name, "tcp")).id
         self.pads = find_pads(model, self._name)
-        self._holding, self._held_at_m, self._carried = "", 0.0, ""
+        self._holding, self._held, self._carried = "", np.zeros(2), ""
         self._in_tool_centre, self._payload_kg, self._limit_n = Pose.of((0.0, 0.0, 0.0)), 0.0, 0.0
         self._idle, self._goal = True, facts.first_opening_m
         self._set_fingers(facts.first_opening_m)
@@ -161,7 +195,7 @@ class ModelledGripper(ABC):
             in_palm=list_numbers(in_palm),
             grip=self._save_grip() if carried else None,
             counted=self._holding,
-            counted_at_m=self._held_at_m,
+            counted_at_m=float(self._held[HELD_AT]),
             in_tool_centre=list_numbers(self._in_tool_centre),
             mass_kg=self._payload_kg,
         )
@@ -180,7 +214,7 @@ class ModelledGripper(ABC):
         """Hold nothing; the arm's payload and tool centre point become those of the empty gripper."""
         self.drop()
         if self._holding:
-            self._holding = ""
+            self._holding, self._held[COUNTS] = "", 0.0
             self._arm.set_load(None)
 
     def lose(self) -> None:
@@ -194,7 +228,7 @@ class ModelledGripper(ABC):
             return None
         return (
             f"{self._name} has lost {self._names[self._holding]}: its fingers have closed from "
-            f"{self._held_at_m * 1e3:.0f} mm to {self.opening_m * 1e3:.0f} mm"
+            f"{self._held[HELD_AT] * 1e3:.0f} mm to {self.opening_m * 1e3:.0f} mm"
         )
 
     def drop(self) -> None:
@@ -218,7 +252,7 @@ class ModelledGripper(ABC):
 
     def _count(self, thing: str, opening_m: float, in_tool_centre: Pose, mass_kg: float) -> None:
         """Count an object as held between fingers with a measured opening; it is the arm's payload."""
-        self._holding, self._held_at_m = thing, opening_m
+        self._holding, self._held[:] = thing, (1.0, opening_m)
         self._in_tool_centre, self._payload_kg = in_tool_centre, mass_kg
         block = self._model.body(part_name(self._names[thing], "block")).id
         centre = self._pose(block).inverse().apply(self._data.subtree_com[block])
@@ -227,7 +261,7 @@ class ModelledGripper(ABC):
 
     def _has_closed_further(self) -> bool:
         """Whether the fingers have closed so far since they took hold that what they held is not between them."""
-        return has_closed_further(self.opening_m, self._held_at_m)
+        return has_closed_further(self.opening_m, float(self._held[HELD_AT]))
 
     def move_with_base(self, motion: Pose) -> None:
         """Move a carried object with the base of the arm: new = motion @ old, in the world."""

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.names import face_sensor_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.control.driver import CompliantArmDriver
-from skillc_runtime.devices.live import LiveArm, LiveBodies, LiveSensors, LiveSignals
+from skillc_runtime.devices.live import LiveArm, LiveBodies, LiveSensors, LiveSignals, Place, Places
+from skillc_runtime.motion.pose import Array
 
 
 def make_live_signals(
@@ -22,6 +23,8 @@ def make_live_signals(
 ) -> LiveSignals:
     """Return the live signals of a cell; its arrays stay where they are."""
     sensors, positions, quaternions = data.sensordata, data.xpos, data.xquat
+    found = tuple(_places_of(arms[each], drivers[each]) for each in sorted(arms))
+    of_sensors = _place_of(sensors)
     faces = ((each.individual, face_sensor_name(scene.names[each.individual], "touch")) for each in scene.tools)
     return LiveSignals(
         period_s=period_s,
@@ -33,7 +36,28 @@ def make_live_signals(
             tuple(sorted((tool, int(model.sensor(sensor).adr[0])) for tool, sensor in faces)),
         ),
         bodies=LiveBodies(positions.tobytes, quaternions.tobytes),
+        places=lambda: (*(place for places in found for place in places()), of_sensors),
     )
+
+
+def _places_of(arm: ModelledArm, driver: CompliantArmDriver) -> Callable[[], Places]:
+    """Return a function that returns where the arrays of an arm are, in the order of a recording."""
+    wrench, motion = arm.live_wrench, driver.motion
+    first, others = _place_of(arm.live_joints), [arm.live_velocity, driver.compliance.live_force]
+    last = tuple(map(_place_of, others if wrench is None else (wrench, *others)))
+    reference, place = motion.live_reference, _place_of(motion.live_reference)
+
+    def find() -> Places:
+        nonlocal reference, place
+        if motion.live_reference is not reference:
+            reference, place = motion.live_reference, _place_of(motion.live_reference)
+        return (first, place, *last)
+
+    return find
+
+
+def _place_of(array: Array) -> Place:
+    return int(array.__array_interface__["data"][0]), array.size
 
 
 def _describe_arm(individual: str, arm: ModelledArm, driver: CompliantArmDriver) -> LiveArm:

@@ -7,12 +7,16 @@ so `has_room` is asked before.
 
 from __future__ import annotations
 
-from ctypes import CDLL, c_void_p, cast
+from ctypes import CDLL, c_int64, c_void_p, cast
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from skillc_runtime.motion.numerics.program import Rows
 
 USED_SHARE = 0.5
 """The share of the arena up to which steps have room: more than any step needs suddenly."""
@@ -27,6 +31,12 @@ def address_of(function: str) -> int:
     return cast(getattr(CDLL(str(found[0])), function), c_void_p).value or 0 if found else 0
 
 
+def row_calling(function: str, model: Any, data: Any) -> Rows | None:
+    """Return the row of a program that calls a function with a model and its data; None if it cannot be called."""
+    address = address_of(function)
+    return ((address, model._address, data._address),) if address else None
+
+
 def has_room(data: Any) -> bool:
     """Tell whether the memory of a simulation is enough for steps like the last ones, and for much larger ones."""
     return bool(data.maxuse_arena < USED_SHARE * data.narena)
@@ -35,3 +45,21 @@ def has_room(data: Any) -> bool:
 def address_of_time(data: Any) -> int:
     """Return where the simulated time is, which in MuJoCo's data comes right before the energy."""
     return int(data.energy.__array_interface__["data"][0]) - int(data.energy.itemsize)
+
+
+def find_warnings(data: Any) -> NDArray[np.int64]:
+    """Return a view (1, n) of what MuJoCo has warned of, not 0 for each warning with a count that is not."""
+    return _view(data.warning.lastinfo.__array_interface__["data"][0], len(data.warning.number))
+
+
+def find_counts(data: Any) -> NDArray[np.int64]:
+    """Return a view (1, 1) of how many contacts and equality constraints there are, the former in the lower 32 bits.
+
+    In MuJoCo's data these two integers follow the timers, of 16 bytes each.
+    """
+    last = data.timer.number[-1:].__array_interface__["data"][0]
+    return _view(last + 8, 1)
+
+
+def _view(address: int, count: int) -> NDArray[np.int64]:
+    return np.ctypeslib.as_array((c_int64 * count).from_address(address)).reshape(1, count)

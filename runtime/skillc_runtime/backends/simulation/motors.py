@@ -10,7 +10,9 @@ import numpy as np
 
 from skillc_runtime.devices.arm import Command, JointPosition, JointVelocity, Mode, ModeRefused, Torque
 from skillc_runtime.motion.arrays import OutVector, Vector
-from skillc_runtime.motion.numerics.compiled import compiled
+from skillc_runtime.motion.numerics.compiled import Bound, bind, compiled, inlined
+from skillc_runtime.motion.numerics.linear import copy_vector
+from skillc_runtime.motion.numerics.program import Rows, row_of
 from skillc_runtime.motion.pose import Array
 
 COMMAND_TIMEOUT_S = 0.05
@@ -40,12 +42,130 @@ class Joints:
     effort: Array
 
 
+SILENT, LEFT = 0, 1
+"""Entries of `MotorMemory.counts`: steps since the last command; steps in which a position is still approached."""
+
+
+@inlined
+def update_targets(
+    control: Array, speed: Array, q: Array, dq: Array, lead: Array, farthest: Array, timestep: float
+) -> None:
+    """Move the targets `control` (nv,) in rad of servos by speed (nv,) in rad/s for a simulation step in s.
+
+    lead (nv,): kv / kp in s, by which a target is ahead of a joint that moves freely; farthest (nv,): rad, the further
+    lead that needs the full effort. While all speeds are zero, the target of such a joint becomes its position.
+    """
+    still = True
+    for j in range(q.size):
+        still = still and speed[j] == 0.0
+    for j in range(q.size):
+        even = q[j] + lead[j] * dq[j]
+        control[j] = min(max(control[j] + timestep * speed[j], even - farthest[j]), even + farthest[j])
+        if still and abs(control[j] - even) >= farthest[j]:
+            control[j] = q[j]
+
+
+@dataclass(frozen=True, slots=True)
+class MotorMemory:
+    """What the motors of an arm work on in each step; (nv,) in rad, rad/s, N m.
+
+    counts (2,): see above; longest: the greatest number of steps without a command. control, applied: written to the
+    actuators. bias: measured last; q, dq: present. Of servos: target, the position or speed that is commanded; lead in
+    s and farthest, see `_pursue`; step_s.
+    """
+
+    counts: OutVector
+    longest: float
+    control: OutVector
+    applied: OutVector
+    bias: Vector
+    q: Vector
+    dq: Vector
+    target: OutVector
+    lead: Vector
+    farthest: Vector
+    step_s: float
+
+
+@inlined
+def _count(motors: MotorMemory) -> int:
+    """Count a step; return 1 if commands have stopped."""
+    motors.counts[SILENT] += 1.0
+    return 1 if motors.counts[SILENT] > motors.longest else 0
+
+
+@compiled
+def exert(motors: MotorMemory, now: float) -> int:
+    """Let motors exert the torques that were set by the command, for one step."""
+    return _count(motors)
+
+
+@compiled
+def approach(motors: MotorMemory, now: float) -> int:
+    """Move servos linearly so that they arrive at the target in the last step of the control period."""
+    stopped = _count(motors)
+    if stopped != 0:
+        return stopped
+    copy_vector(motors.bias, motors.applied)
+    left = motors.counts[LEFT]
+    if left > 0.0:
+        for j in range(motors.control.size):
+            way = motors.target[j] - motors.control[j]
+            motors.control[j] = motors.target[j] if left == 1.0 else motors.control[j] + way / left
+        motors.counts[LEFT] = left - 1.0
+    return 0
+
+
+@compiled
+def pursue(motors: MotorMemory, now: float) -> int:
+    """Move servos with the speeds `target` for one step."""
+    stopped = _count(motors)
+    if stopped != 0:
+        return stopped
+    copy_vector(motors.bias, motors.applied)
+    update_targets(motors.control, motors.target, motors.q, motors.dq, motors.lead, motors.farthest, motors.step_s)
+    return 0
+
+
+@dataclass(frozen=True, slots=True)
+class Taking:
+    """How motors take the commands of a law: its values (nv,), and where they are put; steps: that they last."""
+
+    values: Vector
+    target: OutVector
+    counts: OutVector
+    steps: float
+
+
+@compiled
+def take_command(taking: Taking, now: float) -> int:
+    """Take a command for the next control period."""
+    copy_vector(taking.values, taking.target)
+    taking.counts[SILENT], taking.counts[LEFT] = 0.0, taking.steps
+    return 0
+
+
 class Motors(ABC):
-    """Take commands of one mode at a time, and hold still if none has arrived for `COMMAND_TIMEOUT_S`."""
+    """Take commands of one mode at a time, and hold still if none has arrived for `COMMAND_TIMEOUT_S`.
+
+    They are a part of the steps of a cell.
+    """
 
     def __init__(self, joints: Joints, modes: tuple[Mode, ...], timestep_s: float) -> None:
         self.joints, self.modes, self.mode = joints, modes, modes[0]
-        self._steps_without_command, self._timeout_steps = 0, round(COMMAND_TIMEOUT_S / timestep_s)
+        self._counts, self._timeout_steps = np.zeros(2), round(COMMAND_TIMEOUT_S / timestep_s)
+        self._timestep: float = timestep_s
+        self._taken: tuple[Array, Array, Bound[[float], int]] | None = None
+        self._exert = bind(exert, self._memory(joints.control, np.ones_like(joints.q), np.zeros_like(joints.q)))
+
+    @property
+    def silent(self) -> bool:
+        """Whether commands have stopped."""
+        return bool(self._counts[SILENT] >= self._timeout_steps)
+
+    def be_silent(self) -> None:
+        """Hold still from the next step on, as if commands had stopped."""
+        self._counts[SILENT] = self._timeout_steps
 
     def switch(self, mode: Mode) -> None:
         """Take commands of this kind from now on, at rest until the first; ModeRefused for an unknown one."""
@@ -58,15 +178,42 @@ class Motors(ABC):
     def command(self, command: Command) -> None:
         """Take a command for the next control period; TypeError for another kind than the mode."""
         self._take(command)
-        self._steps_without_command = 0
+        self._counts[SILENT] = 0.0
 
-    def before_step(self) -> None:
+    @property
+    def rows(self) -> Rows | None:
+        """The function that sets the actuators."""
+        return row_of(self._drive)
+
+    def step(self, now: float) -> None:
         """Set the actuators for one step of the simulation."""
-        self._steps_without_command += 1
-        if self._steps_without_command > self._timeout_steps:
-            self._hold(first=self._steps_without_command == self._timeout_steps + 1)
-        else:
-            self._move()
+        if events := self._drive(now):
+            self.act(events, now)
+
+    def act(self, events: int, now: float) -> bool:
+        """Hold still: commands have stopped."""
+        self._hold(first=self._counts[SILENT] == self._timeout_steps + 1)
+        return False
+
+    def taking(self, values: Array) -> Rows | None:
+        """Return the function that takes commands of the mode from there; None if only Python can."""
+        return None
+
+    def _taking(self, values: Array, target: Array, steps: int) -> Rows | None:
+        if self._taken is None or values is not self._taken[0] or target is not self._taken[1]:
+            self._taken = values, target, bind(take_command, Taking(values, target, self._counts, steps))
+        return row_of(self._taken[2])
+
+    @property
+    def _drive(self) -> Bound[[float], int]:
+        return self._exert
+
+    def _memory(self, target: Array, lead: Array, farthest: Array) -> MotorMemory:
+        joints = self.joints
+        return MotorMemory(
+            self._counts, self._timeout_steps, joints.control, joints.applied, joints.bias, joints.q, joints.dq,
+            target, lead, farthest, self._timestep,
+        )  # fmt: skip
 
     def _refuse(self, command: Command) -> NoReturn:
         raise TypeError(f"a {self.mode} controlled arm takes no {type(command).__name__}")
@@ -77,9 +224,6 @@ class Motors(ABC):
     @abstractmethod
     def _rest(self) -> None:
         """Discard the last command."""
-
-    @abstractmethod
-    def _move(self) -> None: ...
 
     @abstractmethod
     def _hold(self, first: bool) -> None:
@@ -95,6 +239,10 @@ class TorqueMotors(Motors):
         super().__init__(joints, self.MODES, timestep_s)
         self._held_q = np.zeros_like(joints.q)
 
+    def taking(self, values: Array) -> Rows | None:
+        """Return the function that takes torques from there."""
+        return self._taking(values, self.joints.control, 0)
+
     def _take(self, command: Command) -> None:
         if not isinstance(command, Torque):
             self._refuse(command)
@@ -102,9 +250,6 @@ class TorqueMotors(Motors):
 
     def _rest(self) -> None:
         """Do nothing: there is no other mode."""
-
-    def _move(self) -> None:
-        """Do nothing: torques were set by the command."""
 
     def _hold(self, first: bool) -> None:
         joints = self.joints
@@ -136,17 +281,27 @@ class Servos(Motors):
     ) -> None:
         """Hold the joints where they are."""
         super().__init__(joints, modes, timestep_s)
-        self._timestep, self._steps_per_command = timestep_s, steps_per_command
-        self._target, self._steps_left = joints.q.copy(), 0
-        self._speed = np.zeros_like(joints.q)
+        self._steps_per_command = steps_per_command
+        self._target, self._speed = joints.q.copy(), np.zeros_like(joints.q)
         self.gains = gains
-        self._lead, self._farthest = gains.damping / gains.stiffness, joints.effort / gains.stiffness
+        leads = gains.damping / gains.stiffness, joints.effort / gains.stiffness
+        self._approach = bind(approach, self._memory(self._target, *leads))
+        self._pursue = bind(pursue, self._memory(self._speed, *leads))
         joints.control[:] = joints.q
+
+    def taking(self, values: Array) -> Rows | None:
+        """Return the function that takes positions or speeds from there."""
+        target = self._target if self.mode == "position" else self._speed
+        return self._taking(values, target, self._steps_per_command)
+
+    @property
+    def _drive(self) -> Bound[[float], int]:
+        return self._pursue if self.mode == "velocity" else self._approach
 
     def _take(self, command: Command) -> None:
         match command:
             case JointPosition(q=q) if self.mode == "position":
-                self._target[:], self._steps_left = q, self._steps_per_command
+                self._target[:], self._counts[LEFT] = q, self._steps_per_command
             case JointVelocity(dq=dq) if self.mode == "velocity":
                 self._speed[:] = dq
             case _:
@@ -154,47 +309,9 @@ class Servos(Motors):
 
     def _rest(self) -> None:
         """Keep the present targets."""
-        self._speed[:], self._steps_left = 0.0, 0
-
-    def _move(self) -> None:
-        joints = self.joints
-        joints.applied[:] = joints.bias
-        if self.mode == "velocity":
-            update_servo_targets(
-                joints.control, self._speed, joints.q, joints.dq, self._lead, self._farthest, self._timestep
-            )
-        elif self._steps_left > 0:
-            self._approach()
+        self._speed[:], self._counts[LEFT] = 0.0, 0.0
 
     def _hold(self, first: bool) -> None:
         if first:
             self._rest()
         np.add(self.joints.own_bias, self.joints.carrying, out=self.joints.applied)
-
-    def _approach(self) -> None:
-        """Move the targets linearly so that they arrive in the last step of the control period."""
-        control = self.joints.control
-        if self._steps_left == 1:
-            control[:] = self._target
-        else:
-            control += (self._target - control) / self._steps_left
-        self._steps_left -= 1
-
-
-@compiled
-def update_servo_targets(
-    control: OutVector, speed: Vector, q: Vector, dq: Vector, lead: Vector, farthest: Vector, timestep: float
-) -> None:
-    """Move the targets `control` (nv,) in rad of servos by speed (nv,) in rad/s for a simulation step in s.
-
-    lead (nv,): kv / kp in s, by which a target is ahead of a joint that moves freely; farthest (nv,): rad, the further
-    lead that needs the full effort. While all speeds are zero, the target of such a joint becomes its position.
-    """
-    still = True
-    for j in range(q.size):
-        still = still and speed[j] == 0.0
-    for j in range(q.size):
-        even = q[j] + lead[j] * dq[j]
-        control[j] = min(max(control[j] + timestep * speed[j], even - farthest[j]), even + farthest[j])
-        if still and abs(control[j] - even) >= farthest[j]:
-            control[j] = q[j]

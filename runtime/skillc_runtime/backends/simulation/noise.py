@@ -15,30 +15,34 @@ BLOCK: Final = 1000
 
 
 class Noise:
-    """Rows of noise with the standard deviations `deviation` (n,), which are drawn in blocks."""
+    """Rows (n, m) of noise with standard deviations (m,), which are drawn in blocks.
+
+    used (1,): how many of `rows` are used up; whoever uses the next one adds one, and calls `draw` if none is left.
+    """
 
     def __init__(self, deviation: Array, rng: np.random.Generator) -> None:
         self._deviation, self._rng = deviation, rng
-        self._rows, self._next = np.empty((BLOCK, deviation.size)), BLOCK
+        self.rows, self.used = np.zeros((BLOCK, deviation.size)), np.full(1, float(BLOCK))
 
-    def row(self) -> Array:
-        """Return the noise of one sample (n,), to be read at once."""
-        if self._next == BLOCK:
-            self._rng.standard_normal(out=self._rows)
-            self._rows *= self._deviation
-            self._next = 0
-        row: Array = self._rows[self._next]
-        self._next += 1
-        return row
+    def draw(self) -> None:
+        """Draw a block."""
+        if self._deviation.any():
+            self._rng.standard_normal(out=self.rows)
+            self.rows *= self._deviation
+        self.used[0] = 0.0
 
 
-def make_joint_noise(arm: ArmSpec, seed: int) -> Noise | None:
-    """Return the noise of an arm's joint speeds (nv,) rad/s; None if there is none."""
-    deviation = np.full(arm.home.size, arm.joint_speed_noise)
-    return Noise(deviation, rng_for(arm.individual, seed, 1)) if deviation.any() else None
+def make_joint_noise(arm: ArmSpec, seed: int) -> Noise:
+    """Return the noise of an arm's joint speeds (nv,) rad/s."""
+    return Noise(np.full(arm.home.size, arm.joint_speed_noise), rng_for(arm.individual, seed, 1))
 
 
-def make_wrist_noise(arm: ArmSpec, seed: int) -> Noise | None:
-    """Return the noise of an arm's wrist (9,): force N, torque N m, acceleration; None if there is none."""
+def make_wrist_noise(arm: ArmSpec, seed: int) -> Noise:
+    """Return the noise of an arm's wrist (9,): force N, torque N m, acceleration."""
     deviation = np.repeat([arm.force_noise_n, arm.torque_noise_n_m, 0.0], 3)
-    return Noise(deviation, rng_for(arm.individual, seed, 2)) if deviation.any() else None
+    return Noise(deviation, rng_for(arm.individual, seed, 2))
+
+
+def make_no_noise(size: int) -> Noise:
+    """Return rows of zeros."""
+    return Noise(np.zeros(size), np.random.default_rng(0))

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import Recording
-from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
+from skillc_runtime.motion.numerics.compiled import inlined
+from skillc_runtime.motion.numerics.linear import copy_vector, times
+from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Reference
 
 MEASURED = 12
@@ -16,6 +21,64 @@ COLUMNS = 25
 normal force on a surface."""
 
 
+WORLD = Pose(np.zeros(3), np.eye(3))
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedSteps:
+    """rows (n, 12), of which `count` (1,) are filled; truth (11,): what is recorded, as of the last step."""
+
+    rows: OutMatrix
+    count: OutVector
+    truth: Vector
+
+
+@inlined
+def record(steps: RecordedSteps, time: float) -> bool:
+    """Record the row of one step that began at `time` s; return False, and do nothing, if there is no room."""
+    number = int(steps.count[0])
+    if number == steps.rows.shape[0]:
+        return False
+    steps.rows[number, 0] = time
+    copy_vector(steps.truth, steps.rows[number, 1:])
+    steps.count[0] += 1.0
+    return True
+
+
+@dataclass(frozen=True, slots=True)
+class SampledReference:
+    """A reference and where it is sampled.
+
+    rows, path (8, 3): of the tool, in base, with and without overlays; base: in the world; greatest (1,): the force on
+    a surface so far, N; steps (1,): that were observed. asked (n, 14), of which `count` (1,) rows are filled: time,
+    position and velocity of both, force.
+    """
+
+    rows: Matrix
+    path: Matrix
+    base: Pose
+    greatest: OutVector
+    steps: Vector
+    asked: OutMatrix
+    count: OutVector
+
+
+@inlined
+def put_reference(sampled: SampledReference, time: float) -> None:
+    """Sample reference and path in the world at `time` s, and the greatest force since the sample before."""
+    asked, base = sampled.asked[int(sampled.count[0])], sampled.base
+    asked[0], asked[13] = time, sampled.greatest[0]
+    times(base.rotation, sampled.rows[0], asked[1:4])
+    times(base.rotation, sampled.rows[4], asked[4:7])
+    times(base.rotation, sampled.path[0], asked[7:10])
+    times(base.rotation, sampled.path[4], asked[10:13])
+    for i in range(3):
+        asked[1 + i] += base.position[i]
+        asked[7 + i] += base.position[i]
+    sampled.count[0] += 1.0
+    sampled.greatest[0] = 0.0
+
+
 class Recorder:
     """Records one row per step for one tool, and the reference, which is smooth, at a lower rate."""
 
@@ -23,26 +86,32 @@ class Recorder:
         """`truth` (11,) is the view of the tool's sensors: force, position 3, quaternion 4, velocity 3."""
         self._truth = truth
         self._rows = np.empty((expected_steps, MEASURED))
-        self._count = 0
-        self._references: list[tuple[float, Array]] = []
+        self._count = np.zeros(1)
+        self._asked, self._asked_count = np.empty((expected_steps, 14)), np.zeros(1)
         self._made = Recording(np.empty((0, COLUMNS)))
 
-    def sample(self, time: float) -> None:
-        """Record the row of one step that began at `time` s."""
-        if self._count == len(self._rows):
+    def make_memory(self) -> RecordedSteps:
+        """Return what `record` works on, with room for further steps."""
+        if self._steps == len(self._rows):
             self._rows = np.concatenate([self._rows, np.empty_like(self._rows)])
-        row = self._rows[self._count]
-        row[0], row[1:] = time, self._truth
-        self._count += 1
+            self._asked = np.concatenate([self._asked, np.empty_like(self._asked)])
+        return RecordedSteps(self._rows, self._count, self._truth)
 
-    def sample_reference(self, time: float, reference: Reference, path: Reference, on_surface_n: float) -> None:
-        """Record reference and path in the world at `time` s, and the force on a surface in N."""
-        asked = (reference.pose.position, reference.twist[:3], path.pose.position, path.twist[:3], (on_surface_n,))
-        self._references.append((time, np.concatenate(asked)))
+    def make_references(self, rows: Array, path: Array, base: Pose, greatest: Array, steps: Array) -> SampledReference:
+        """Return what `put_reference` works on, at most once for each step that there is room for."""
+        return SampledReference(rows, path, base, greatest, steps, self._asked, self._asked_count)
+
+    def sample_reference(self, time: float, reference: Reference, path: Reference, greatest_n: Array) -> None:
+        """Do what `put_reference` does with a reference in the world."""
+        put_reference(self.make_references(reference.rows, path.rows, WORLD, greatest_n, self._count), time)
+
+    @property
+    def _steps(self) -> int:
+        return int(self._count[0])
 
     def mean_force_n(self, since: float) -> float:
         """Return the mean normal force in N of the steps from `since` in s on, 0 if there is none."""
-        rows = self._rows[: self._count]
+        rows = self._rows[: self._steps]
         first = int(np.searchsorted(rows[:, 0], since))
         return float(rows[first:, 1].mean()) if first < len(rows) else 0.0
 
@@ -51,15 +120,13 @@ class Recorder:
 
         It is made once for all who ask between two steps.
         """
-        if len(self._made.rows) == self._count:
+        if len(self._made.rows) == self._steps:
             return self._made
-        rows = np.empty((self._count, COLUMNS))
-        rows[:, :MEASURED] = self._rows[: self._count]
-        if self._references:
-            times = np.array([time for time, _ in self._references])
-            asked = np.array([values for _, values in self._references])
-            for column, values in enumerate(asked.T, start=MEASURED):
-                rows[:, column] = np.interp(rows[:, 0], times, values)
+        rows = np.empty((self._steps, COLUMNS))
+        rows[:, :MEASURED] = self._rows[: self._steps]
+        if (asked := self._asked[: int(self._asked_count[0])]).size:
+            for column, values in enumerate(asked[:, 1:].T, start=MEASURED):
+                rows[:, column] = np.interp(rows[:, 0], asked[:, 0], values)
         rows.flags.writeable = False
         self._made = Recording(rows)
         return self._made

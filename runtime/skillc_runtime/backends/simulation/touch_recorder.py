@@ -11,8 +11,13 @@ import numpy as np
 
 from skillc_runtime.backends.simulation.contact_bits import HANDLE, LINK
 from skillc_runtime.backends.simulation.contacts import Contacts
+from skillc_runtime.backends.simulation.machine_code import find_counts
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
+from skillc_runtime.backends.simulation.steps import OnMemory
 from skillc_runtime.devices.ground_truth import Touching
+from skillc_runtime.motion.arrays import Integers, OutVector
+from skillc_runtime.motion.numerics.compiled import Bound, bind, compiled
+from skillc_runtime.motion.numerics.program import Rows
 from skillc_runtime.motion.pose import Array
 
 STEPS_PER_LOOK = 20
@@ -33,7 +38,28 @@ class OngoingTouch:
     peak_force_n: float | None
 
 
-class TouchRecorder:
+STEPS, COUNT, TOUCHED = range(3)
+"""Entries of `ContactWatch.last`: steps since the last look, contacts then, 1 if something counted."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContactWatch:
+    """counts (1, 1): the number of contacts in the lower 32 bits; last (3,): see above."""
+
+    counts: Integers
+    last: OutVector
+
+
+@compiled
+def wants_look(watch: ContactWatch, now: float) -> int:
+    """Count a step; return 1 if contacts may have changed."""
+    last = watch.last
+    last[STEPS] += 1.0
+    changed = last[COUNT] != float(watch.counts[0, 0] & 0xFFFFFFFF)
+    return 1 if last[TOUCHED] != 0.0 or changed or last[STEPS] == STEPS_PER_LOOK else 0
+
+
+class TouchRecorder(OnMemory):
     """Watches the solid parts of robots in a model and what their grippers hold.
 
     What fingers may grasp or press does not count, nor contact within one hand. `held` returns, by gripper, what it
@@ -44,6 +70,8 @@ class TouchRecorder:
         self, scene: SceneSpec, model: Any, contacts: Contacts, held: Callable[[], Sequence[tuple[str, str]]]
     ) -> None:
         self._model, self._present, self._names, self._held = model, contacts, scene.names, held
+        self._last, self._counted = np.zeros(3), contacts.data
+        super().__init__(self._count_contacts())
         grippers = [arm.gripper.individual for arm in scene.arms if arm.gripper is not None]
         self._grippers = {scene.names[each] for each in grippers}
         self._robots = {scene.names[arm.individual] for arm in scene.arms} | self._grippers
@@ -52,7 +80,6 @@ class TouchRecorder:
         solid, owners = np.flatnonzero(model.geom_contype & LINK).tolist(), self._robots | tools
         self._watched = frozenset(geom for geom in solid if self._parts[geom][0] in owners)
         self._found: defaultdict[tuple[str, str], list[OngoingTouch]] = defaultdict(list)
-        self._steps, self._count, self._touched = 0, 0, False
 
     @property
     def touchings(self) -> tuple[Touching, ...]:
@@ -64,14 +91,23 @@ class TouchRecorder:
         ]
         return tuple(sorted(found, key=lambda each: (each.start_s, each.part, each.other)))
 
-    def sample(self, now: float) -> None:
+    @property
+    def rows(self) -> Rows | None:
+        """What tells whether contacts may have changed, of the physics that is stepped now."""
+        self._follow()
+        return super().rows
+
+    def step(self, now: float) -> None:
+        """Look at the contacts of the step that begins at `now` s, if they may have changed."""
+        self._follow()
+        super().step(now)
+
+    def act(self, events: int, now: float) -> bool:
         """Look at the contacts of the step that begins at `now` s, once their forces are computed."""
-        self._steps += 1
-        count = self._present.data.ncon
-        if self._touched or count != self._count or self._steps == STEPS_PER_LOOK:
-            self._steps, self._count = 0, count
-            touching = self._present.geoms.ravel().tolist()
-            self._touched = not self._watched.isdisjoint(touching) and self._measure(now)
+        touching = self._present.geoms.ravel().tolist()
+        touched = not self._watched.isdisjoint(touching) and self._measure(now)
+        self._last[:] = 0.0, self._present.data.ncon, touched
+        return False
 
     def add(self, part: str, other: str, now: float, force_n: float | None) -> None:
         """Add a contact of two parts at `now` s with a force in N, None if it is not known."""
@@ -81,6 +117,14 @@ class TouchRecorder:
         touches[-1].end_s = now
         if force_n is not None:
             touches[-1].peak_force_n = max(touches[-1].peak_force_n or 0.0, force_n)
+
+    def _follow(self) -> None:
+        """Count contacts where they are computed now."""
+        if self._counted is not self._present.data:
+            self._counted, self._compute = self._present.data, self._count_contacts()
+
+    def _count_contacts(self) -> Bound[[float], int]:
+        return bind(wants_look, ContactWatch(find_counts(self._present.data), self._last))
 
     def _measure(self, now: float) -> bool:
         """Add the present contacts with their forces; tell whether there are any."""

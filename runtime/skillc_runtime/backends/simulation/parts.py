@@ -1,0 +1,92 @@
+"""What takes part in the steps of any cell: a driver with its arm, those who listen, and the tool in a hand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.arm_sensing import NOT_READY
+from skillc_runtime.backends.simulation.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.observer import Carrier, ToolObserver
+from skillc_runtime.control.driver import CompliantArmDriver
+from skillc_runtime.motion.numerics.program import IDLE, Part, Rows, join, row_of
+
+
+class ControlledArm:
+    """A control period of one arm: its driver measures, computes and commands, unless the arm was lost."""
+
+    def __init__(self, arm: ModelledArm, driver: CompliantArmDriver, is_lost: Callable[[], bool]) -> None:
+        self._arm, self._driver, self._is_lost = arm, driver, is_lost
+
+    @property
+    def rows(self) -> Rows | None:
+        """The functions that `CompliantArmDriver.step` calls while nothing happens."""
+        if self._is_lost():
+            return IDLE
+        functions = self._driver.functions
+        if functions is None:
+            return None
+        begin, control = map(row_of, functions)
+        return join(begin, self._arm.measuring, control, self._arm.taking(self._driver.values))
+
+    def step(self, now: float) -> None:
+        """Run the period."""
+        if not self._is_lost():
+            self._driver.step(now)
+
+    def act(self, events: int, now: float) -> bool:
+        """Do what is left of the period."""
+        if events == NOT_READY:
+            self._driver.step(now)
+        else:
+            self._driver.act(events)
+        return True
+
+
+class Listening:
+    """All that takes part in each control period beside the cell itself."""
+
+    def __init__(self, find: Callable[[], Sequence[Part]]) -> None:
+        self._find = find
+
+    @property
+    def rows(self) -> Rows | None:
+        """Their functions; if there are several, Python calls them."""
+        parts = self._find()
+        return IDLE if not parts else parts[0].rows if len(parts) == 1 else None
+
+    def step(self, now: float) -> None:
+        """Let all take part."""
+        for part in self._find():
+            part.step(now)
+
+    def act(self, events: int, now: float) -> bool:
+        """Do what the only one asks for."""
+        return self._find()[0].act(events, now)
+
+
+class HeldTool:
+    """The tool that a hand carries, if it is observed; `observers` are by tool."""
+
+    def __init__(self, hand: ModelledGripper, carrier: Carrier, observers: Mapping[str, ToolObserver]) -> None:
+        self._hand, self._carrier, self._observers = hand, carrier, observers
+
+    @property
+    def rows(self) -> Rows | None:
+        """The functions that observe it."""
+        observer = self._observer
+        return IDLE if observer is None else observer.rows(self._carrier)
+
+    def step(self, now: float) -> None:
+        """Observe it."""
+        if (observer := self._observer) is not None:
+            observer.sample(now, self._carrier)
+
+    def act(self, events: int, now: float) -> bool:
+        """Do what observing asks for."""
+        observer = self._observer
+        return observer is not None and observer.act(events, now, self._carrier)
+
+    @property
+    def _observer(self) -> ToolObserver | None:
+        return self._observers.get(self._hand.carries or "")

@@ -1,0 +1,142 @@
+"""Runs the steps of a cell: what takes part in them, in order, in machine code for as long as only numbers change.
+
+Each part computes in one function on memory, which machine code and Python call alike, so that both ways give the same
+to the last bit. What else there is to be done, the function only says, in bits; then Python does it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+
+import numpy as np
+
+from skillc_runtime.motion.arrays import Vector
+from skillc_runtime.motion.numerics import program
+from skillc_runtime.motion.numerics.compiled import COMPILES, Bound, bind, compiled
+from skillc_runtime.motion.numerics.program import (
+    ASKS_PYTHON,
+    IDLE,
+    NO_FUNCTION,
+    Part,
+    Program,
+    Rows,
+    row_of,
+    run_program,
+)
+
+MOST_ROWS = 256
+
+
+class OnMemory:
+    """A part that is one function on memory; subclasses do what it asks for."""
+
+    def __init__(self, compute: Bound[[float], int], act: Callable[[int, float], bool] | None = None) -> None:
+        self._compute = compute
+        if act is not None:
+            self.act = act  # type: ignore[assignment, method-assign]
+
+    @property
+    def rows(self) -> Rows | None:
+        """The function."""
+        return row_of(self._compute)
+
+    def step(self, now: float) -> None:
+        """Compute, and act if asked to."""
+        if events := self._compute(now):
+            self.act(events, now)
+
+    def act(self, events: int, now: float) -> bool:
+        """Do nothing."""
+        return False
+
+
+@dataclass(frozen=True, slots=True)
+class Due:
+    """When something has to be done next: due (1,), s."""
+
+    due: Vector
+
+
+@compiled
+def is_due(memory: Due, now: float) -> int:
+    """Return 1 from the step on in which something has to be done."""
+    return 1 if now >= memory.due[0] else 0
+
+
+class InPython:
+    """A part that only Python can do, unless it has nothing to do now."""
+
+    def __init__(self, step: Callable[[float], None], is_idle: Callable[[], bool] = lambda: False) -> None:
+        self._step, self._is_idle = step, is_idle
+
+    @property
+    def rows(self) -> Rows | None:
+        """Nothing while it is idle."""
+        return IDLE if self._is_idle() else None
+
+    def step(self, now: float) -> None:
+        """Do it."""
+        if not self._is_idle():
+            self._step(now)
+
+    def act(self, events: int, now: float) -> bool:
+        """Do nothing: no function asks for it."""
+        return False
+
+
+class Steps:
+    """The steps of a cell, each of which runs all parts in order; those of `control` once in so many steps.
+
+    runs_program: whether machine code runs what it can. Times in s.
+    """
+
+    def __init__(self, control: Sequence[Part], others: Sequence[Part], steps_per_period: int, step_s: float) -> None:
+        self._parts, self._controlling = (*control, *others), len(control)
+        self._rows, self._extent = np.zeros((MOST_ROWS, 3), dtype=np.int64), np.zeros((1, 3), dtype=np.int64)
+        self._extent[0, program.STEPS_PER_PERIOD] = self._per_period = steps_per_period
+        self._cursor, self._step_s, self._phase = np.zeros(4), step_s, 0
+        self._run = bind(run_program, Program(self._rows, self._extent, self._cursor, step_s))
+        self._found: list[Rows | None] = []
+        self._starts, self._owners = [0], list[int]()
+        self.runs_program = COMPILES
+
+    def run(self, now: float, steps: int) -> None:
+        """Run steps from `now` on; an exception of a part ends the step that it is in."""
+        if self.runs_program:
+            self._run_program(now, steps)
+            return
+        for _ in range(steps):
+            first = self._controlling if self._phase else 0
+            for part in self._parts[first:]:
+                part.step(now)
+            now, self._phase = now + self._step_s, (self._phase + 1) % self._per_period
+
+    def _run_program(self, now: float, steps: int) -> None:
+        cursor = self._cursor
+        cursor[program.NOW], cursor[program.LEFT], cursor[program.PHASE] = now, steps, self._phase
+        self._write()
+        cursor[program.ROW] = 0
+        try:
+            while events := self._run():
+                number = self._owners[int(cursor[program.ROW])]
+                part, now = self._parts[number], float(cursor[program.NOW])
+                if events == ASKS_PYTHON:
+                    part.step(now)
+                if events == ASKS_PYTHON or part.act(events, now):
+                    self._write()
+                cursor[program.ROW] = self._starts[number + 1]
+        finally:
+            self._phase = int(cursor[program.PHASE])
+
+    def _write(self) -> None:
+        """Write the program as things are now, and the first row of each part, and of what would come after."""
+        found = [part.rows for part in self._parts]
+        if found != self._found:
+            self._found, rows = found, [(NO_FUNCTION,) if each is None else each for each in found]
+            self._starts = list(accumulate(map(len, rows), initial=0))
+            self._owners = [number for number, each in enumerate(rows) for _ in each]
+            written = [row for each in rows for row in each]
+            self._rows[: len(written)] = np.array(written, dtype=np.int64).reshape(-1, 3)
+            self._extent[0, : program.STEPS_PER_PERIOD] = len(written), self._starts[self._controlling]
