@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import json
 import multiprocessing
+import os
+import subprocess
+import sys
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -63,6 +66,21 @@ def test_the_same_problem_is_not_solved_twice(tmp_path: Path) -> None:
     renamed = replace(PROBLEM, names={name: iri + "x" for name, iri in PROBLEM.names.items()})
     first.plan(renamed, CancelToken(10.0))
     assert len(planner.asked) == 4, "another problem, another version, other things"
+
+
+@pytest.mark.slow
+def test_the_same_problem_is_the_same_one_in_every_process(tmp_path: Path) -> None:
+    program = """
+import sys
+from pathlib import Path
+from planners.test_remembering import PROBLEM, CachingPlanner, CancelToken, Counting, FolderPlanCache
+CachingPlanner(Counting(), FolderPlanCache(Path(sys.argv[1])), "one 1.0").plan(PROBLEM, CancelToken(10.0))
+"""
+    path = os.pathsep.join(each for each in sys.path if each)
+    for seed in ("1", "2"):
+        environment = {**os.environ, "PYTHONPATH": path, "PYTHONHASHSEED": seed}
+        subprocess.run((sys.executable, "-c", program, str(tmp_path)), env=environment, check=True)
+    assert len(list(tmp_path.iterdir())) == 1
 
 
 def test_schedules_are_remembered_too(tmp_path: Path) -> None:

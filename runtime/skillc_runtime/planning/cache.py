@@ -1,26 +1,25 @@
 """Planners with a cache: the same problem, given to the same program, is not solved twice.
 
-The key of an answer covers everything that it depends on: the problem as text, the names of its objects, the program,
-its version and its limits. An answer that used up its time limit is reused only by callers who have no more time.
+The key of an answer covers everything that it depends on: the problem, the program, its version and its limits. An
+answer that used up its time limit is reused only by callers who have no more time.
 """
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
+from dataclasses import replace
 from typing import Protocol, TypeVar
 
 import msgspec
 
 from skillc_model.pddl.formulas import FALSE
 from skillc_model.pddl.problem import Problem
-from skillc_model.pddl.text import format_domain, format_problem, format_temporal_domain, format_temporal_problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.plan import GaveUp, Planner, PlanResult, Solved
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Schedule, Scheduler
 
-FORMAT = 3
+FORMAT = 4
 """Raised with every change of what cached answers mean."""
 
 FULL_SHARE = 0.95
@@ -72,7 +71,7 @@ class CachingPlanner:
         """Return the cached plan, or solve the problem and store the plan."""
         if problem.goal == FALSE:
             return self._planner.plan(problem, cancel, report)
-        key = _key(self._program, format_domain(problem.domain), format_problem(problem), *_cached_names(problem))
+        key = _key(self._program, problem)
         deadline_s = round(cancel.remaining_s, 2)
         cached = _decode(self._cache.get(key), CachedPlan)
         if cached is not None and _is_reusable(cached, deadline_s):
@@ -101,12 +100,7 @@ class CachingScheduler:
         """Return the cached schedule, or solve the problem and store the schedule."""
         if problem.goal == FALSE:
             return self._scheduler.schedule(problem, cancel, report)
-        key = _key(
-            self._program,
-            format_temporal_domain(problem.domain),
-            format_temporal_problem(problem),
-            *_cached_names(problem),
-        )
+        key = _key(self._program, problem)
         deadline_s = round(cancel.remaining_s, 2)
         cached = _decode(self._cache.get(key), CachedSchedule)
         if cached is not None and _is_reusable(cached, deadline_s):
@@ -127,22 +121,14 @@ def _ended_early(cancel: CancelToken, deadline_s: float) -> bool:
     return cancel.remaining_s > (1.0 - FULL_SHARE) * deadline_s
 
 
-def _key(*parts: str) -> str:
-    digest = hashlib.sha256(str(FORMAT).encode())
-    for part in parts:
-        digest.update(f"\n{len(part)}\n{part}".encode())
-    return digest.hexdigest()
+def _key(program: str, problem: Problem) -> str:
+    """Return the key of a problem for a program: all values of the problem count, and the same ones give the same key.
 
-
-def _cached_names(problem: Problem) -> Iterator[str]:
-    """Yield the IRIs of the problem's names and the parameters that its actions bind: cached plans contain these."""
-    for name, iri in sorted(problem.names.items()):
-        yield f"{name} {iri}"
-    for action in problem.domain.actions:
-        yield " ".join((action.name, action.skill or "", *action.binds))
-    if problem.rounds_down:
-        yield from (f"{action.name} {action.cost}" for action in problem.domain.actions)
-        yield from (f"{each.function} {each.arguments} {each.seconds}" for each in problem.costs)
+    The text of the problem in PDDL would do as well, but what writes it takes long to import.
+    """
+    combined = sorted(map(sorted, problem.domain.combined))
+    ordered = replace(problem, domain=replace(problem.domain, combined=frozenset()))
+    return hashlib.sha256("\n".join((str(FORMAT), program, repr(combined), repr(ordered))).encode()).hexdigest()
 
 
 def _decode(content: bytes | None, kind: type[Entry]) -> Entry | None:
