@@ -17,15 +17,12 @@ import skillc
 from skillc.events import PlanArrived, Requested, StateChanged, TaskEnded, WorldChanged
 
 TASK = "contact:press_button"
-FAST_CELLS = (
+CELLS = (
     "import skillc",
     "skillc.load_library('contact')",
     "skillc.load_library('contact').draw('PressButton')",
     "skillc.plan('contact:press_button')",
     "skillc.open_scene('ur5e_whiteboard').query('SELECT ?x { ?x skiros:contain lab:Eraser-1 }')",
-)
-RUN_CELLS = (
-    "import skillc",
     "run = skillc.run('contact:press_button', backend='kinematic', out='run'); run",
     "run.figures[0]",
     "run.film",
@@ -43,18 +40,13 @@ def _execute(cells: tuple[str, ...], folder: object) -> list[nbformat.NotebookNo
     return [each.data for each in outputs]
 
 
-@pytest.mark.slow
-def test_a_notebook_shows_libraries_plans_and_tables(tmp_path: object) -> None:
-    library, tree, plan, table = _execute(FAST_CELLS, tmp_path)
+@pytest.mark.sim
+def test_a_notebook_shows_libraries_plans_and_tables_and_runs_tasks(tmp_path: object) -> None:
+    library, tree, plan, table, run, figure, film, scene, status = _execute(CELLS, tmp_path)
     assert "press_button" in library["text/html"]
     assert tree["image/svg+xml"].count("<rect") > 5
     assert "PressButton" in plan["image/svg+xml"] and "<table" in plan["text/html"]
     assert "lab:Store" in table["text/html"]
-
-
-@pytest.mark.sim
-def test_a_notebook_runs_tasks(tmp_path: object) -> None:
-    run, figure, film, scene, status = _execute(RUN_CELLS, tmp_path)
     assert "succeeded" in run["text/html"] and "<svg" in run["text/html"]
     assert "image/png" in figure and "<video " in film["text/html"]
     assert scene["text/plain"] == "Scene('ur5e_whiteboard.ttl')"

@@ -18,7 +18,6 @@ from skillc.cli.main import skillc
 
 ROOT = Path(__file__).parents[2]
 FENCE = re.compile(r"^```(\w+)(?: ([^\n]+))?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-SLOW = ("skillc run", "pytest")
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,14 +40,13 @@ class Reader:
 
     `sh` is typed and ends with the exit code of `exit=N`, else 0; `text` is found in what the last commands printed,
     line by line; `diff FILE` changes a file; `python run` is executed; any other language with a word after it is a
-    file of that name. `console` blocks are not followed. Unless `everything` is done, slow commands are left out, with
-    what they print, and so is Python. Films are not made: they take most of the time, and other tests make them.
+    file of that name. `console` blocks are not followed. Films are not made: they take most of the time, and other
+    tests make them.
     """
 
-    def __init__(self, monkeypatch: pytest.MonkeyPatch, everything: bool) -> None:
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.monkeypatch = monkeypatch
-        self.everything = everything
-        self.printed: str | None = ""
+        self.printed = ""
         self.done = 0
 
     def follow(self, page: Path) -> None:
@@ -63,25 +61,21 @@ class Reader:
                 case "diff":
                     self.change(Path(block.words), block.text)
                 case "python" if block.words == "run":
-                    if self.everything:
-                        exec(compile(block.text, "page", "exec"), {})
+                    exec(compile(block.text, "page", "exec"), {})
                 case _ if block.words:
                     Path(block.words).write_text(block.text, encoding="utf-8")
                 case _:
                     pass
 
     def type(self, block: Block) -> None:
-        printed: list[str] | None = []
+        printed = []
         expected = int(block.words.removeprefix("exit=") or 0)
         for line in block.text.splitlines():
-            if line.startswith(SLOW) and not self.everything:
-                printed = None
-                continue
             output, code = self.call(shlex.split(line))
             assert code == expected, f"{line}\n{output}"
-            printed = None if printed is None else [*printed, output]
+            printed.append(output)
             self.done += 1
-        self.printed = None if printed is None else "\n".join(printed)
+        self.printed = "\n".join(printed)
 
     def call(self, words: list[str]) -> tuple[str, int]:
         match words:
@@ -106,8 +100,6 @@ class Reader:
                 raise ValueError(f"no reader types {words}")
 
     def compare(self, expected: str) -> None:
-        if self.printed is None:
-            return
         place = 0
         for line in expected.splitlines():
             place = self.printed.find(line.strip(), place)

@@ -15,24 +15,19 @@ from skillc.cli.settings import GroupedOption
 PAGE = ROOT / "docs/add-robot.md"
 
 
-def follow(folder: Path, monkeypatch: pytest.MonkeyPatch, everything: bool) -> Reader:
+def follow(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Reader:
     monkeypatch.setenv("XDG_CACHE_HOME", str(folder / "cache"))
     monkeypatch.setenv("COLUMNS", "500")
     monkeypatch.chdir(folder)
     shutil.copy(ROOT / "tests/robot_import/gen3.urdf", folder)
-    reader = Reader(monkeypatch, everything)
+    reader = Reader(monkeypatch)
     reader.follow(PAGE)
     return reader
 
 
-@pytest.mark.slow
-def test_the_page_adds_an_arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert follow(tmp_path, monkeypatch, everything=False).done == 7
-
-
 @pytest.mark.sim
-def test_the_added_arm_wipes_the_board(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert follow(tmp_path, monkeypatch, everything=True).done == 8
+def test_the_page_adds_an_arm_that_wipes_the_board(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert follow(tmp_path, monkeypatch).done == 8
 
 
 def test_every_option_is_on_the_page() -> None:

@@ -14,7 +14,7 @@ PAGE = ROOT / "docs/recording.md"
 @pytest.mark.sim
 def test_everything_is_as_the_page_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    reader = Reader(monkeypatch, everything=True)
+    reader = Reader(monkeypatch)
     reader.follow(PAGE)
     assert reader.done == 2
     assert (tmp_path / "pressed/recording.mcap").is_file()

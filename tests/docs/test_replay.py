@@ -14,6 +14,6 @@ PAGE = ROOT / "docs/replay.md"
 @pytest.mark.sim
 def test_recordings_are_compared_as_the_page_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    reader = Reader(monkeypatch, everything=True)
+    reader = Reader(monkeypatch)
     reader.follow(PAGE)
     assert reader.done == sum(block.text.count("\n") for block in blocks(PAGE) if block.language == "sh") > 2

@@ -57,23 +57,19 @@ def test_no_code_and_no_skill_knows_the_last_arm_by_name() -> None:
     assert [path for path in (*code, *skills) if named.search(path.read_text("utf-8"))] == []
 
 
-def follow(folder: Path, monkeypatch: pytest.MonkeyPatch, everything: bool) -> Reader:
+def follow(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Reader:
     monkeypatch.chdir(folder)
     (folder / "own/robots").mkdir(parents=True)
     shutil.copy(catalogue.scene_path("panda_desk"), folder / "cell.ttl")
-    reader = Reader(monkeypatch, everything)
+    reader = Reader(monkeypatch)
     reader.follow(PAGE)
     return reader
 
 
-def test_an_arm_is_added_by_two_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert follow(tmp_path, monkeypatch, everything=False).done == 2
+@pytest.mark.sim
+def test_an_arm_is_added_by_two_files_and_wipes_the_desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert follow(tmp_path, monkeypatch).done == 3
     before, after = (
         path.read_text("utf-8").splitlines() for path in (catalogue.scene_path("panda_desk"), Path("cell.ttl"))
     )
     assert sum(one != other for one, other in zip(before, after, strict=True)) == 2, "two lines of the scene differ"
-
-
-@pytest.mark.sim
-def test_the_added_arm_wipes_the_desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert follow(tmp_path, monkeypatch, everything=True).done == 3

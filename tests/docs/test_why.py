@@ -25,6 +25,6 @@ def test_the_lines_of_the_event_file_are_events(tmp_path: Path) -> None:
 @pytest.mark.sim
 def test_recordings_are_explained_as_the_page_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    reader = Reader(monkeypatch, everything=True)
+    reader = Reader(monkeypatch)
     reader.follow(PAGE)
     assert reader.done == sum(block.text.count("\n") for block in blocks(PAGE) if block.language == "sh") == 7

@@ -21,7 +21,7 @@ def test_every_example_prints_what_stands_below_it(page: str, tmp_path: Path, mo
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(tmp_path)
     names: dict[str, Any] = {"Path": Path}
-    reader, printed, compared = Reader(monkeypatch, everything=True), io.StringIO(), 0
+    reader, printed, compared = Reader(monkeypatch), io.StringIO(), 0
     for block in blocks(ROOT / "docs" / f"{page}.md"):
         if block.language == "python":
             printed = io.StringIO()

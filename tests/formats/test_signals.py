@@ -117,18 +117,3 @@ def test_without_a_folder_or_a_package_there_is_a_sentence(monkeypatch: pytest.M
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     with pytest.raises(RequestError, match=r"--signals parquet needs .*pyarrow.*: pip install 'skillc\[data\]'"):
         check_signals("parquet", Path("out"))
-
-
-@pytest.mark.sim
-def test_the_force_that_is_sensed_is_that_of_the_contacts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    run = CliRunner().invoke(skillc, ["run", "clean_whiteboard", "--no-film", "--out", "out", "--signals", "parquet"])
-    assert run.exit_code == 0, run.output
-    table = pd.read_parquet("out/signals.parquet")
-    truth = table["Eraser-1/truth/contact_force_n"]
-    sensed = np.linalg.norm(table[[f"Ur5e-1/sensor/force_{axis}_n" for axis in "xyz"]], axis=1)
-    wiping = truth > 3.0
-    assert wiping.sum() > 500
-    assert abs(sensed[wiping].mean() / truth[wiping].mean() - 1.0) < 0.25
-    steps = np.diff(table["time_s"])
-    assert steps.min() > 0.0 and np.allclose(steps, 0.01, atol=1e-6)

@@ -14,7 +14,7 @@ from skillc_runtime.planning.fast_downward.solver import find_fast_downward
 def test_the_page_is_true(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    reader = Reader(monkeypatch, everything=False)
+    reader = Reader(monkeypatch)
     reader.follow(ROOT / "docs/planning.md")
     assert reader.done == 2
     assert list((tmp_path / "cache/skillc/plans").iterdir())
