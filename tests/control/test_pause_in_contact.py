@@ -95,14 +95,13 @@ def test_a_tool_is_taken_off_held_and_brought_back(robot):
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("pull_n", [0.0, -5.0])
-def test_a_tool_that_was_taken_off_does_not_drift_for_a_minute(robot, pull_n):
+def test_a_tool_that_was_taken_off_does_not_drift(robot):
     """Also where the weight of the tool is not known well: a pull of 5 N towards the plate all the time."""
     arm = Pressing(robot)
-    arm.bench.data.xfrc_applied[arm.bench.model.body("eraser").id, :3] = pull_n * arm.normal
+    arm.bench.data.xfrc_applied[arm.bench.model.body("eraser").id, :3] = -5.0 * arm.normal
     arm.driver.compliance.withdraw(arm.push)
     arm.run(2.0)
-    force, heights = arm.run(60.0)
+    force, heights = arm.run(20.0)
     assert not force.any()
     assert np.ptp(heights) < 1e-4
 
@@ -195,7 +194,10 @@ def test_a_tool_that_loses_contact_in_a_pause_is_held(robot):
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("phase", ["kept", "withdrawn", "taken off", "approaching"])
+@pytest.mark.parametrize(
+    ("robot", "phase"),
+    [("iiwa14", "kept"), ("ur5e", "withdrawn"), ("iiwa14", "taken off"), ("ur5e", "approaching")],
+)
 def test_ending_in_a_pause_leaves_the_arm_stiff_and_at_rest(robot, phase):
     arm = Pressing(robot)
     start = arm.driver.motion.stopping_pose()
@@ -228,7 +230,7 @@ def test_ending_in_a_pause_leaves_the_arm_stiff_and_at_rest(robot, phase):
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("phase", ["approaching", "pressing"])
+@pytest.mark.parametrize(("robot", "phase"), [("iiwa14", "approaching"), ("ur5e", "pressing")])
 def test_an_arm_that_has_stopped_by_itself_is_held_until_it_pushes_again(robot, phase):
     arm = Pressing(robot, gap=0.06, seconds=0.6 if phase == "approaching" else 2.5)
     arm.driver.abort("a fault")

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 from dataclasses import dataclass
+from itertools import cycle
 from pathlib import Path
 
 import pytest
@@ -42,8 +43,9 @@ CASES = (
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("backend", ["mujoco", "kinematic"])
-@pytest.mark.parametrize("case", CASES, ids=[case.task for case in CASES])
+@pytest.mark.parametrize(
+    ("case", "backend"), list(zip(CASES, cycle(("mujoco", "kinematic")))), ids=[case.task for case in CASES]
+)
 def test_whatever_a_primitive_does_the_run_has_an_end(tmp_path: Path, backend: str, case: Case) -> None:
     command = ("run", f"{LIBRARY}:{case.task}", "--json", "--tick-timeout", "5", "--backend", backend)
     done = subprocess.run(

@@ -74,7 +74,7 @@ ASSIGNMENTS: list[tuple[Assignment, FailedSteps]] = [
     [
         *((*each, "fork") for each in ASSIGNMENTS),
         *((*each, "thread") for each in ASSIGNMENTS[2:4]),
-        *(pytest.param(*each, "spawn", marks=pytest.mark.sim) for each in ASSIGNMENTS),
+        *(pytest.param(*each, "spawn", marks=pytest.mark.sim) for each in ASSIGNMENTS[3:5]),
     ],
 )
 def test_the_answer_is_that_of_planning_in_this_process(assignment, failures, start) -> None:

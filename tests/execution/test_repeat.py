@@ -19,7 +19,7 @@ from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import Event, NodeEnded, PlanArrived, Requested, TaskStarted
 from skillc_runtime.recording.run_spec import RunSpec
 
-RUNS = int(os.environ.get("SKILLC_RUNS", "60"))
+RUNS = int(os.environ.get("SKILLC_RUNS", "40"))
 QUIET = (HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much)
 PHASES = (Phase.explicit, Phase.reuse, Phase.generate)
 

@@ -48,9 +48,8 @@ def die() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("bad", "said"), [(fail, "a crash"), (spin, "more than"), (block, "no answer"), (die, "code 7")]
+    ("bad", "said", "jobs"), [(fail, "a crash", 1), (spin, "more than", 2), (block, "no answer", 2), (die, "code 7", 2)]
 )
-@pytest.mark.parametrize("jobs", [pytest.param(1, marks=pytest.mark.sim), 2])
 def test_a_bad_case_is_found_and_the_others_run(
     bad: Callable[[], None], said: str, jobs: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -87,14 +87,14 @@ def test_a_displaced_part_is_grasped_where_a_camera_sees_it_and_else_not(tmp_pat
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("seed", [0, 1, 2, 3, 29, 34, 37])
+@pytest.mark.parametrize("seed", [0, 3, 29, 34])
 def test_what_happens_while_a_camera_looks_is_noticed(seed: int, tmp_path: Path) -> None:
     trial = CaseRunner(tmp_path, "mujoco", SMALL, "watched").run(seed)
     assert classify(trial) not in BAD, trial
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", range(2 * len(FAULTS)))
 def test_a_cell_ends_as_it_should(seed: int, tmp_path: Path) -> None:
     trial = CaseRunner(tmp_path, "mujoco", SMALL).run(seed)
     assert classify(trial) not in BAD, trial

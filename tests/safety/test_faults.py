@@ -21,12 +21,12 @@ BY_SPEED = "ur5e_whiteboard"
 
 
 def _breaks() -> Iterator[object]:
-    """Yield every primitive with every phase; in turns one phase is fast, the others belong to the simulations."""
+    """Yield every primitive with every phase; in turns one phase is that of each change, the others belong to soak."""
     for number, name in enumerate(sorted(CLASSES)):
         phases = (*PHASES, "release") if name in SCOPED else PHASES
         for place, phase in enumerate(phases):
-            fast = place == number % len(phases)
-            yield pytest.param(name, phase, marks=() if fast else pytest.mark.sim)
+            marks = () if place == number % len(phases) else (pytest.mark.sim, pytest.mark.long)
+            yield pytest.param(name, phase, marks=marks)
 
 
 def is_safe(there: SimulatedCell, scene: str) -> None:
@@ -58,13 +58,13 @@ def test_a_primitive_that_breaks_leaves_a_stiff_hold(name: str, phase: str) -> N
 
 
 def _of_arms() -> Iterator[object]:
-    """Yield the primitives that move an arm or change how it yields, with a phase each; two are fast."""
+    """Yield the primitives that move an arm or change how it yields, with a phase each; all but two belong to soak."""
     known = set(things(BY_SPEED))
     needs = {name: wanted(cls) for name, cls in sorted(CLASSES.items())}
     arms = [name for name, needed in needs.items() if "arm" in needed and needed & set(KINDS) <= known]
     for number, name in enumerate(arms):
-        fast = name in ("MoveLinear", "Push")
-        yield pytest.param(name, PHASES[number % 3], marks=() if fast else pytest.mark.sim)
+        marks = () if name in ("MoveLinear", "Push") else (pytest.mark.sim, pytest.mark.long)
+        yield pytest.param(name, PHASES[number % 3], marks=marks)
 
 
 @pytest.mark.parametrize(("name", "phase"), list(_of_arms()))

@@ -85,12 +85,6 @@ def test_a_pad_that_bounces_is_felt_and_the_wipe_fails() -> None:
     assert after.value(LAB + "Whiteboard-1", IS_CLEAN) is False
 
 
-def test_a_pad_as_it_should_be_keeps_its_contact() -> None:
-    execution = wiped("clean_whiteboard")
-    assert execution.status == "succeeded" and execution.verified
-    assert execution.backend.world.snapshot().value(LAB + "Whiteboard-1", CONTACT_SHARE) == pytest.approx(1.0, abs=0.02)
-
-
 def test_an_obstacle_is_not_taken_for_the_surface() -> None:
     execution = wiped("clean_desk", lambda facts, seed: add_obstacles(draw_variation(facts, seed), facts))
     assert execution.status == "failed"

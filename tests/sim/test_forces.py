@@ -19,6 +19,7 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.known_facts import KnownFact, format_evidence, format_unverified
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import CONTACT_SHARE
 
 pytestmark = pytest.mark.sim
 
@@ -64,6 +65,8 @@ def test_a_force_that_is_measured_in_its_band_is_verified(task: str, wanted: str
     assert force_of(ended).known == "sensed" and f".pushForce == {wanted}" in format_unverified(force_of(ended))
     (clean,) = (each for each in ended.facts if "isClean" in format_unverified(each))
     assert format_evidence(clean) == "idealised by Inspect, verified in simulation only"
+    (surface,) = cell.scene.surfaces
+    assert cell.world.snapshot().value(surface.individual, CONTACT_SHARE) == pytest.approx(1.0, abs=0.02)
 
 
 def test_a_wrist_that_reads_a_newton_too_much_verifies_nothing() -> None:

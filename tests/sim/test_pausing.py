@@ -28,9 +28,8 @@ def missed_targets(result: WipingResult) -> list[str]:
     return [f"{metric.name}: {value:g}" for metric, value in values if value is not None and not metric.is_met(value)]
 
 
-@pytest.mark.parametrize(("task", "seed"), list(zip(ARMS, (7, 0, 3), strict=True)))
-def test_in_a_short_pause_of_wiping_the_force_is_kept(task: str, seed: int) -> None:
-    paused = PausedRun("FollowPath", after_s=3.0, lasts_s=1.5).start(wiping(), task, seed)
+def test_in_a_short_pause_of_wiping_the_force_is_kept() -> None:
+    paused = PausedRun("FollowPath", after_s=3.0, lasts_s=1.5).start(wiping(), "clean_desk", 3)
     assert paused.run.state == "succeeded", paused.run.failure
     result = paused.wiping()
     still_at = paused.still[0][0]
@@ -41,10 +40,9 @@ def test_in_a_short_pause_of_wiping_the_force_is_kept(task: str, seed: int) -> N
     assert at_rest(paused.cell)
 
 
-@pytest.mark.parametrize("seed", [0, 7])
 @pytest.mark.parametrize("task", ARMS)
-def test_in_a_long_pause_of_wiping_the_tool_is_taken_off_and_touches_again(task: str, seed: int) -> None:
-    paused = PausedRun("FollowPath", after_s=3.0, lasts_s=10.0).start(wiping(), task, seed)
+def test_in_a_long_pause_of_wiping_the_tool_is_taken_off_and_touches_again(task: str) -> None:
+    paused = PausedRun("FollowPath", after_s=3.0, lasts_s=10.0).start(wiping(), task, 7)
     assert paused.run.state == "succeeded", paused.run.failure
     result, (began, ended) = paused.wiping(), paused.paused
     assert paused.forces(began, began + KEEP_S).min() > 0.8 * result.force_command_n
@@ -58,28 +56,25 @@ def test_in_a_long_pause_of_wiping_the_tool_is_taken_off_and_touches_again(task:
     assert at_rest(paused.cell)
 
 
-@pytest.mark.parametrize(
-    ("skill", "after_s", "lasts_s"), [("Push", 0.5, 8.0), ("Align", 0.3, 8.0), ("Align", 2.0, 1.5)]
-)
-def test_a_pause_before_the_lanes_does_not_spoil_the_wiping(skill: str, after_s: float, lasts_s: float) -> None:
-    paused = PausedRun(skill, after_s, lasts_s).start(wiping(), "clean_table", 7)
+def test_a_pause_before_the_lanes_does_not_spoil_the_wiping() -> None:
+    paused = PausedRun("Align", after_s=0.3, lasts_s=8.0).start(wiping(), "clean_table", 7)
     assert paused.run.state == "succeeded", paused.run.failure
     assert missed_targets(paused.wiping()) == []
     assert at_rest(paused.cell)
 
 
 def test_a_tool_that_approaches_is_stopped_above_the_surface() -> None:
-    paused = PausedRun("Push", after_s=0.5, lasts_s=8.0).start(wiping(), "clean_whiteboard", 0)
+    paused = PausedRun("Push", after_s=0.5, lasts_s=8.0).start(wiping(), "clean_table", 7)
     assert paused.run.state == "succeeded", paused.run.failure
     still_at = paused.still[0][0]
     assert not paused.forces(paused.paused[0], paused.resumed_at).any()
     assert paused.contacts == ["none"]
     assert paused.moved_m(still_at, paused.resumed_at) < STILL_M
+    assert missed_targets(paused.wiping()) == []
 
 
-@pytest.mark.parametrize(("task", "lasts_s"), [("polish_sheet", 8.0), ("polish_sheet_ur5e", 1.5)])
-def test_polishing_goes_on_with_its_swing(task: str, lasts_s: float) -> None:
-    paused = PausedRun("FollowPath", 4.0, lasts_s).start(contact(), task, 0)
+def test_polishing_goes_on_with_its_swing() -> None:
+    paused = PausedRun("FollowPath", 4.0, lasts_s=8.0).start(contact(), "polish_sheet", 0)
     assert paused.run.state == "succeeded", paused.run.failure
     share = paused.cell.world.snapshot().value(LAB + "Sheet-1", "https://w3id.org/skillc/contact#polishedShare")
     assert isinstance(share, float) and share >= 0.99
@@ -88,9 +83,8 @@ def test_polishing_goes_on_with_its_swing(task: str, lasts_s: float) -> None:
     assert at_rest(paused.cell)
 
 
-@pytest.mark.parametrize(("task", "lasts_s"), [("insert_peg", 1.5), ("insert_peg_iiwa", 8.0)])
-def test_a_search_goes_on_where_it_was(task: str, lasts_s: float) -> None:
-    paused = PausedRun("SinkBelow", 3.0, lasts_s).start(contact(), task, 1)
+def test_a_search_goes_on_where_it_was() -> None:
+    paused = PausedRun("SinkBelow", 3.0, lasts_s=8.0).start(contact(), "insert_peg_iiwa", 1)
     assert paused.run.state == "succeeded", paused.run.failure
     assert paused.cell.ground_truth.recording(LAB + "Peg-1").force.max() < 40.0
     assert at_rest(paused.cell)
@@ -102,9 +96,7 @@ def test_a_tool_that_is_guided_is_held_while_paused() -> None:
     assert paused.moved_m(paused.still[0][0] + 0.5, paused.resumed_at) < 10 * STILL_M
 
 
-@pytest.mark.parametrize(
-    ("task", "lasts_s"), [*(("clean_table", lasts_s) for lasts_s in (0.2, 1.0, 2.3, 6.0)), ("clean_whiteboard", 2.3)]
-)
+@pytest.mark.parametrize(("task", "lasts_s"), [("clean_table", 6.0), ("clean_whiteboard", 2.3)])
 def test_stopped_in_a_pause_the_arm_lets_go_and_is_stiff(task: str, lasts_s: float) -> None:
     paused = PausedRun("FollowPath", 3.0, lasts_s, Stop("enough")).start(wiping(), task, 0)
     assert paused.run.state == "stopped"
@@ -115,9 +107,8 @@ def test_stopped_in_a_pause_the_arm_lets_go_and_is_stiff(task: str, lasts_s: flo
     assert np.abs(paused.cell.ground_truth.face_position(tool.individual) - before).max() < 10 * STILL_M
 
 
-@pytest.mark.parametrize("lasts_s", [1.0, 5.0])
-def test_an_arm_that_stops_by_itself_in_a_pause_fails_the_run(lasts_s: float) -> None:
-    paused = FaultyPause("FollowPath", 3.0, lasts_s).start(wiping(), "clean_table", 0)
+def test_an_arm_that_stops_by_itself_in_a_pause_fails_the_run() -> None:
+    paused = FaultyPause("FollowPath", 3.0, lasts_s=5.0).start(wiping(), "clean_table", 0)
     assert paused.run.state == "failed"
     assert paused.run.failure is not None and paused.run.failure.message == "the test breaks the arm"
     assert at_rest(paused.cell)

@@ -36,7 +36,7 @@ from skillc_runtime.world.state.world_state import WorldState
 pytestmark = pytest.mark.sim
 
 LAB = "http://example.org/lab#"
-RUNS = int(os.environ.get("SKILLC_WIPINGS", "8"))
+RUNS = int(os.environ.get("SKILLC_WIPINGS", "4"))
 TASKS = ("clean_table", "clean_whiteboard")
 MOST_TICKS = 2500
 START_OF_WIPING = 1050
