@@ -5,7 +5,6 @@ import os
 import signal
 import sys
 from collections.abc import Generator
-from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -18,7 +17,7 @@ settings.register_profile("fixed", settings.get_profile("skillc"), derandomize=T
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "skillc"))
 
 # Folders whose tests run whole cells and servers in processes of their own.
-SLOW_FOLDERS = ("operating", "running_cells", "server")
+SLOW_FOLDERS = ("tests/operating/", "tests/running_cells/", "tests/server/")
 
 # Tests of, or with, what only Unix has.
 if sys.platform == "win32":
@@ -42,9 +41,8 @@ def pytest_configure() -> None:
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the tests of slow folders as `slow`."""
-    folders = [Path(__file__).with_name(each) for each in SLOW_FOLDERS]
     for item in items:
-        if any(item.path.is_relative_to(each) for each in folders):
+        if item.nodeid.startswith(SLOW_FOLDERS):
             item.add_marker("slow")
 
 

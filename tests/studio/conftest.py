@@ -44,7 +44,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     missing = "there is no Chromium" if CHROMIUM is None else "the studio is not built, `make studio` does it"
     skips = CHROMIUM is None or not (STUDIO_FILES / "index.html").exists()
     for item in items:
-        if Path(__file__).parent in item.path.parents:
+        if item.nodeid.startswith("tests/studio/"):
             item.add_marker(pytest.mark.browser)
             if skips:
                 item.add_marker(pytest.mark.skip(reason=missing))
