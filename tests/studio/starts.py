@@ -9,10 +9,10 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from itertools import product
+from itertools import groupby, product
 from pathlib import Path
 
 import click
@@ -69,6 +69,16 @@ def collect_starts() -> dict[Start, str]:
         for command in _find_commands(text):
             found.setdefault(Start(command, _find_stand(command, place)), place)
     return found
+
+
+def of_each_kind(starts: Iterable[Start]) -> Iterator[Start]:
+    """Yield the longest start of each kind: those of one command that are typed at one place and show the same."""
+
+    def kind(start: Start) -> tuple[str, str, tuple[str, str]]:
+        return start.words[0], start.stand, start.shown
+
+    for _, alike in groupby(sorted(starts, key=kind), kind):
+        yield max(alike, key=lambda start: len(start.words))
 
 
 def _read_texts() -> Iterator[tuple[str, str]]:
