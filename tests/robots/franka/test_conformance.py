@@ -18,7 +18,7 @@ from skillc_runtime.backends.control_process.opening import open_cell
 from skillc_runtime.backends.franka.facts import describe
 from skillc_runtime.motion.pose import Array
 
-pytestmark = [pytest.mark.robot, pytest.mark.slow]
+pytestmark = [pytest.mark.robot, pytest.mark.long]
 
 HOME = np.array([0.0, -0.3, 0.0, -2.1, 0.0, 1.8, 0.785])
 
