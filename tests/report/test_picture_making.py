@@ -18,7 +18,7 @@ from skillc.services.task_loading import load_task
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.work_figure import DrawnFigure, WorkFigure
 from skillc_runtime.evaluation.report.write import ReportPages, write_page
-from skillc_runtime.execution.worker_process import Died
+from skillc_runtime.execution.worker_process import Died, Returned
 from skillc_runtime.film.footage import FilmFiles
 from skillc_runtime.film.rendering import RenderingError, check_rendering
 from skillc_runtime.platforms.processes import DEFAULT_START
@@ -98,6 +98,17 @@ def test_figures_that_are_given_up_are_in_no_report_and_leave_no_process(tmp_pat
     assert reporter.told == ["no figures: it was interrupted"]
     assert [each.name for each in tmp_path.iterdir()] == ["report.html"]
     assert isinstance(making.worker.poll(), Died)
+
+
+def test_what_was_made_before_an_interrupt_stays(tmp_path: Path) -> None:
+    reporter = Reporter()
+    with pytest.raises(KeyboardInterrupt), making_pictures(reporter) as pictures:
+        begin(pictures, tmp_path, draw_line)
+        (making,) = pictures._making
+        assert making.worker.wait(60.0) == Returned(None)
+        (tmp_path / "report.html").write_text("with all", encoding="utf-8")
+        raise KeyboardInterrupt
+    assert page_of(tmp_path) == "with all" and reporter.told == []
 
 
 def test_a_film_that_fails_leaves_the_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

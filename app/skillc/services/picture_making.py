@@ -87,10 +87,14 @@ class Pictures:
         self._making.clear()
 
     def close(self) -> None:
-        """End what is not made."""
+        """End what is not made; what was made by now stays."""
         for each in self._making:
             each.worker.kill()
-            self._give_up(each.order, each.spare, "it was interrupted")
+            match each.worker.poll():
+                case Returned() as result:
+                    self._end(each, result)
+                case _:
+                    self._give_up(each.order, each.spare, "it was interrupted")
         self._making.clear()
 
     def _end(self, making: _Making, result: WorkerResult) -> None:
