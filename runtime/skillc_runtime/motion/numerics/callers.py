@@ -9,31 +9,32 @@ from typing import Any
 from llvmlite import ir
 
 from skillc_runtime.motion.numerics.machine_code import BOUND, CALL, ENTRY
-from skillc_runtime.motion.numerics.machine_types import INTEGER, NUMBER, ROW, TABLE, type_of, view_array
+from skillc_runtime.motion.numerics.machine_types import INTEGER, NUMBER, TABLE, type_of, view_place
 from skillc_runtime.motion.numerics.objects import (
+    FLOAT64,
+    INT64,
     OBJECT,
-    PLACE,
     RUNTIME_ERROR,
     TYPE_ERROR,
     define_runtime,
     define_take_array,
     raise_error,
 )
-from skillc_runtime.motion.numerics.places import count_rows, list_leaves
+from skillc_runtime.motion.numerics.places import ROW, count_rows, is_integral, is_on_memory, list_leaves
 
 BIT, BYTE, SHORT = ir.IntType(1), ir.IntType(8), ir.IntType(32)
 
 IN_C_ORDER, WRITEABLE = 0x1, 0x400
 """Flags of an array of numpy."""
 
-WRONG = "takes arrays of float64 as annotated, in C order if they are memory or written; and numbers"
-
 
 def add_callers(module: Any, part: Any, key: str, annotations: dict[str, Any], returns: Any) -> None:
     """Add the functions to a module that call a compiled part of a program; see `machine_code`."""
-    made, kinds = _Callers(module, part), list(annotations.values())
+    kinds = list(annotations.values())
+    on_memory = is_on_memory(kinds)
+    made = _Callers(module, part, is_strided=not on_memory)
     made.add_call(key + CALL, kinds)
-    if kinds and is_dataclass(kinds[0]):
+    if on_memory:
         made.add_call(key + BOUND, [int, *kinds[1:]], on_table=True)
         if all(each in (float, int, bool) for each in kinds[1:]) and returns in (int, bool, None):
             made.add_entry(key + ENTRY, kinds[1:])
@@ -42,10 +43,11 @@ def add_callers(module: Any, part: Any, key: str, annotations: dict[str, Any], r
 class _Callers:
     """Builds functions of a module that call one function."""
 
-    def __init__(self, module: Any, part: Any) -> None:
+    def __init__(self, module: Any, part: Any, is_strided: bool) -> None:
+        self._is_strided = is_strided
         self._module, self._context, self._description = module, part.target_context, part.fndesc
         self._function = self._context.declare_function(module, part.fndesc)
-        self._take_array = define_take_array(module, self._context)
+        self._take_array = define_take_array(module, self._context, part.fndesc.qualname)
         define_runtime(module)
 
     def add_call(self, name: str, kinds: Sequence[Any], on_table: bool = False) -> None:
@@ -71,7 +73,9 @@ class _Callers:
         builder.ret(api.from_native_value(self._description.restype, found))
         builder.position_at_end(fail)
         with builder.if_then(_is_null(builder, api.err_occurred())):
-            raise_error(self._context, builder, known, TYPE_ERROR, WRONG)
+            raise_error(
+                self._context, builder, known, TYPE_ERROR, f"{self._description.qualname}: wrong number of arguments"
+            )
         builder.ret(OBJECT(None))
 
     def add_entry(self, name: str, kinds: Sequence[Any]) -> None:
@@ -109,17 +113,14 @@ class _Callers:
             return builder.icmp_signed("!=", api.object_istrue(next(objects)), SHORT(0))
         if is_dataclass(kind):
             return self._make_table(builder, kind, objects)
-        place, array = builder.alloca(INTEGER, PLACE), type_of(kind)
-        flags = 0 if kind.__metadata__[1] == "read" else IN_C_ORDER | WRITEABLE
-        self._place(builder, kind, flags, next(objects), place)
-        address, *sizes = (builder.load(builder.gep(place, [INTEGER(each)])) for each in range(PLACE))
-        address = builder.inttoptr(address, NUMBER.as_pointer())
-        shape, strides = sizes[: array.ndim], sizes[2 : 2 + array.ndim]
-        return view_array(self._context, builder, array, address, shape, strides)
+        place, array = builder.alloca(INTEGER, ROW), type_of(kind)
+        self._place(builder, kind, next(objects), place)
+        address, *sizes = (builder.load(builder.gep(place, [INTEGER(each)])) for each in range(ROW))
+        return view_place(self._context, builder, array, address, sizes)
 
     def _make_table(self, builder: Any, kind: Any, objects: Iterator[Any]) -> Any:
         """Return a table of the arrays of a dataclass, which lasts as long as the call."""
-        table = builder.alloca(INTEGER, ROW * count_rows(kind) + PLACE - ROW)
+        table = builder.alloca(INTEGER, ROW * count_rows(kind))
         for number, (_, annotation) in enumerate(list_leaves("", kind)):
             row = builder.gep(table, [INTEGER(ROW * number)])
             if annotation is float:
@@ -127,12 +128,16 @@ class _Callers:
                 builder.store(self._take(builder, float, objects), copy)
                 builder.store(builder.ptrtoint(copy, INTEGER), row)
             else:
-                self._place(builder, annotation, IN_C_ORDER, next(objects), row)
+                self._place(builder, annotation, next(objects), row, 0 if self._is_strided else IN_C_ORDER)
         return table
 
-    def _place(self, builder: Any, kind: Any, flags: int, array: Any, place: Any) -> None:
+    def _place(self, builder: Any, kind: Any, array: Any, place: Any, flags: int = 0) -> None:
+        """Write the place of an array, which has the flags."""
         known = builder.function.args[0]
-        builder.call(self._take_array, [array, known, SHORT(kind.__metadata__[0]), SHORT(flags), place])
+        if kind.__metadata__[1] != "read":
+            flags |= IN_C_ORDER | WRITEABLE
+        number = SHORT(INT64 if is_integral(kind) else FLOAT64)
+        builder.call(self._take_array, [array, known, SHORT(kind.__metadata__[0]), SHORT(flags), number, place])
 
 
 def _is_null(builder: Any, pointer: Any) -> Any:

@@ -98,8 +98,8 @@ def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Res
     """Compile a function for the types of its annotations: those of `arrays`, numbers, bool, and tuples as a result.
 
     Arguments are passed by position. Parameters may be dataclasses whose fields have these types or are such
-    dataclasses: their arrays are in C order; fields are read-only, the contents of arrays are not. If only the first
-    parameter is one, it is memory, and the function may be called as `bind` returns it, which costs less. Functions
+    dataclasses; fields are read-only, the contents of arrays are not. If only the first parameter is one, it is memory:
+    all arrays there are in C order, and the function may be called as `bind` returns it, which costs less. Functions
     that it calls are `compiled` or `inlined` themselves, for the types that it passes.
     """
     inlined(function)

@@ -20,7 +20,9 @@ from numba.core.typed_passes import NativeLowering
 from numba.extending import register_jitable
 
 from skillc_runtime.motion.numerics.callers import add_callers
+from skillc_runtime.motion.numerics.machine_code import pack
 from skillc_runtime.motion.numerics.machine_types import type_of
+from skillc_runtime.motion.numerics.places import is_on_memory
 
 
 class _Part(JITCodeLibrary):  # type: ignore[misc]
@@ -89,7 +91,8 @@ def emit(function: Callable[..., Any], key: str) -> bytes:
     returns = annotations.pop("return")
     with _our_settings():
         made = njit(**_OPTIONS)(function)
-        made.compile(type_of(returns)(*map(type_of, annotations.values())))
+        is_strided = not is_on_memory(annotations.values())
+        made.compile(type_of(returns)(*(type_of(each, is_strided) for each in annotations.values())))
         (part,) = made.overloads.values()
         whole = _Part(part.library.codegen, key)
         module = whole.create_ir_module(key)
@@ -113,11 +116,10 @@ def _emit(whole: Any, first: Any) -> bytes:
         if not each.is_declaration and each.name not in visible:
             each.linkage = "internal"
     whole._optimize_final_module()
-    missing = [each.name for each in final.functions if each.is_declaration and each.name.startswith(("NRT", "numba"))]
-    if missing:
-        raise NotImplementedError(f"{whole.name} needs {', '.join(missing)}, which is not there without numba")
-    code: bytes = whole.codegen._tm.emit_object(final)
-    return code
+    needed = [each.name for each in final.functions if each.is_declaration and not each.name.startswith("llvm.")]
+    if ours := [each for each in needed if each.startswith(("NRT", "numba"))]:
+        raise NotImplementedError(f"{whole.name} needs {', '.join(ours)}, which is not there without numba")
+    return pack(needed, whole.codegen._tm.emit_object(final))
 
 
 def _collect(library: Any, found: list[Any]) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
@@ -44,10 +44,23 @@ class MachineCode:
     entry: int | None
 
 
+def pack(needed: Sequence[str], code: bytes) -> bytes:
+    """Return machine code from an object file that needs functions of these names."""
+    return " ".join(needed).encode() + b"\n" + code
+
+
 def load_stored(key: str) -> bytes | None:
-    """Return the machine code with this name if it is stored and not damaged."""
+    """Return the machine code with this name if it is stored, not damaged, and finds in this process what it needs.
+
+    Numba, which compiles it otherwise, may bring that along.
+    """
     path = _find_path(key)
-    return None if path is None else load(path)
+    code = None if path is None else load(path)
+    if code is None:
+        return None
+    _engine()  # opens the symbols of the process
+    llvm, needed = import_module("llvmlite.binding"), code.partition(b"\n")[0].decode().split()
+    return code if all(map(llvm.address_of_symbol, needed)) else None
 
 
 def store_code(key: str, code: bytes) -> None:
@@ -66,7 +79,7 @@ def _find_path(key: str) -> Path | None:
 def link(key: str, code: bytes) -> MachineCode:
     """Load the machine code with this name into the process, once."""
     llvm, engine = import_module("llvmlite.binding"), _engine()
-    engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+    engine.add_object_file(llvm.ObjectFileRef.from_data(code.partition(b"\n")[2]))
     engine.finalize_object()
     call, bound, entry = (engine.get_function_address(key + end) for end in (CALL, BOUND, ENTRY))
     return MachineCode(_built_in(key, call), _built_in(key, bound) if bound else None, entry or None)

@@ -15,20 +15,18 @@ from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, inf
 from numba.extending import lower_builtin, lower_getattr_generic, models, register_model
 from numba.np.arrayobj import make_array, populate_array
 
-from skillc_runtime.motion.numerics.places import call_entry, count_rows, fields_of
+from skillc_runtime.motion.numerics.places import ROW, call_entry, count_rows, fields_of, is_integral
 
 INTEGER, NUMBER = ir.IntType(64), ir.DoubleType()
 TABLE = INTEGER.as_pointer()
-ROW = 3
-"""Integers in a row of a table, to which there are pointers."""
 
 
 class Memory(types.Type):  # type: ignore[misc]
-    """A dataclass whose arrays keep their places in memory."""
+    """A dataclass as a table of the places of its arrays, which are all in C order unless it is strided."""
 
-    def __init__(self, kind: type) -> None:
-        self.kind = kind
-        super().__init__(f"Memory({kind.__module__}.{kind.__qualname__})")
+    def __init__(self, kind: type, is_strided: bool) -> None:
+        self.kind, self.is_strided = kind, is_strided
+        super().__init__(f"{'Strided' if is_strided else ''}Memory({kind.__module__}.{kind.__qualname__})")
 
 
 @register_model(Memory)
@@ -37,23 +35,25 @@ class _MemoryModel(models.PrimitiveModel):  # type: ignore[misc]
         super().__init__(manager, kind, TABLE)
 
 
-def type_of(annotation: Any) -> Any:
-    """Return numba's type for an annotation of a parameter or a result."""
+def type_of(annotation: Any, is_strided: bool = False) -> Any:
+    """Return numba's type for an annotation of a parameter or a result; a dataclass may be strided."""
     if is_dataclass(annotation):
         assert isinstance(annotation, type)
-        return Memory(annotation)
+        return Memory(annotation, is_strided)
     if annotation in (float, int, bool, None):
         return {float: types.float64, int: types.int64, bool: types.boolean, None: types.void}[annotation]
     if get_origin(annotation) is tuple:
         return types.Tuple([type_of(each) for each in get_args(annotation)])
     dimensions, access = annotation.__metadata__
-    kind = types.int64 if access == "integers" else types.float64
-    return types.Array(kind, dimensions, *(("A", True) if access == "read" else ("C", False)))
+    if is_integral(annotation):
+        return types.Array(types.int64, dimensions, "C")
+    return types.Array(types.float64, dimensions, *(("A", True) if access == "read" else ("C", False)))
 
 
-def _type_in_memory(annotation: Any) -> Any:
-    found = type_of(annotation)
-    return found.copy(layout="C", readonly=False) if isinstance(found, types.Array) else found
+def _type_of_field(memory: Memory, name: str) -> Any:
+    found = type_of(fields_of(memory.kind)[name], memory.is_strided)
+    is_in_order = isinstance(found, types.Array) and not memory.is_strided
+    return found.copy(layout="C", readonly=False) if is_in_order else found
 
 
 @infer_getattr
@@ -61,8 +61,7 @@ class _Fields(AttributeTemplate):  # type: ignore[misc]
     key = Memory
 
     def generic_resolve(self, memory: Any, name: str) -> Any:
-        annotation = fields_of(memory.kind).get(name)
-        return None if annotation is None else _type_in_memory(annotation)
+        return _type_of_field(memory, name) if name in fields_of(memory.kind) else None
 
 
 @lower_getattr_generic(Memory)  # type: ignore[untyped-decorator]
@@ -71,16 +70,13 @@ def _read_field(context: Any, builder: Any, memory: Any, table: Any, name: str) 
     annotations = fields_of(memory.kind)
     before = sum(count_rows(annotations[each]) for each in takewhile(name.__ne__, annotations))
     row = builder.gep(table, [INTEGER(ROW * before)])
-    kind = _type_in_memory(annotations[name])
+    kind = _type_of_field(memory, name)
     if isinstance(kind, Memory):
         return row
-    item = context.get_data_type(kind.dtype if isinstance(kind, types.Array) else kind)
-    address = builder.inttoptr(_load_constant(builder, row, 0), item.as_pointer())
+    address = _load_constant(builder, row, 0)
     if not isinstance(kind, types.Array):
-        return builder.load(address)
-    shape = [_load_constant(builder, row, 1 + axis) for axis in range(kind.ndim)]
-    strides = [INTEGER(8)] if kind.ndim == 1 else [builder.mul(shape[1], INTEGER(8)), INTEGER(8)]
-    return view_array(context, builder, kind, address, shape, strides)
+        return builder.load(builder.inttoptr(address, NUMBER.as_pointer()))
+    return view_place(context, builder, kind, address, [_load_constant(builder, row, each) for each in range(1, ROW)])
 
 
 def _load_constant(builder: Any, row: Any, column: int) -> Any:
@@ -90,11 +86,15 @@ def _load_constant(builder: Any, row: Any, column: int) -> Any:
     return loaded
 
 
-def view_array(context: Any, builder: Any, kind: Any, address: Any, shape: list[Any], strides: list[Any]) -> Any:
-    """Return an array of a type that does not own what is at the address."""
+def view_place(context: Any, builder: Any, kind: Any, address: Any, sizes: list[Any]) -> Any:
+    """Return an array of a type at an address, with the rest of a row of a table."""
+    shape, strides = sizes[: kind.ndim], sizes[2 : 2 + kind.ndim]
+    if kind.layout == "C":  # known while compiling
+        strides = [*([builder.mul(shape[1], INTEGER(8))] if kind.ndim == 2 else []), INTEGER(8)]
+    data = builder.inttoptr(address, context.get_data_type(kind.dtype).as_pointer())
     array = make_array(kind)(context, builder)
     populate_array(
-        array, data=address, shape=shape, strides=strides, itemsize=INTEGER(8), meminfo=None, parent=None
+        array, data=data, shape=shape, strides=strides, itemsize=INTEGER(8), meminfo=None, parent=None
     )  # fmt: skip
     return array._getvalue()
 

@@ -7,6 +7,8 @@ from typing import Any
 from llvmlite import ir
 from numba.core.cgutils import get_or_insert_function
 
+from skillc_runtime.motion.arrays import np
+
 BYTE, SHORT, INTEGER = ir.IntType(8), ir.IntType(32), ir.IntType(64)
 OBJECT = BYTE.as_pointer()
 
@@ -16,10 +18,9 @@ DATA, AXES, SHAPE, STRIDES, TYPE, FLAGS = 16, 24, 32, 40, 56, 64
 ORDER, NUMBER = 26, 28
 """Offsets in numpy's `PyArray_Descr`."""
 
-FLOAT64, SWAPPED = 12, ord(">")
-
-PLACE = 5
-"""Integers of the place of an array: address, rows, columns, and their strides in bytes."""
+SWAPPED, FLOAT64 = ord(">"), np.dtype(np.float64).num
+INT64 = np.dtype(np.int64).num
+"""What descriptions of types have at these offsets."""
 
 BLOCK, ALIGNMENT = 64, 64
 """Bytes before allocated data, for a `NRT_MemInfo` of numba: count of references, destructor and its argument, data."""
@@ -40,16 +41,16 @@ def raise_error(context: Any, builder: Any, known: Any, number: int, text: str) 
     context.get_python_api(builder).err_set_string(get_known(builder, known, number), text)
 
 
-def define_take_array(module: Any, context: Any) -> Any:
+def define_take_array(module: Any, context: Any, function_name: str) -> Any:
     """Define and return a function that writes where an array is.
 
-    Its parameters are an object, what is known, a number of dimensions, flags, and where it writes. It sets an error of
-    Python unless the object is an array of float64 with these dimensions and all these flags.
+    Its parameters are an object, what is known, a number of dimensions, flags, the number of a type, and where it
+    writes. It sets an error of Python unless the object is an array of this type with these dimensions and flags.
     """
-    kind = ir.FunctionType(ir.VoidType(), [OBJECT, OBJECT, SHORT, SHORT, INTEGER.as_pointer()])
+    kind = ir.FunctionType(ir.VoidType(), [OBJECT, OBJECT, SHORT, SHORT, SHORT, INTEGER.as_pointer()])
     function = ir.Function(module, kind, "skillc_take_array")
     function.linkage = "internal"
-    array, known, axes, flags, place = function.args
+    array, known, axes, flags, number, place = function.args
     begin, is_array, fits, fail = (function.append_basic_block(each) for each in ("begin", "is_array", "fits", "fail"))
     builder = ir.IRBuilder(begin)
     of_type = ir.Function(module, ir.FunctionType(SHORT, [OBJECT, OBJECT]), "PyObject_IsInstance")
@@ -60,7 +61,7 @@ def define_take_array(module: Any, context: Any) -> Any:
     conditions = (
         builder.icmp_signed("==", _load(builder, array, AXES, SHORT), axes),
         builder.icmp_signed("==", builder.and_(_load(builder, array, FLAGS, SHORT), flags), flags),
-        builder.icmp_signed("==", _load(builder, described, NUMBER, SHORT), SHORT(FLOAT64)),
+        builder.icmp_signed("==", _load(builder, described, NUMBER, SHORT), number),
         builder.icmp_signed("!=", _load(builder, described, ORDER, BYTE), BYTE(SWAPPED)),
     )
     both = [builder.and_(*conditions[:2]), builder.and_(*conditions[2:])]
@@ -74,7 +75,7 @@ def define_take_array(module: Any, context: Any) -> Any:
         builder.store(builder.load(builder.gep(sizes, [last])), builder.gep(place, [INTEGER(row + 1)]))
     builder.ret_void()
     builder.position_at_end(fail)
-    raise_error(context, builder, known, TYPE_ERROR, "not an array as it is annotated")
+    raise_error(context, builder, known, TYPE_ERROR, f"{function_name}: not an array as it is annotated")
     builder.ret_void()
     return function
 

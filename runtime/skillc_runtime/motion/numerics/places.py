@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from ctypes import CFUNCTYPE, c_bool, c_double, c_int64
 from dataclasses import fields, is_dataclass
 from functools import cache
@@ -37,31 +37,49 @@ def list_leaves(path: str, annotation: Any) -> Iterator[tuple[str, Any]]:
         yield from list_leaves(f"{path}.{name}", each)
 
 
-def find_place(array: Array) -> tuple[int, int, int]:
-    """Return address, rows and columns of an array (n,) or (n, m) in any unit; ValueError if it is not in C order.
+ROW = 5
+"""Integers in a row of a table: address, rows, columns, and bytes from one row or column to the next."""
+
+
+def find_place(array: Array) -> tuple[int, int, int, int, int]:
+    """Return the row of an array (n,) or (n, m) in any unit; ValueError if it is not in C order.
 
     A vector has one column.
     """
     if not array.flags.c_contiguous:
         raise ValueError(f"memory of the shape {array.shape} is not in C order")
     rows, columns = array.shape if array.ndim == 2 else (array.size, 1)
-    return array.__array_interface__["data"][0], rows, columns
+    return array.__array_interface__["data"][0], rows, columns, 8 * columns, 8
+
+
+def is_on_memory(annotations: Iterable[Any]) -> bool:
+    """Tell whether a function works on memory: only its first parameter is a dataclass."""
+    are_memory = [is_dataclass(each) for each in annotations]
+    return are_memory[:1] == [True] and not any(are_memory[1:])
 
 
 def list_arrays(memory: Any) -> list[Array]:
-    """Return the arrays of a dataclass, and of those in it, in the order of rows; numbers are copied into new ones."""
+    """Return the arrays of a dataclass, and of those in it, in the order of rows; numbers are copied into new ones.
+
+    TypeError if one is not of the type that its annotation states.
+    """
     found: list[Array] = []
     kind: type = type(memory)
     for name, annotation in fields_of(kind).items():
         value = getattr(memory, name)
-        found.extend(list_arrays(value) if is_dataclass(annotation) else [_as_array(value, annotation)])
+        if is_dataclass(annotation):
+            found.extend(list_arrays(value))
+            continue
+        array = np.asarray(value, None if isinstance(value, np.ndarray) else np.float64)
+        if array.dtype != (np.int64 if is_integral(annotation) else np.float64):
+            raise TypeError(f"{kind.__name__}.{name} has elements of the type {array.dtype}")
+        found.append(array)
     return found
 
 
-def _as_array(value: Any, annotation: Any) -> Any:
-    """Return the array that has a row; a number is copied into a new one."""
-    integral = annotation is not float and annotation.__metadata__[1] == "integers"
-    return np.asarray(value, np.int64 if integral else np.float64)
+def is_integral(annotation: Any) -> bool:
+    """Tell whether an annotation of an array states integers."""
+    return annotation is not float and annotation.__metadata__[1] == "integers"
 
 
 def call_entry(address: int, *arguments: float) -> int:
