@@ -11,6 +11,7 @@ import time
 from functools import cache
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from skillc.services import libraries
@@ -20,6 +21,7 @@ from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.motion.numerics.compiled import COMPILES
 from skillc_runtime.recording.events import Event, ImplementationChosen
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
@@ -123,3 +125,24 @@ def test_ctrl_c_halts_reports_and_exits_with_3(tmp_path: Path) -> None:
     assert result["status"] == "stopped"
     assert "interrupted" in result["failure"]
     assert (tmp_path / "report.html").is_file()
+
+
+@pytest.mark.skipif(not COMPILES, reason="nothing is compiled here")
+@pytest.mark.parametrize("name", ["clean_table", "clean_whiteboard"])
+def test_a_wipe_is_the_same_to_the_last_bit_whether_machine_code_or_python_runs_its_steps(name: str) -> None:
+    ends = []
+    for by_program in (True, False):
+        prepared, cell = start(name, 0)
+        cell.steps.runs_program = by_program
+        assert execute_task(prepared, library(), cell).status == "succeeded"
+        ends.append((cell, cell.world.snapshot()))
+    (one, world), (other, same_world) = ends
+    assert one.now == other.now and list(world.facts) == list(same_world.facts)
+    np.testing.assert_array_equal(one.data.qpos, other.data.qpos)
+    for tool in one.scene.tools:
+        here, there = (each.ground_truth.recording(tool.individual).rows for each in (one, other))
+        assert len(here) > 1000
+        np.testing.assert_array_equal(here, there)
+    for surface in one.scene.surfaces:
+        here, there = (each.ground_truth.coverage(surface.individual).dose for each in (one, other))
+        np.testing.assert_array_equal(here, there)

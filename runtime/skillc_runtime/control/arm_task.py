@@ -46,10 +46,8 @@ class ArmTask:
         return self.measured.state.wrench if self.joints is not None else self.tool.contact_wrench
 
     def command(self, state: ArmState) -> Command:
-        """Return the command for the next control period; ControlError if the law cannot continue."""
+        """Return the command of the tool's law for the next control period; ControlError if it cannot continue."""
         self.tool.compliance.step(self.period)
-        if self.joints is not None:
-            return self.controllers.joints.command(state, self.joints.sample(self.now), self.period)
         return self.tool.command(state, self.now, self.period)
 
     def update_state(self, state: ArmState) -> None:

@@ -1,11 +1,10 @@
-"""Protocols of control laws: compliant Cartesian laws and joint laws."""
+"""The protocol of compliant Cartesian laws."""
 
 from __future__ import annotations
 
 from typing import Protocol
 
 from skillc_runtime.devices.arm import ArmState, Command
-from skillc_runtime.motion.joint import JointReference
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
 
@@ -32,13 +31,5 @@ class Controller(Protocol):
         ...
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:
-        """Return the command for the next `period` s."""
-        ...
-
-
-class JointController(Protocol):
-    """A law that controls joints."""
-
-    def command(self, state: ArmState, reference: JointReference, period: float) -> Command:
         """Return the command for the next `period` s."""
         ...

@@ -1,4 +1,4 @@
-"""Creates the controllers of one arm, for its tool and for its joints, from gains."""
+"""Creates the controller of an arm's tool, and its limits, from gains."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import assert_never
 
 import mujoco
 
-from skillc_runtime.control.controller import Controller, JointController
+from skillc_runtime.control.controller import Controller
 from skillc_runtime.control.damping import damping_rate
 from skillc_runtime.control.forward_dynamics import ForwardDynamics
 from skillc_runtime.control.gains import (
@@ -19,7 +19,6 @@ from skillc_runtime.control.gains import (
     VelocityGains,
 )
 from skillc_runtime.control.impedance import Impedance
-from skillc_runtime.control.joint_position import ComputedTorque, JointServo
 from skillc_runtime.control.limits import JointLimit, SpeedLimit, TorqueLimit
 from skillc_runtime.control.own_law import CheckedLaw, LawSetup
 from skillc_runtime.control.robot_law import RobotLaw
@@ -30,10 +29,9 @@ from skillc_runtime.motion.pose import Array
 
 @dataclass(frozen=True, slots=True)
 class ControllerPair:
-    """A controller for the tool and one for the joints; they share the arm's limits, so switching is smooth."""
+    """A controller for the tool, and the limits that it shares with that of the joints, so switching is smooth."""
 
     tool: Controller
-    joints: JointController
     limit: TorqueLimit | JointLimit
 
     def joints_now(self, state: ArmState) -> Array:
@@ -65,7 +63,7 @@ def make_controllers(
             return _forward_dynamics(gains, law, SpeedLimit(limits, state.q, rate, lag), virtual)
         case RobotGains():
             joint_limit = JointLimit(limits, state.q)
-            return ControllerPair(RobotLaw(joint_limit, state), JointServo(joint_limit), joint_limit)
+            return ControllerPair(RobotLaw(joint_limit, state), joint_limit)
         case OwnGains() as law:
             return _own(
                 LawSetup(law.number, gains, _limit_for(law, limits, state), limits, virtual, period), law, state
@@ -88,19 +86,18 @@ def _limit_for(law: OwnGains, limits: ArmLimits, state: ArmState) -> TorqueLimit
 
 def _own(setup: LawSetup, law: OwnGains, state: ArmState) -> ControllerPair:
     limit = setup.limit
-    joints = ComputedTorque(limit, state.q.size) if isinstance(limit, TorqueLimit) else JointServo(limit)
-    return ControllerPair(CheckedLaw(law, setup), joints, limit)
+    return ControllerPair(CheckedLaw(law, setup), limit)
 
 
 def _impedance(gains: Gains, law: ImpedanceGains, limits: ArmLimits, state: ArmState, period: float) -> ControllerPair:
     rate = damping_rate(state, law.damping_floor, law.rotational_damping_floor)
     if rate * period > 1:
         raise ValueError(f"the damping decays with {rate:.0f}/s: too fast for a control period of {period} s")
-    limit, joints = TorqueLimit(limits, law.torque_rate), state.q.size
-    return ControllerPair(Impedance(gains, law, limit, joints), ComputedTorque(limit, joints), limit)
+    limit = TorqueLimit(limits, law.torque_rate)
+    return ControllerPair(Impedance(gains, law, limit, state.q.size), limit)
 
 
 def _forward_dynamics(
     gains: Gains, law: ForwardDynamicsGains, limit: JointLimit, virtual: mujoco.MjModel
 ) -> ControllerPair:
-    return ControllerPair(ForwardDynamics(gains, law, limit, VirtualArm(virtual)), JointServo(limit), limit)
+    return ControllerPair(ForwardDynamics(gains, law, limit, VirtualArm(virtual)), limit)

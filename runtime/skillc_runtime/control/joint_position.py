@@ -2,41 +2,32 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from skillc_runtime.control.limits import JointLimit, TorqueLimit
-from skillc_runtime.devices.arm import ArmState, JointPosition, JointVelocity, Torque
-from skillc_runtime.motion.joint import JointReference
+from skillc_runtime.control.limits import limit_joints, limit_torque
+from skillc_runtime.devices.arm import ArmState
+from skillc_runtime.motion.arrays import np
+from skillc_runtime.motion.numerics.compiled import inlined
+from skillc_runtime.motion.numerics.linear import times
+from skillc_runtime.motion.pose import Array
 
 BANDWIDTH = 20.0
 """Natural frequency of the computed-torque servo in rad/s; critically damped."""
 
 
-class ComputedTorque:
-    """tau = M (ddq_d + 2 w (dq_d - dq) + w^2 (q_d - q)) + bias, N m, for joints in rad. Arrays are reused."""
+@inlined
+def computed_torque(tau: Array, limits: Array, state: ArmState, reference: Array, longest: float) -> None:
+    """tau = M (ddq_d + 2 w (dq_d - dq) + w^2 (q_d - q)) + bias, N m, limited; reference (3, nv): q_d, dq_d, ddq_d.
 
-    def __init__(self, limit: TorqueLimit, joints: int) -> None:
-        self._limit = limit
-        self._acceleration, self._part, self._tau = (np.zeros(joints) for _ in range(3))
-
-    def command(self, state: ArmState, reference: JointReference, period: float) -> Torque:
-        """Return the joint torques for the next `period` s."""
-        np.subtract(reference.dq, state.dq, out=self._acceleration)
-        self._acceleration *= 2 * BANDWIDTH
-        np.subtract(reference.q, state.q, out=self._part)
-        self._part *= BANDWIDTH**2
-        self._acceleration += self._part
-        self._acceleration += reference.ddq
-        np.dot(state.mass_matrix, self._acceleration, out=self._tau)
-        return Torque(self._limit.step(self._tau, state, period))
+    limits (5, nv): see `TorqueLimit`; longest: N m, the greatest change of tau without bias.
+    """
+    wanted, free = np.empty(tau.size), np.empty(tau.size)
+    for j in range(tau.size):
+        error, speed_error = reference[0, j] - state.q[j], reference[1, j] - state.dq[j]
+        wanted[j] = 2 * BANDWIDTH * speed_error + BANDWIDTH * BANDWIDTH * error + reference[2, j]
+    times(state.mass_matrix, wanted, free)
+    limit_torque(tau, limits, free, state.q, state.bias, longest)
 
 
-class JointServo:
-    """Commands the reference positions of joints to an arm with servos, as limited by `limit`."""
-
-    def __init__(self, limit: JointLimit) -> None:
-        self._limit = limit
-
-    def command(self, state: ArmState, reference: JointReference, period: float) -> JointPosition | JointVelocity:
-        """Return the joint positions or speeds for the next `period` s."""
-        return self._limit.step(reference.q, state, period)
+@inlined
+def move_servos(limits: Array, state: ArmState, reference: Array, period: float) -> bool:
+    """Command the positions of a reference (3, nv) as limits (9, nv) allow, see `JointLimit`; False if blocked."""
+    return bool(limit_joints(limits, reference[0], state.q, period))

@@ -15,6 +15,7 @@ import numpy as np
 from skillc_runtime.control.compliance_state import ComplianceMemory, follow_target
 from skillc_runtime.control.forward_dynamics import ForwardDynamicsMemory, move_virtual_arm
 from skillc_runtime.control.impedance import ImpedanceMemory, impedance
+from skillc_runtime.control.joint_position import computed_torque, move_servos
 from skillc_runtime.control.limits import COMMANDED, DRIVEN
 from skillc_runtime.control.momentum_observer import add_impulse
 from skillc_runtime.control.push_memory import advance_pushes
@@ -24,14 +25,18 @@ from skillc_runtime.control.virtual_arm import VirtualState
 from skillc_runtime.control.virtual_chain import VirtualChain, compute_virtual
 from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.motion.arrays import OutMatrix, OutVector
+from skillc_runtime.motion.joint_reference_generator import JointAhead, use_ahead
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import copy_vector, squared, times
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.reference_plan import ReferencePlan, sample_plan
 
-NOT_FINITE, TOOL_MOVED, BEYOND_LIMIT, BAD_COMMAND, OVERLAY_OVER, PUSH_ACTS, BLOCKED = (1 << bit for bit in range(7))
+NOT_FINITE, TOOL_MOVED, BEYOND_LIMIT, BAD_COMMAND, OVERLAY_OVER, PUSH_ACTS, BLOCKED, NOT_SAMPLED = (
+    1 << bit for bit in range(8)
+)
 """Bits of what has happened: the measurement is no number; the tool was moved on the hand; a safety limit was exceeded;
-the law yields no number; an overlay has faded out; a push has come to an action; the joints do not follow."""
+the law yields no number; an overlay has faded out; a push has come to an action; the joints do not follow; nothing was
+done, since the reference of the joints is not known."""
 
 WATCHED: Final = NOT_FINITE | TOOL_MOVED | BEYOND_LIMIT
 """What is found before a command is computed."""
@@ -181,6 +186,76 @@ def control_by_forward_dynamics(memory: ForwardDynamicsPeriod, now: float) -> in
     if advance_pushes(memory.pushes, law.felt, arm.safety, arm.state, period):
         events = events | PUSH_ACTS
     return events
+
+
+@dataclass(frozen=True, slots=True)
+class JointPeriod:
+    """All that a period in which the joints are moved works on.
+
+    ahead: their reference; limits: of the arm, see `TorqueLimit` and `JointLimit`; torque_rate: N m/s, and tau (nv,):
+    N m, the command, for an arm that takes torques; pushes (n, m): a row each.
+    """
+
+    arm: ArmMemory
+    compliance: ComplianceMemory
+    ahead: JointAhead
+    limits: OutMatrix
+    torque_rate: float
+    tau: OutVector
+    pushes: OutMatrix
+
+
+@inlined
+def _begin_joints(arm: ArmMemory, compliance: ComplianceMemory) -> int:
+    """Check the measured state; without a bit of `WATCHED` advance compliance. Return bits."""
+    events = 0 if arm.clock[IS_WATCHED] != 0.0 else watch(arm)
+    if events == 0:
+        follow_target(compliance, arm.period)
+    return events
+
+
+@inlined
+def _end_joints(memory: JointPeriod) -> int:
+    """Advance pushes; return bits."""
+    arm = memory.arm
+    return PUSH_ACTS if advance_pushes(memory.pushes, arm.state.wrench[:3], arm.safety, arm.state, arm.period) else 0
+
+
+@compiled
+def control_joints_by_torques(memory: JointPeriod, now: float) -> int:
+    """Compute the torques of the period that has begun; return bits, as `control_by_impedance`."""
+    arm, ahead, period = memory.arm, memory.ahead, memory.arm.period
+    row = use_ahead(ahead, arm.clock[TASK])
+    if row < 0:
+        return NOT_SAMPLED
+    events = _begin_joints(arm, memory.compliance)
+    if events != 0:
+        ahead.used[0] -= 1.0
+        return events
+    longest = memory.torque_rate * period
+    computed_torque(memory.tau, memory.limits, arm.state, ahead.rows[row : row + 3], longest)
+    if not squared(memory.tau) < inf:
+        return BAD_COMMAND
+    add_impulse(arm.safety.observer.impulse, memory.tau, arm.holds, period)
+    return _end_joints(memory)
+
+
+@compiled
+def control_joints_by_servos(memory: JointPeriod, now: float) -> int:
+    """Compute the positions, or speeds, of the period that has begun; return bits, as `control_by_impedance`."""
+    arm, ahead = memory.arm, memory.ahead
+    row = use_ahead(ahead, arm.clock[TASK])
+    if row < 0:
+        return NOT_SAMPLED
+    events = _begin_joints(arm, memory.compliance)
+    if events != 0:
+        ahead.used[0] -= 1.0
+        return events
+    if not move_servos(memory.limits, arm.state, ahead.rows[row : row + 3], arm.period):
+        return BLOCKED
+    if not squared(memory.limits[COMMANDED]) + squared(memory.limits[DRIVEN]) < inf:
+        return BAD_COMMAND
+    return _end_joints(memory)
 
 
 @dataclass(frozen=True, slots=True)

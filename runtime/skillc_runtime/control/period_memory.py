@@ -8,21 +8,27 @@ from skillc_runtime.control.arm_task import ArmTask
 from skillc_runtime.control.command_validator import CommandValidator
 from skillc_runtime.control.forward_dynamics import ForwardDynamics
 from skillc_runtime.control.impedance import Impedance
+from skillc_runtime.control.limits import JointLimit, TorqueLimit
 from skillc_runtime.control.period import (
     IS_WATCHED,
+    NOT_SAMPLED,
     ArmMemory,
     ForwardDynamicsPeriod,
     ImpedancePeriod,
+    JointPeriod,
     PushPeriod,
     advance_all_pushes,
     begin_period,
     control_by_forward_dynamics,
     control_by_impedance,
+    control_joints_by_servos,
+    control_joints_by_torques,
     copy_state,
     make_state,
     watch_arm,
 )
 from skillc_runtime.devices.arm import Arm, ArmState, Command, Torque, command_values, copy_command
+from skillc_runtime.motion.joint_reference_generator import JointReferenceGenerator
 from skillc_runtime.motion.numerics.compiled import COMPILES, Bound, bind
 from skillc_runtime.motion.pose import Array
 
@@ -55,25 +61,25 @@ class ControlPeriod:
         self._watch, self._contact = bind(watch_arm, self._memory), np.zeros(3)
         self._advance = bind(advance_all_pushes, PushPeriod(self._memory, pushes, self._contact))
         self._tau = np.zeros_like(state.q)
-        self._live: Command = Torque(self._tau)
+        limit = task.controllers.limit
+        self._live: Command = Torque(self._tau) if isinstance(limit, TorqueLimit) else limit.live
         self._control: Control | None = None
+        self._joints: JointReferenceGenerator | None = None
         self.memory: ImpedancePeriod | ForwardDynamicsPeriod | None = None
         self._bind()
 
     @property
     def is_computed(self) -> bool:
-        """Whether `command` is that of this period: the tool is controlled, by a law that is computed on memory."""
-        return self._control is not None and self._task.joints is None
+        """Whether `command` is that of this period: of joints, or of a tool whose law is computed on memory."""
+        return self._task.joints is not None or self._control is not None
 
     @property
     def functions(self) -> tuple[Control, Control] | None:
         """What a period calls, before and after the state is measured, if nothing happens; None if Python does more."""
-        generator = self._task.tool.reference_generator
-        if not self.is_computed or not self._lasts or generator.is_given:
+        if not self._lasts or (control := self._present) is None:
             return None
-        if generator.plan is not self._plan:
-            self._bind()
-        return None if self._control is None else (self.begin, self._control)
+        is_given = self._task.joints is None and self._task.tool.reference_generator.is_given
+        return None if is_given else (self.begin, control)
 
     @property
     def values(self) -> Array:
@@ -98,15 +104,29 @@ class ControlPeriod:
 
     def control(self, is_watched: bool = False) -> int:
         """Compute `command`, unless something is found before; return bits of `period`."""
-        task, generator = self._task, self._task.tool.reference_generator
-        if generator.plan is not self._plan:
-            self._bind()
-        generator.prepare(task.now)
-        assert self._control is not None
+        task, control = self._task, self._present
+        assert control is not None
+        if task.joints is None:
+            task.tool.reference_generator.prepare(task.now)
         task.clock[IS_WATCHED] = is_watched
-        events = self._control(0.0)
+        events = control(0.0)
+        if events == NOT_SAMPLED and task.joints is not None:
+            task.joints.look_ahead(task.now, task.period)
+            events = control(0.0)
         task.clock[IS_WATCHED] = 0.0
         return events
+
+    @property
+    def _present(self) -> Control | None:
+        """What computes the command now, bound to what is followed now."""
+        joints = self._task.joints
+        if joints is None:
+            if self._task.tool.reference_generator.plan is not self._plan:
+                self._bind()
+            return self._control
+        if joints is not self._joints:
+            self._joints, self._control_joints = joints, self._bind_joints(joints)
+        return self._control_joints
 
     def advance_pushes(self) -> int:
         """Advance pushes after a command of any law; return bits of `period`."""
@@ -115,9 +135,16 @@ class ControlPeriod:
 
     def give_up(self, state: ArmState) -> None:
         """Raise ControlError, for joints that do not follow."""
-        law = self._task.controllers.tool
-        assert isinstance(law, ForwardDynamics)
-        law.limit.give_up(state)
+        limit = self._task.controllers.limit
+        assert isinstance(limit, JointLimit)
+        limit.give_up(state)
+
+    def _bind_joints(self, joints: JointReferenceGenerator) -> Control:
+        limit, compliance = self._task.controllers.limit, self._task.tool.compliance.memory
+        rate = limit.rate if isinstance(limit, TorqueLimit) else 0.0
+        memory = JointPeriod(self._memory, compliance, joints.ahead, limit.rows, rate, self._tau, self._pushes)
+        law = control_joints_by_torques if isinstance(limit, TorqueLimit) else control_joints_by_servos
+        return bind(law, memory)
 
     def _bind(self) -> None:
         """Bind the law, if it is one of those; without numba MuJoCo computes a virtual arm faster than Python does."""
@@ -127,9 +154,9 @@ class ControlPeriod:
             case Impedance(memory=memory):
                 self.memory = ImpedancePeriod(arm, compliance, self._plan, memory, pushes, self._tau)
                 self._control = bind(control_by_impedance, self.memory)
-            case ForwardDynamics(memory=memory, arm=virtual, limit=limit) if COMPILES:
+            case ForwardDynamics(memory=memory, arm=virtual) if COMPILES:
                 parts = arm, compliance, self._plan, memory, virtual.chain, virtual.state, pushes
-                self.memory, self._live = ForwardDynamicsPeriod(*parts), limit.live
+                self.memory = ForwardDynamicsPeriod(*parts)
                 self._control = bind(control_by_forward_dynamics, self.memory)
             case _:
                 self._control = None

@@ -17,17 +17,22 @@ class ControlledArm:
 
     def __init__(self, arm: ModelledArm, driver: CompliantArmDriver, is_lost: Callable[[], bool]) -> None:
         self._arm, self._driver, self._is_lost = arm, driver, is_lost
+        self._found: tuple[tuple[object, ...], Rows | None] = (), None
 
     @property
     def rows(self) -> Rows | None:
         """The functions that `CompliantArmDriver.step` calls while nothing happens."""
         if self._is_lost():
             return IDLE
-        functions = self._driver.functions
+        driver, arm = self._driver, self._arm
+        functions = driver.functions
         if functions is None:
             return None
-        begin, control = map(row_of, functions)
-        return join(begin, self._arm.measuring, control, self._arm.taking(self._driver.values))
+        state = (*functions, arm.braked, arm.interface)
+        if state != self._found[0]:
+            begin, control = map(row_of, functions)
+            self._found = state, join(begin, arm.measuring, control, arm.taking(driver.values))
+        return self._found[1]
 
     def step(self, now: float) -> None:
         """Run the period."""
