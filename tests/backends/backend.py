@@ -112,7 +112,7 @@ class ModelBackend:
         self._cell, self._clock, self._lock = cell, clock, CellLock() if clock is None else clock._turn
         facts = cell.scene.arms[0]
         assert facts.gripper is not None
-        self.period_s = cell.period_s
+        self.period_s, self._steps = cell.period_s, cell.steps
         self._palm = part_name(cell.scene.names[facts.gripper.individual], "palm")
         self.arm = self._real_arm = cell.arms[facts.individual]
         self.driver = cell.arm(facts.individual)
@@ -137,10 +137,14 @@ class ModelBackend:
         return reader.found
 
     def neglect(self) -> None:
-        self._cell._control = lambda *_: None  # type: ignore[method-assign]
+        self._cell.steps = self._cell.steps_without_control
 
     def attend(self) -> None:
-        vars(self._cell).pop("_control", None)
+        self._cell.steps = self._steps
+
+    def call_in_python(self) -> None:
+        """Let methods be called that machine code would pass by."""
+        self._cell.steps.runs_program = False
 
     def put_wall(self, gap_m: float) -> Array:
         with self._lock:

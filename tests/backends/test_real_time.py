@@ -129,10 +129,10 @@ def test_a_control_thread_that_dies_breaks_the_cell_with_the_reason() -> None:
     with running() as (cell, inside):
         swing(cell)
 
-        def fail(now: float) -> None:
+        def fail(now: float, steps: int) -> None:
             raise RuntimeError("the bus is gone")
 
-        inside._move = fail  # type: ignore[method-assign]
+        inside.steps.run = fail  # type: ignore[method-assign]
         with pytest.raises(BackendBroken, match=re.escape("the control thread has ended: RuntimeError('the bus")):
             cell.advance(10.0)
         assert cell.broken is not None

@@ -35,6 +35,7 @@ def told(there: ModelBackend, changed: Callable[[Array], Array] = np.copy) -> li
         command(JointVelocity(changed(each.dq)))
 
     there.arm.command = note  # type: ignore[method-assign]
+    there.call_in_python()
     return speeds
 
 

@@ -59,6 +59,9 @@ class OneArm:
         assert individual == ARM
         return self.bench.driver
 
+    def preferred_postures(self, individual):
+        return ()
+
     def run(self, primitive, limit=20.0, beside=()):
         """Start and tick every 10 ms until it succeeds; SkillFailure comes out, from a tick after the halt."""
         end = self.now + limit

@@ -9,14 +9,12 @@ from skillc_runtime.backends.mujoco.wrist import Wrist
 from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
 from skillc_runtime.backends.simulation.noise import make_joint_noise, make_wrist_noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
+from skillc_runtime.backends.simulation.whole_mass import WholeMass
 from skillc_runtime.motion.pose import Array, Pose
 
 
 class SimulatedArm(ModelledArm):
     """One arm of a simulated cell; it is called between `mj_step1` and `mj_step2`."""
-
-    # The model of the cell, in which what is held does not burden an arm, may not be the one that is stepped.
-    mass_functions = ("mj_kinematics", "mj_comPos", "mj_crb", "mj_fullM")
 
     def __init__(
         self,
@@ -28,7 +26,7 @@ class SimulatedArm(ModelledArm):
         steps_per_command: int = 1,
     ) -> None:
         """Place the joints at `start` (nv,) in rad; the noise of the sensors follows from the seed."""
-        noise, model, data = make_joint_noise(facts, seed), physics.model, physics.data
+        noise, model, data, self._physics = make_joint_noise(facts, seed), physics.model, physics.data, physics
         self._wrist: Wrist | None = None
         super().__init__(facts, names, model, data, start, steps_per_command, noise)
         if self._feels_force and (gripper := self._gripper_name) is not None:
@@ -40,6 +38,9 @@ class SimulatedArm(ModelledArm):
     def wrist(self) -> Wrist | None:
         """The force-torque sensor, which takes part in each step; None without one."""
         return self._wrist
+
+    def _whole_mass(self) -> WholeMass:
+        return self._physics.mass
 
     def _configure(self, payload: Payload, tool: Pose) -> None:
         super()._configure(payload, tool)

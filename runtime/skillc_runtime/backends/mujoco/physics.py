@@ -26,6 +26,7 @@ from skillc_runtime.backends.simulation.model_builder import build_model
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation
+from skillc_runtime.backends.simulation.whole_mass import WholeMass
 from skillc_runtime.motion.numerics.compiled import COMPILES
 from skillc_runtime.motion.numerics.program import Rows, row_of
 from skillc_runtime.motion.pose import Array
@@ -49,9 +50,11 @@ class Physics:
     _is_due: bool = False
     monitor: DivergenceMonitor = field(init=False)
     """Watches the model that is stepped."""
+    mass: WholeMass = field(init=False)
+    """The mass matrix of the model of the cell, in which what is held does not burden an arm."""
 
     def __post_init__(self) -> None:
-        self.monitor = DivergenceMonitor(self.model, self.data)
+        self.monitor, self.mass = DivergenceMonitor(self.model, self.data), WholeMass(self.model, self.data)
 
     def hold(self, thing: str, gripper: str) -> None:
         """Let a thing be a part of the hand, whose fingers stand still, that a weld holds it in; both are IRIs."""
@@ -147,6 +150,7 @@ class Physics:
         """Watch what steps use from now on; `geoms` are the numbers (ngeom,) in the cell's model of the geoms there."""
         self.monitor = DivergenceMonitor(model, data)
         self.contacts.read_from(model, data, geoms)
+        self.mass.let_be_stepped(model is self.model)
         self.switches += 1
 
     def _block(self, thing: str) -> int:

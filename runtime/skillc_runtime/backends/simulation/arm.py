@@ -37,6 +37,7 @@ from skillc_runtime.backends.simulation.motors import Joints, Motors, ServoGains
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.noise import Noise, make_no_noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
+from skillc_runtime.backends.simulation.whole_mass import WholeMass
 from skillc_runtime.devices.arm import Arm, ArmLoad, ArmState, Capabilities, Command, Mode, NotOffered
 from skillc_runtime.motion.numerics.compiled import bind
 from skillc_runtime.motion.numerics.program import IDLE, Rows, join, row_of
@@ -63,9 +64,6 @@ class ModelledArm(Arm):
 
     measures_effort: ClassVar[bool] = True
     """Whether `ArmState.effort` is what the motors exert."""
-
-    mass_functions: ClassVar[tuple[str, ...]] = ("mj_fullM",)
-    """The functions of MuJoCo that compute the mass matrix of the whole cell."""
 
     has_own_law: bool = False
     """Whether the robot itself has a compliant law, which takes targets of the tool."""
@@ -111,7 +109,7 @@ class ModelledArm(Arm):
         self._damping, self._zero, self._zero_at_tool = np.zeros(count), np.zeros(6), np.zeros(6)
         self._sensing = self._make_sensing()
         self._measure, mass = bind(measure, self._sensing), self._make_mass()
-        self._full_mass, self._take_mass, self._update_mass = mass.whole, bind(take_mass, mass), bind(update_mass, mass)
+        self._take_mass, self._update_mass = bind(take_mass, mass), bind(update_mass, mass)
         self._times[MEASURED_AT], self._braked = data.time, False
         self._configure(NO_PAYLOAD, self.fixed_tool)
         self._q[:] = start
@@ -274,12 +272,15 @@ class ModelledArm(Arm):
         )
 
     def _make_mass(self) -> MassMemory:
-        model, data, here = self._model, self._data, self._here
-        whole = np.zeros((model.nv, model.nv))
-        memory = model._address, data._address, whole.ctypes.data
-        called = np.array([(address_of(name), *memory) for name in self.mass_functions])
-        first, lever = float(self._dofs.start), self._hand.lever
-        return MassMemory(here.mass_matrix, whole, first, called, self._payload_kg, self._times, lever, here.jacobian)
+        self._whole = whole = self._whole_mass()
+        first, lever, here = float(self._dofs.start), self._hand.lever, self._here
+        return MassMemory(
+            here.mass_matrix, whole.matrix, first, whole.calls, self._payload_kg, self._times, lever, here.jacobian
+        )
+
+    def _whole_mass(self) -> WholeMass:
+        """Return what computes the mass matrix of the whole cell."""
+        return WholeMass(self._model, self._data)
 
     def _make_motors(self, facts: ArmSpec, actuators: slice, steps_per_command: int) -> Motors:
         data, here, timestep = self._data, self._here, self._model.opt.timestep
@@ -302,10 +303,7 @@ class ModelledArm(Arm):
         np.multiply(self._model.opt.gravity, -payload.mass_kg, out=self._weight)
 
     def _update_mass_matrix(self) -> None:
-        *before, last = (getattr(mujoco, name) for name in self.mass_functions)
-        for compute in before:
-            compute(self._model, self._data)
-        last(self._model, self._data, self._full_mass)
+        self._whole.compute()
         self._take_mass(self._data.time)
 
 

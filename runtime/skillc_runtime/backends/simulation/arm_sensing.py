@@ -182,9 +182,8 @@ def add_payload_mass(mass: OutMatrix, lever: Vector, J: Matrix, payload_kg: floa
 class MassMemory:
     """The mass matrix (nv, nv) of an arm, in kg m^2, and what it is computed from.
 
-    whole (n, n): of all joints of the model, of which those of the arm begin at number `first`. compute (m, 4), the
-    addresses of functions of MuJoCo, of model, data, and `whole`, which those before the last do not take; payload
-    (1,): kg; times (2,), lever (3,), jacobian (6, nv): of `ArmSensing`.
+    whole (n, n): of all joints of the model, of which those of the arm begin at number `first`. compute (m, 4): see
+    `WholeMass.calls`; payload (1,): kg; times (2,), lever (3,), jacobian (6, nv): of `ArmSensing`.
     """
 
     mass: OutMatrix
@@ -220,6 +219,7 @@ def update_mass(memory: MassMemory, now: float) -> int:
     if now >= memory.times[MASS_DUE]:
         for each in range(memory.compute.shape[0]):
             function, model, data, whole = memory.compute[each]
-            call_entry(function, model, data, whole)
+            if function != 0:
+                call_entry(function, model, data, whole)
         _take_mass(memory, now)
     return 0
