@@ -16,7 +16,6 @@ from skillc_compiler.goals.parsing import parse_call
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.pressing_force import pressing_force
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
 from skillc_runtime.scene.load import load_scene
@@ -210,14 +209,13 @@ def test_a_box_that_stands_higher_than_believed_is_met_gently(
     assert isinstance(cell, SimulatedCell)
     picked(cell, compiled)
     felt = list[float]()
-    roots = [cell.model.body("lab:Part-A/block").id, cell.model.body("lab:Hand-1/palm").id]
-    observe = cell._observe
 
-    def measure(now: float) -> None:
-        observe(now)
-        felt.append(float(np.linalg.norm(pressing_force(cell.model, cell.data, roots))))
+    def measure() -> None:
+        force = cell.ground_truth.contact_force(HAND)
+        assert force is not None
+        felt.append(float(np.linalg.norm(force)))
 
-    cell._observe = measure  # type: ignore[method-assign]
+    cell.live.listeners.append(measure)
     why = failure_of(carry_out(cell, compiled, call))
     assert "lab:Part-A touches something at a height of 0.63" in why
     assert "lab:Bin-A is believed to be 30 mm from there" in why

@@ -39,9 +39,9 @@ class RecordingCell(KinematicCell):
         self._rows = np.lib.format.open_memmap(path, "w+", float, (PERIODS, COUNT))
         self._rows[:] = np.nan
         self._period = 0
+        self.live.listeners.append(self._record)
 
-    def _move(self, now: float) -> None:
-        super()._move(now)
+    def _record(self) -> None:
         self._rows[self._period] = self.arms[ARM].state().q
         self._period += 1
 

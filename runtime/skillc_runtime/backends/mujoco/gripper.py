@@ -104,13 +104,20 @@ class SimulatedGripper(ModelledGripper):
                 self._rest()
 
     def _rest(self) -> None:
-        """Let the fingers stand still: what they hold firmly is a part of the hand until they move again."""
+        """Let the fingers stand still: a tool that they hold firmly is a part of the hand until they move again."""
         self._idle = True
         if self._carried and self._is_firm():
             self._physics.hold(self._carried, self.individual)
 
     def _is_firm(self) -> bool:
-        """Whether friction bears the true weight of what is carried; else it will slip, which the weld shows better."""
+        """Whether a tool with a soft face is carried, and friction bears its true weight.
+
+        What is rigid meets others through the pads of the fingers, for which the weld yields; and what friction does
+        not bear will slip, which the weld shows better.
+        """
+        thing = self._things[self._carried]
+        if not isinstance(thing, ToolSpec) or thing.rigid:
+            return False
         block = self._model.body(part_name(self._names[self._carried], "block")).id
         weight_n = float(self._model.body_subtreemass[block] * np.linalg.norm(self._model.opt.gravity))
         return self._grip is not None and weight_n <= self._grip.bears_n

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Literal, assert_never
@@ -13,6 +14,9 @@ from numpy.typing import NDArray
 Rows = NDArray[np.int64]
 
 Part = Literal["bodies", "geoms", "sites", "mocaps", "dofs", "coordinates", "actuators", "sensors"]
+
+OF_JOINT = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
+"""Transmissions of actuators that act on a joint."""
 
 OF_GEOMS = ("contype", "conaffinity", "condim", "priority", "friction", "solmix", "solref", "solimp", "margin", "gap")
 OF_DOFS = ("armature", "damping", "frictionloss", "solref", "solimp")
@@ -117,20 +121,38 @@ def _parts(free_owners: Rows, tight_owners: Rows, bodies: Rows) -> Rows:
 
 
 def _by_name(model: Any, kind: str) -> list[str]:
-    """Return the names of all parts of a kind; a joint without a name is known by its body and its place there."""
+    """Return the names of all parts of a kind; those without a name are known by what they belong to or act on."""
     match kind:
         case "jnt":
             return list(_name_joints(model))
         case "actuator":
-            return [model.actuator(number).name for number in range(model.nu)]
+            return list(_name_actuators(model))
         case _:
-            return [model.equality(number).name for number in range(model.neq)]
+            return list(_name_equalities(model))
 
 
 def _name_joints(model: Any) -> Iterator[str]:
     for number in range(model.njnt):
         body = int(model.jnt_bodyid[number])
         yield model.joint(number).name or f"{model.body(body).name}#{number - int(model.body_jntadr[body])}"
+
+
+def _name_actuators(model: Any) -> Iterator[str]:
+    joints, unnamed = list(_name_joints(model)), Counter[str]()
+    for number in range(model.nu):
+        kind, target = int(model.actuator_trntype[number]), int(model.actuator_trnid[number, 0])
+        driven = joints[target] if kind in OF_JOINT else f"{kind}/{target}"
+        yield model.actuator(number).name or f"{driven}#{unnamed[driven]}"
+        unnamed[driven] += 1
+
+
+def _name_equalities(model: Any) -> Iterator[str]:
+    unnamed = Counter[str]()
+    for number in range(model.neq):
+        kind, ends = int(model.eq_objtype[number]), (model.eq_obj1id[number], model.eq_obj2id[number])
+        joined = "/".join(mujoco.mj_id2name(model, kind, int(end)) or "" for end in ends)
+        yield model.equality(number).name or f"{joined}#{unnamed[joined]}"
+        unnamed[joined] += 1
 
 
 def _rows(free: list[str], tight: list[str]) -> Rows:
