@@ -12,6 +12,7 @@ from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.devices.arm import ArmState, Command, Mode, command_values
 from skillc_runtime.devices.command_record import ArmCommands
+from skillc_runtime.motion.numerics.program import Rows
 from skillc_runtime.motion.pose import Array
 
 ALTERED = 1e-6
@@ -55,6 +56,10 @@ class DryArm(SimulatedArm):
     """An arm of a dry run; `keeper` limits and keeps its commands."""
 
     keeper: CommandKeeper
+
+    def taking(self, values: Array) -> Rows | None:
+        """Return None: each command is limited, and kept, in Python."""
+        return None
 
     def command(self, command: Command) -> None:
         """Take a command as the device would get it."""

@@ -30,6 +30,7 @@ from skillc_runtime.backends.simulation.whole_mass import WholeMass
 from skillc_runtime.motion.numerics.compiled import COMPILES
 from skillc_runtime.motion.numerics.program import Rows, row_of
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.world.state.data_sheet import SheetError
 
 
 @dataclass(slots=True)
@@ -41,10 +42,8 @@ class Physics:
     model: Any
     data: Any
     contacts: Contacts
-    tightens: bool = COMPILES and address_of("mj_step1") != 0
-    """Whether what is held becomes a part of the hand: without compiled functions, showing its state costs more."""
-    switches: int = 0
-    """How often steps went on with another model: who keeps addresses of what they use finds them again then."""
+    tightens: bool = field(init=False)
+    """Whether what is held becomes a part of the hand: if there is one hand, and functions are compiled."""
     _holders: dict[str, str] = field(default_factory=dict)
     _mirror: Mirror | None = None
     _is_due: bool = False
@@ -55,6 +54,10 @@ class Physics:
 
     def __post_init__(self) -> None:
         self.monitor, self.mass = DivergenceMonitor(self.model, self.data), WholeMass(self.model, self.data)
+        # Of two hands each may grasp or release while the other one holds something; without compiled functions,
+        # showing the state of another model costs more than it saves.
+        hands = sum(arm.gripper is not None for arm in self.scene.arms)
+        self.tightens = COMPILES and address_of("mj_step1") != 0 and hands == 1
 
     def hold(self, thing: str, gripper: str) -> None:
         """Let a thing be a part of the hand, whose fingers stand still, that a weld holds it in; both are IRIs."""
@@ -103,10 +106,12 @@ class Physics:
         return row_of(self._mirror.halves[half]) if has_room(self._mirror.tight) else None
 
     def _run(self, half: Half) -> None:
-        if self._mirror is None:
-            getattr(mujoco, half)(self.model, self.data)
-        else:
+        if self._mirror is not None and has_room(self._mirror.tight):
             self._mirror.halves[half](self.data.time)
+            return
+        self._holders.clear()
+        self._loosen()
+        getattr(mujoco, half)(self.model, self.data)
 
     def take_changes(self) -> None:
         """Take over where things were put in the data of the cell between two half steps."""
@@ -127,12 +132,18 @@ class Physics:
     def _tighten(self) -> None:
         """Go on with a model in which what is held is a part of the hand."""
         names, self._is_due = self.scene.names, False
-        holds = {
-            thing: read_hold(self.model, self.data, names[gripper], names[thing])
-            for thing, gripper in self._holders.items()
-        }
-        model = build_model(self.scene, self.variation, self.model.opt.timestep, holds)
-        rows, data, blocks = map_models(self.model, model), mujoco.MjData(model), self._blocks()
+        try:
+            holds = {
+                thing: read_hold(self.model, self.data, names[gripper], names[thing])
+                for thing, gripper in self._holders.items()
+            }
+            model = build_model(self.scene, self.variation, self.model.opt.timestep, holds)
+            rows = map_models(self.model, model)
+        except (ValueError, SheetError):  # something of a gripper needs its fingers, or cannot be told apart
+            self.tightens = False
+            self._holders.clear()
+            return
+        data, blocks = mujoco.MjData(model), self._blocks()
         rows.renew(self.model, model)
         join(rows, self.model, self.data, model, data, blocks)
         self._mirror = Mirror(rows, self.model, self.data, model, data, list(blocks))
@@ -151,7 +162,6 @@ class Physics:
         self.monitor = DivergenceMonitor(model, data)
         self.contacts.read_from(model, data, geoms)
         self.mass.let_be_stepped(model is self.model)
-        self.switches += 1
 
     def _block(self, thing: str) -> int:
         return int(self.model.body(part_name(self.scene.names[thing], "block")).id)

@@ -62,12 +62,12 @@ class Listening:
 
     def step(self, now: float) -> None:
         """Let all take part."""
-        for part in self._find():
+        for part in tuple(self._find()):
             part.step(now)
 
     def act(self, events: int, now: float) -> bool:
-        """Do what the only one asks for."""
-        return self._find()[0].act(events, now)
+        """Do what the only one asks for, if it still takes part."""
+        return any(part.act(events, now) for part in tuple(self._find()))
 
 
 class HeldTool:

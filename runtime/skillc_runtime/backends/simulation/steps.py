@@ -26,7 +26,8 @@ from skillc_runtime.motion.numerics.program import (
     run_program,
 )
 
-MOST_ROWS = 256
+SOME_ROWS = 64
+"""How many rows of a program there is room for at first."""
 
 
 class OnMemory:
@@ -94,10 +95,10 @@ class Steps:
 
     def __init__(self, control: Sequence[Part], others: Sequence[Part], steps_per_period: int, step_s: float) -> None:
         self._parts, self._controlling = (*control, *others), len(control)
-        self._rows, self._extent = np.zeros((MOST_ROWS, 3), dtype=np.int64), np.zeros((1, 3), dtype=np.int64)
+        self._extent = np.zeros((1, 3), dtype=np.int64)
         self._extent[0, program.STEPS_PER_PERIOD] = self._per_period = steps_per_period
         self._cursor, self._step_s, self._phase = np.zeros(4), step_s, 0
-        self._run = bind(run_program, Program(self._rows, self._extent, self._cursor, step_s))
+        self._make_table(SOME_ROWS)
         self._found: list[Rows | None] = []
         self._starts, self._owners = [0], list[int]()
         self.runs_program = COMPILES
@@ -130,13 +131,20 @@ class Steps:
         finally:
             self._phase = int(cursor[program.PHASE])
 
+    def _make_table(self, rows: int) -> None:
+        self._rows = np.zeros((rows, 3), dtype=np.int64)
+        self._run = bind(run_program, Program(self._rows, self._extent, self._cursor, self._step_s))
+
     def _write(self) -> None:
         """Write the program as things are now, and the first row of each part, and of what would come after."""
         found = [part.rows for part in self._parts]
         if found != self._found:
-            self._found, rows = found, [(NO_FUNCTION,) if each is None else each for each in found]
+            rows = [(NO_FUNCTION,) if each is None else each for each in found]
             self._starts = list(accumulate(map(len, rows), initial=0))
             self._owners = [number for number, each in enumerate(rows) for _ in each]
             written = [row for each in rows for row in each]
+            if len(written) > len(self._rows):
+                self._make_table(2 * len(written))
             self._rows[: len(written)] = np.array(written, dtype=np.int64).reshape(-1, 3)
             self._extent[0, : program.STEPS_PER_PERIOD] = len(written), self._starts[self._controlling]
+            self._found = found

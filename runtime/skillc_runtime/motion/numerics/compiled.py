@@ -38,6 +38,8 @@ LISTENERS: list[Callable[[int], None]] = []
 """Called with 1 when a function begins to be compiled, which may take longer than a tick, and with -1 after it."""
 
 _lock = RLock()
+if hasattr(os, "register_at_fork"):  # a child of a process in which another thread compiles would wait for ever
+    os.register_at_fork(before=_lock.acquire, after_in_parent=_lock.release, after_in_child=_lock.release)
 
 
 class Bound(Protocol[Parameters, Returned]):

@@ -61,7 +61,7 @@ def is_on_memory(annotations: Iterable[Any]) -> bool:
 def list_arrays(memory: Any) -> list[Array]:
     """Return the arrays of a dataclass, and of those in it, in the order of rows; numbers are copied into new ones.
 
-    TypeError if one is not of the type that its annotation states.
+    TypeError if one is not as its annotation states.
     """
     found: list[Array] = []
     kind: type = type(memory)
@@ -70,11 +70,23 @@ def list_arrays(memory: Any) -> list[Array]:
         if is_dataclass(annotation):
             found.extend(list_arrays(value))
             continue
-        array = np.asarray(value, None if isinstance(value, np.ndarray) else np.float64)
-        if array.dtype != (np.int64 if is_integral(annotation) else np.float64):
-            raise TypeError(f"{kind.__name__}.{name} has elements of the type {array.dtype}")
+        array = value if isinstance(value, np.ndarray) else np.asarray(value, np.float64)
+        if problem := _find_problem(array, annotation, is_own=array is not value):
+            raise TypeError(f"{kind.__name__}.{name} {problem}")
         found.append(array)
     return found
+
+
+def _find_problem(array: Array, annotation: Any, is_own: bool) -> str | None:
+    """Return why memory cannot be the array that an annotation states; a number `is_own` memory."""
+    if array.dtype != (np.int64 if is_integral(annotation) else np.float64):
+        return f"has elements of the type {array.dtype}"
+    if annotation is float:
+        return None if array.size == 1 else f"is no number but of the shape {array.shape}"
+    dimensions, access = annotation.__metadata__
+    if is_own or array.ndim != dimensions:
+        return f"is no array with {dimensions} dimensions"
+    return "cannot be written" if access == "written" and not array.flags.writeable else None
 
 
 def is_integral(annotation: Any) -> bool:
