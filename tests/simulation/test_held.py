@@ -152,10 +152,8 @@ def test_fingers_that_open_let_go_and_what_they_held_falls() -> None:
     scene = "iiwa_table"
     there = holding(scene)
     hand, before = there.gripper(GRIPPER[scene]), there.ground_truth.body_pose(ERASER).position
-    switches = there.physics.switches
     hand.move(0.06, 40.0)
     assert there.physics._mirror is None, "fingers that move are free"
-    assert there.physics.switches == switches + 1
     there.advance(0.5)
     there_still = there.ground_truth.body_pose(ERASER).position
     assert np.abs(there_still - before).max() < 1e-3, "a weld holds it until it is let go"

@@ -92,7 +92,7 @@ class CompliantArmDriver:
 
     @property
     def values(self) -> Array:
-        """The command (nv,) that `functions` compute; the array changes, and stays."""
+        """The command (nv,) that `functions` compute, in N m, rad or rad/s; the array changes, and stays."""
         return self._period.values
 
     def act(self, events: int) -> None:

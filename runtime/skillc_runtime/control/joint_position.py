@@ -17,7 +17,7 @@ BANDWIDTH = 20.0
 def computed_torque(tau: Array, limits: Array, state: ArmState, reference: Array, longest: float) -> None:
     """tau = M (ddq_d + 2 w (dq_d - dq) + w^2 (q_d - q)) + bias, N m, limited; reference (3, nv): q_d, dq_d, ddq_d.
 
-    limits (5, nv): see `TorqueLimit`; longest: N m, the greatest change of tau without bias.
+    Of the joints: limits (5, nv), see `TorqueLimit`; longest: N m, the greatest change of tau without bias.
     """
     wanted, free = np.empty(tau.size), np.empty(tau.size)
     for j in range(tau.size):
@@ -29,5 +29,8 @@ def computed_torque(tau: Array, limits: Array, state: ArmState, reference: Array
 
 @inlined
 def move_servos(limits: Array, state: ArmState, reference: Array, period: float) -> bool:
-    """Command the positions of a reference (3, nv) as limits (9, nv) allow, see `JointLimit`; False if blocked."""
+    """Command the positions of joints, in rad, of a reference (3, nv) as limits (9, nv) allow; False if blocked.
+
+    See `JointLimit`; period in s.
+    """
     return bool(limit_joints(limits, reference[0], state.q, period))

@@ -117,7 +117,7 @@ def watch(arm: ArmMemory) -> int:
 
 @compiled
 def watch_arm(arm: ArmMemory, now: float) -> int:
-    """Check the measured state at the beginning of a period; return bits."""
+    """Check the measured state at the beginning of a period, at `now` s; return bits."""
     return watch(arm)
 
 
@@ -133,7 +133,7 @@ def _begin(arm: ArmMemory, compliance: ComplianceMemory, plan: ReferencePlan) ->
 
 @compiled
 def control_by_impedance(memory: ImpedancePeriod, now: float) -> int:
-    """Compute the command of the period that has begun; return bits.
+    """Compute the command of the period that has begun, at `now` s; return bits.
 
     Nothing is commanded if something is found before; the caller acts on that, and calls again with `IS_WATCHED`.
     """
@@ -169,7 +169,7 @@ class ForwardDynamicsPeriod:
 
 @compiled
 def control_by_forward_dynamics(memory: ForwardDynamicsPeriod, now: float) -> int:
-    """Compute the command of the period that has begun, which is in the limits of the law; as the one above."""
+    """Compute the command of the period that has begun, at `now` s, in the limits of the law; as the one above."""
     arm, law, virtual, period = memory.arm, memory.law, memory.virtual, memory.arm.period
     events = _begin(arm, memory.compliance, memory.plan)
     if events & WATCHED:
@@ -223,7 +223,7 @@ def _end_joints(memory: JointPeriod) -> int:
 
 @compiled
 def control_joints_by_torques(memory: JointPeriod, now: float) -> int:
-    """Compute the torques of the period that has begun; return bits, as `control_by_impedance`."""
+    """Compute the torques of the period that has begun, at `now` s; return bits, as `control_by_impedance`."""
     arm, ahead, period = memory.arm, memory.ahead, memory.arm.period
     row = use_ahead(ahead, arm.clock[TASK])
     if row < 0:
@@ -242,7 +242,10 @@ def control_joints_by_torques(memory: JointPeriod, now: float) -> int:
 
 @compiled
 def control_joints_by_servos(memory: JointPeriod, now: float) -> int:
-    """Compute the positions, or speeds, of the period that has begun; return bits, as `control_by_impedance`."""
+    """Compute the positions or speeds of the period that has begun, at `now` s; return bits.
+
+    As `control_by_impedance`.
+    """
     arm, ahead = memory.arm, memory.ahead
     row = use_ahead(ahead, arm.clock[TASK])
     if row < 0:
@@ -269,7 +272,7 @@ class PushPeriod:
 
 @compiled
 def advance_all_pushes(memory: PushPeriod, now: float) -> int:
-    """Advance pushes by a period, after its command; return bits."""
+    """Advance pushes by the period that has begun at `now` s, after its command; return bits."""
     acts = advance_pushes(memory.pushes, memory.contact, memory.arm.safety, memory.arm.state, memory.arm.period)
     return PUSH_ACTS if acts else 0
 

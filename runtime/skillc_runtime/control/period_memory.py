@@ -83,7 +83,7 @@ class ControlPeriod:
 
     @property
     def values(self) -> Array:
-        """The command (nv,) that `functions` compute; the array changes, and stays."""
+        """The command (nv,) that `functions` compute, in N m, rad or rad/s; the array changes, and stays."""
         return command_values(self._live)
 
     @property

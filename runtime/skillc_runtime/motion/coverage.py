@@ -70,7 +70,11 @@ def _centres(length: float) -> Array:
 def put_dose(
     dose: Array, x: Array, y: Array, world: Pose, position: Array, rotation: Array, tool: Array, seconds: float
 ) -> None:
-    """Do what `add_dose` does."""
+    """Add to the dose (rows, columns), in s, of a surface, with its cells at x (n,) and y (m,) in m, under a tool.
+
+    world: of the world in the frame of the surface; position (3,) m and rotation (3, 3) of the tool in the world, its
+    size (2,) in m.
+    """
     middle, axes = np.empty(3), np.empty((3, 3))
     times(world.rotation, position, middle)
     for i in range(3):

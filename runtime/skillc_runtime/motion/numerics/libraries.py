@@ -59,7 +59,7 @@ def rotation_by(vector: Array, out: Array) -> None:
 
 
 def rotation_of(quaternion: Array, out: Array) -> None:
-    """out (3, 3) = the rotation of a quaternion (4,), (w, x, y, z), normalised or not."""
+    """out (3, 3) = the rotation of a quaternion (4,), (w, x, y, z), no unit, in the same frame."""
     out[:] = rotation_from_quaternion(quaternion)
 
 

@@ -117,7 +117,7 @@ def rotation_by(vector: Array, out: Array) -> None:
 
 @inlined
 def rotation_of(quaternion: Array, out: Array) -> None:
-    """out (3, 3) = the rotation of a quaternion (4,), (w, x, y, z), normalised or not. See `motion.pose`."""
+    """out (3, 3) = the rotation of a quaternion (4,), (w, x, y, z), no unit, in the same frame."""
     w, x, y, z = quaternion[0], quaternion[1], quaternion[2], quaternion[3]
     s = 2 / (w * w + x * x + y * y + z * z)
     out[0, 0], out[0, 1], out[0, 2] = 1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)

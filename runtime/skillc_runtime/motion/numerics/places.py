@@ -59,7 +59,9 @@ def is_on_memory(annotations: Iterable[Any]) -> bool:
 
 
 def list_arrays(memory: Any) -> list[Array]:
-    """Return the arrays of a dataclass, and of those in it, in the order of rows; numbers are copied into new ones.
+    """Return the arrays (n,) or (n, m) in any unit of a dataclass, and of those in it, in the order of rows.
+
+    Numbers are copied into new ones.
 
     TypeError if one is not as its annotation states.
     """
