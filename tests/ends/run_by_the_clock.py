@@ -8,6 +8,7 @@ from __future__ import annotations
 import sys
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -18,9 +19,11 @@ from skillc.services.reporting import SilentReporter
 from skillc.services.task_loading import LoadedTask, load_task
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.real_time.cell import RealTimeCell
+from skillc_runtime.backends.simulation.steps import InPython
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.execution.assignment import PreparedTask, prepare_task
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.motion.numerics.program import Part
 from skillc_runtime.recording.events import FORMAT, TaskStarted
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.model import WorldModel
@@ -39,9 +42,12 @@ class RecordingCell(KinematicCell):
         self._rows = np.lib.format.open_memmap(path, "w+", float, (PERIODS, COUNT))
         self._rows[:] = np.nan
         self._period = 0
-        self.live.listeners.append(self._record)
 
-    def _record(self) -> None:
+    def _parts(self) -> Iterator[Part]:
+        yield from super()._parts()
+        yield InPython(self._record)
+
+    def _record(self, _now: float) -> None:
         self._rows[self._period] = self.arms[ARM].state().q
         self._period += 1
 
