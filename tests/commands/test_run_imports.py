@@ -12,7 +12,7 @@ from commands.test_output import lab
 
 __all__ = ["lab"]
 
-DRAWING = {"skillc.services.run_report", "matplotlib", "PIL"}
+REPORT, DRAWING = "skillc.services.run_report", {"matplotlib", "PIL"}
 UNUSED = {"skillc.services.dry_runs", "skillc_compiler.checks", "skillc_dsl.parsing.parser"}
 TASK = """
 task fill {
@@ -23,9 +23,10 @@ task fill {
 
 
 @pytest.mark.slow
-def test_what_draws_is_imported_for_a_report_only(lab: Path) -> None:
-    assert imported_by_run(lab) & DRAWING == set()
-    assert imported_by_run(lab, "--out", str(lab / "out")) >= DRAWING
+def test_what_writes_reports_is_imported_for_one_only_and_another_process_draws(lab: Path) -> None:
+    assert imported_by_run(lab) & {REPORT, *DRAWING} == set()
+    with_report = imported_by_run(lab, "--out", str(lab / "out"))
+    assert REPORT in with_report and with_report & DRAWING == set()
 
 
 @pytest.mark.slow

@@ -13,9 +13,9 @@ from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.noise import Noise
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
-from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.known_facts import KnownFact, format_evidence, format_unverified
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
@@ -50,11 +50,13 @@ def force_of(execution: Execution[SimulatedCell]) -> KnownFact:
     return found
 
 
-class Biased:
-    """In place of the noise of a wrist: a constant error of the force along the axis of the sensor."""
+def bias(noise: Noise) -> None:
+    """In place of the noise of a wrist let there be a constant error of the force along the axis of the sensor."""
 
-    def row(self) -> Array:
-        return np.array([0.0, 0.0, BIAS_N, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    def draw() -> None:
+        noise.rows[:], noise.used[0] = np.array([0.0, 0.0, BIAS_N, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]), 0.0
+
+    noise.draw = draw  # type: ignore[method-assign]
 
 
 @pytest.mark.parametrize(("task", "wanted"), [("clean_whiteboard", "8 N"), ("clean_desk", "10 N")])
@@ -73,7 +75,7 @@ def test_a_wrist_that_reads_a_newton_too_much_verifies_nothing() -> None:
     prepared, cell = start("clean_whiteboard")
     (arm,) = cell.arms.values()
     assert arm._wrist is not None
-    arm._wrist._noise = Biased()  # type: ignore[assignment]
+    bias(arm._wrist._noise)
     ended = execute_task(prepared, library(), cell)
     assert ended.status == "succeeded" and ended.verified is False
     assert format_unverified(force_of(ended)) == (
