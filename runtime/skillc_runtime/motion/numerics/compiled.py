@@ -75,7 +75,7 @@ class _Compiled(partial[Any]):
 
     def compile_now(self) -> MachineCode:
         """Compile the function, or load it, unless that was done."""
-        with _lock:  # a thread that waits finds what the other one has compiled
+        with _lock:  # wait ends: when another thread has compiled what it calls
             if self.code is None:
                 self.code = _make(self.__wrapped__)
                 self.call_from_now_on(_flattening(self.__wrapped__, self.code.call))
