@@ -116,7 +116,7 @@ class Plant(SimulatedCell):
             self.wall.step(self.now)
         self._grip_what_is_touched()
         self._offer()
-        self._move_devices(self.now)
+        self.steps_without_control.run(self.now, 1)
 
     def _offer(self) -> None:
         """Keep what a person holds where the fingers close, upright along them, until they have it."""
