@@ -92,9 +92,9 @@ class Plant(SimulatedCell):
         hand = self.hand
         assert hand is not None
         if not thing and self._offered:
-            hand._place(self._offered)[:3] = AWAY
             if hand.carries is not None:
                 hand.lose()
+            hand._place(self._offered)[:3] = AWAY
         self._offered = thing
 
     def put_wall(self, gap_m: float) -> Array:
