@@ -27,7 +27,7 @@ SCENE = "iiwa_table"
 KINDS = ("MoveLinear", "MoveJoints", "ReleaseAxis", "Pushing", "OverlayCircle", "ThreeFingerGripper")
 """The primitives that scripted skills use, in turn."""
 
-CREEP_RAD = 0.01
+CREEP_RAD = 0.005
 """How far a joint that is held may go on in 0.3 s: the compliant arm follows its reference, which rests, with a lag."""
 
 
