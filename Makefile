@@ -49,8 +49,9 @@ demo: .venv/.runtime ## run the demo: two robots wipe two surfaces with one skil
 test: .venv/.dev .venv/.studio ## run the fast tests
 	$(BIN)/pytest -n 2 --dist worksteal
 
+# These wait more than they compute, so four processes keep two cores busy.
 slow: .venv/.dev .venv/.studio ## run the tests that take more than a second, and those of whole cells and servers
-	$(BIN)/pytest -m "slow and not (browser or reasoner or robot or sim or wheel)" -n 2 --dist worksteal
+	$(BIN)/pytest -m "slow and not (browser or reasoner or robot or sim or wheel)" -n 4 --dist worksteal
 
 check: .venv/.dev ## check style, types and import rules
 	$(BIN)/ruff check .
@@ -65,7 +66,7 @@ reasoners: .venv/.dev ## check ontology, scenes, descriptions and domains with t
 	$(BIN)/pytest -m reasoner -n 2
 
 sim: .venv/.dev  ## run whole tasks in simulation; those that take minutes are in make soak
-	$(BIN)/pytest -m "sim and not (long or robot)" -n 2 --dist worksteal
+	$(BIN)/pytest -m "sim and not (long or robot)" -n 4 --dist worksteal
 
 # A machine that stands still for a second ends what has to keep time, so what fails is run once more.
 ROBOTS = -m "robot and not long"
