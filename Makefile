@@ -49,7 +49,7 @@ demo: .venv/.runtime ## run the demo: two robots wipe two surfaces with one skil
 test: .venv/.dev .venv/.studio ## run the fast tests
 	$(BIN)/pytest -n 2 --dist worksteal
 
-# These wait more than they compute, so four processes keep two cores busy.
+# Slow tests, and simulations below, also wait: four processes of them keep two cores busy.
 slow: .venv/.dev .venv/.studio ## run the tests that take more than a second, and those of whole cells and servers
 	$(BIN)/pytest -m "slow and not (browser or reasoner or robot or sim or wheel)" -n 4 --dist worksteal
 

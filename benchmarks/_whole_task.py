@@ -24,6 +24,7 @@ from skillc_runtime.execution.assignment import AchieveGoal, Assignment, Prepare
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.mcap.contents import RunContents
 from skillc_runtime.recording.mcap.recording_file import RecordingFile
+from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 
@@ -46,9 +47,11 @@ def run_recorded(
         recording = RecordingFile(Path(folder) / "run.mcap", lambda: RunContents({}), make_recorded_cell(cell))
         began = process_time()
         recording.sample()
-        execute_task(prepared, library, cell, [recording])
+        execute_task(prepared, library, cell, [Publisher(task, [recording])])
         recording.close()
-        return cell, process_time() - began
+        cpu_s = process_time() - began
+        assert recording.problem is None, recording.problem
+        return cell, cpu_s
 
 
 def main(library: str, task: str) -> None:
