@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterable
 from importlib import import_module
+from importlib.util import find_spec
 from types import ModuleType
+from typing import Any
 
 VARIABLE = "SKILLC_MODULES"
 """The environment variable that lists the only modules that may be imported here, separated by commas."""
@@ -24,3 +27,21 @@ def import_named(module: str) -> ModuleType:
 def make_environment(modules: Iterable[str]) -> dict[str, str]:
     """Return the variable for a process that may import only these modules, and so may those that it starts."""
     return {VARIABLE: ",".join(modules)}
+
+
+def defer_import(name: str) -> None:
+    """Have a module that others import executed only when one of its names is first used; nothing if it is not there.
+
+    For what a library imports and hardly anybody uses. `importlib.util.LazyLoader` executes it at the second import.
+    """
+    if name in sys.modules or find_spec(name) is None:
+        return
+    placeholder = ModuleType(name)
+
+    def find(attribute: str) -> Any:
+        if sys.modules.get(name) is placeholder:
+            del sys.modules[name]
+        return getattr(import_module(name), attribute)
+
+    vars(placeholder)["__getattr__"] = find
+    sys.modules[name] = placeholder
