@@ -17,7 +17,7 @@ from skillc_runtime.backends.simulation.observer import Carrier
 from skillc_runtime.backends.simulation.parts import HeldTool
 from skillc_runtime.backends.simulation.saved_cell import read_scene_again
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
-from skillc_runtime.backends.simulation.steps import InPython, OnMemory
+from skillc_runtime.backends.simulation.steps import ForItself, OnMemory
 from skillc_runtime.backends.simulation.variation import Variation, draw_variation
 from skillc_runtime.devices.backend import BackendStart
 from skillc_runtime.motion.numerics.program import Part
@@ -102,7 +102,7 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
             yield SlipWatch(gripper)
         for arm, gripper in self._hands.items():
             yield OnMemory(gripper.may_be_lost, partial(self._look_for_loss, arm))
-        yield InPython(self._drive, self._bases_rest)
+        yield ForItself(self._drive, self._bases_rest)
         yield HalfStep(self.physics, "mj_step1")
         yield DivergenceWatch(self.physics)
 

@@ -19,13 +19,14 @@ class HalfStep:
         """The function of MuJoCo, and what shows its results."""
         return self._physics.find_rows(self._half)
 
-    def step(self, now: float) -> None:
+    def step(self, now: float) -> bool:
         """Run it."""
         match self._half:
             case "mj_step1":
                 self._physics.compute_places()
             case "mj_step2":
                 self._physics.move()
+        return True
 
     def act(self, events: int, now: float) -> bool:
         """Do nothing: it tells of nothing."""
@@ -43,9 +44,9 @@ class DivergenceWatch:
         """The function that looks for warnings."""
         return self._physics.monitor.rows
 
-    def step(self, now: float) -> None:
+    def step(self, now: float) -> bool:
         """Raise SimulationDiverged if there are any."""
-        self._physics.monitor.step(now)
+        return self._physics.monitor.step(now)
 
     def act(self, events: int, now: float) -> bool:
         """Raise SimulationDiverged."""
@@ -63,12 +64,12 @@ class SlipWatch:
         """The function that tells when that has to be looked at."""
         return self._hand.slip_rows
 
-    def step(self, now: float) -> None:
-        """Look at it if it is time."""
+    def step(self, now: float) -> bool:
+        """Look at it if it is time; tell whether it slips."""
         if self._hand.carries is not None and self._hand.slips(now):
             self._hand.lose()
+        return self._hand.carries is None
 
     def act(self, events: int, now: float) -> bool:
-        """Look at it; tell whether it slips."""
-        self.step(now)
-        return self._hand.carries is None
+        """Look at it."""
+        return self.step(now)

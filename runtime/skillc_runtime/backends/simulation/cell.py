@@ -32,7 +32,7 @@ from skillc_runtime.backends.simulation.person import make_people
 from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
 from skillc_runtime.backends.simulation.saved_cell import read_posture, restore_cell, save_cell
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
-from skillc_runtime.backends.simulation.steps import Due, InPython, OnMemory, Steps, is_due
+from skillc_runtime.backends.simulation.steps import Due, ForItself, InPython, OnMemory, Steps, is_due
 from skillc_runtime.backends.simulation.stops import SimulatedStops
 from skillc_runtime.backends.simulation.touch_recorder import TouchRecorder
 from skillc_runtime.backends.simulation.truth import SimulatedTruth
@@ -324,7 +324,7 @@ class ModelledCell(ABC, Generic[A, G]):
         for arm in self.arms.values():
             yield arm.motors
         yield InPython(self._step_people, lambda: not self.people)
-        yield InPython(self.disturber.step, lambda: not self.disturber.acts)
+        yield ForItself(self.disturber.step, lambda: not self.disturber.acts)
 
     def _watch(self, events: int, now: float) -> bool:
         if self.watchdog.expired(now):

@@ -185,10 +185,10 @@ class Motors(ABC):
         """The function that sets the actuators."""
         return row_of(self._drive)
 
-    def step(self, now: float) -> None:
+    def step(self, now: float) -> bool:
         """Set the actuators for one step of the simulation."""
-        if events := self._drive(now):
-            self.act(events, now)
+        events = self._drive(now)
+        return events != 0 and self.act(events, now)
 
     def act(self, events: int, now: float) -> bool:
         """Hold still: commands have stopped."""

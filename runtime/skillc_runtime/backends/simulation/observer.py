@@ -183,8 +183,8 @@ class ToolObserver:
         return False
 
     def _sample_joints(self, time: float, carrier: Carrier) -> None:
-        motion = carrier.driver.motion
-        self.recorder.sample_reference(time, motion.reference, motion.path, self._greatest)
+        reference = carrier.driver.motion.reference  # which is its own path while joints move
+        self.recorder.sample_reference(time, reference, reference, self._greatest)
 
     def _follow(self, carrier: Carrier) -> None:
         if carrier is not self._carrier:

@@ -34,18 +34,20 @@ class ControlledArm:
             self._found = state, join(begin, arm.measuring, control, arm.taking(driver.values))
         return self._found[1]
 
-    def step(self, now: float) -> None:
+    def step(self, now: float) -> bool:
         """Run the period."""
+        before = self._found[1]
         if not self._is_lost():
             self._driver.step(now)
+        return self.rows is not before
 
     def act(self, events: int, now: float) -> bool:
-        """Do what is left of the period."""
+        """Do what is left of the period; what it does to other parts follows from what the arm follows now."""
         if events == NOT_READY:
-            self._driver.step(now)
-        else:
-            self._driver.act(events)
-        return True
+            return self.step(now)
+        before = self._found[1]
+        self._driver.act(events)
+        return self.rows is not before
 
 
 class Listening:
@@ -60,10 +62,11 @@ class Listening:
         parts = self._find()
         return IDLE if not parts else parts[0].rows if len(parts) == 1 else None
 
-    def step(self, now: float) -> None:
+    def step(self, now: float) -> bool:
         """Let all take part."""
         for part in tuple(self._find()):
             part.step(now)
+        return True
 
     def act(self, events: int, now: float) -> bool:
         """Do what the only one asks for, if it still takes part."""
@@ -82,10 +85,11 @@ class HeldTool:
         observer = self._observer
         return IDLE if observer is None else observer.rows(self._carrier)
 
-    def step(self, now: float) -> None:
+    def step(self, now: float) -> bool:
         """Observe it."""
         if (observer := self._observer) is not None:
             observer.sample(now, self._carrier)
+        return True
 
     def act(self, events: int, now: float) -> bool:
         """Do what observing asks for."""

@@ -43,10 +43,10 @@ class OnMemory:
         """The function."""
         return row_of(self._compute)
 
-    def step(self, now: float) -> None:
+    def step(self, now: float) -> bool:
         """Compute, and act if asked to."""
-        if events := self._compute(now):
-            self.act(events, now)
+        events = self._compute(now)
+        return events != 0 and self.act(events, now)
 
     def act(self, events: int, now: float) -> bool:
         """Do nothing."""
@@ -77,14 +77,24 @@ class InPython:
         """Nothing while it is idle."""
         return IDLE if self._is_idle() else None
 
-    def step(self, now: float) -> None:
+    def step(self, now: float) -> bool:
         """Do it."""
         if not self._is_idle():
             self._step(now)
+        return True
 
     def act(self, events: int, now: float) -> bool:
         """Do nothing: no function asks for it."""
         return False
+
+
+class ForItself(InPython):
+    """As `InPython`, but what it does changes the rows of no other part."""
+
+    def step(self, now: float) -> bool:
+        """Do it; tell whether it has nothing to do now."""
+        super().step(now)
+        return self._is_idle()
 
 
 class Steps:
@@ -123,9 +133,7 @@ class Steps:
             while events := self._run():
                 number = self._owners[int(cursor[program.ROW])]
                 part, now = self._parts[number], float(cursor[program.NOW])
-                if events == ASKS_PYTHON:
-                    part.step(now)
-                if events == ASKS_PYTHON or part.act(events, now):
+                if part.step(now) if events == ASKS_PYTHON else part.act(events, now):
                     self._write()
                 cursor[program.ROW] = self._starts[number + 1]
         finally:

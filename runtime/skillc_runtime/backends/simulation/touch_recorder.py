@@ -97,10 +97,10 @@ class TouchRecorder(OnMemory):
         self._follow()
         return super().rows
 
-    def step(self, now: float) -> None:
+    def step(self, now: float) -> bool:
         """Look at the contacts of the step that begins at `now` s, if they may have changed."""
         self._follow()
-        super().step(now)
+        return super().step(now)
 
     def act(self, events: int, now: float) -> bool:
         """Look at the contacts of the step that begins at `now` s, once their forces are computed."""

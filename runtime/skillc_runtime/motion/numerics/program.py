@@ -35,8 +35,8 @@ class Part(Protocol):
         """What it computes in a step, as things are now; None if only Python can do it."""
         ...
 
-    def step(self, now: float) -> None:
-        """Do all of it for the step that begins at `now`."""
+    def step(self, now: float) -> bool:
+        """Do all of it for the step that begins at `now`; tell whether any `rows` may be others now."""
         ...
 
     def act(self, events: int, now: float) -> bool:

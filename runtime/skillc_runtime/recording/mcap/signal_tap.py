@@ -148,11 +148,11 @@ class SignalTap:
         self._find_places()
         return row_of(self._copy)
 
-    def step(self, now: float) -> None:
+    def step(self, now: float) -> bool:
         """Copy the signals of one control period."""
         self._find_places()
-        if events := self._copy(now):
-            self.act(events, now)
+        events = self._copy(now)
+        return events != 0 and self.act(events, now)
 
     def act(self, events: int, now: float) -> bool:
         """Sample poses, and copy the signals."""
