@@ -83,6 +83,13 @@ WRONG = {
         "impossible-relation",
         2,
     ),
+    "both alternatives apart from the domain above": (
+        ABOVE + "t:D a owl:Class ; rdfs:subClassOf t:B . t:r a owl:ObjectProperty ; rdfs:domain t:A .\n"
+        "t:s a owl:ObjectProperty ; rdfs:domain [ owl:unionOf ( t:D [ owl:intersectionOf ( t:B t:C ) ] ) ] ;\n"
+        " rdfs:subPropertyOf t:r .",
+        "impossible-relation",
+        4,
+    ),
     "two domains apart": (
         ABOVE + "t:s a owl:ObjectProperty ; rdfs:domain\n t:A, t:B .",
         "impossible-relation",
@@ -105,6 +112,18 @@ SOUND = {
     "an alternative that fits": ABOVE
     + "t:r a owl:ObjectProperty ; rdfs:domain [ a owl:Class ; owl:unionOf ( t:A t:C ) ] .\n"
     "t:s a owl:ObjectProperty ; rdfs:domain t:B ; rdfs:subPropertyOf t:r .",
+    "an alternative that is an expression": ABOVE
+    + "t:r a owl:ObjectProperty ; rdfs:domain [ a owl:Class ; owl:unionOf ( t:A [ owl:intersectionOf ( t:B "
+    "[ owl:complementOf t:C ] ) ] ) ] .\nt:s a owl:ObjectProperty ; rdfs:domain t:B ; rdfs:subPropertyOf t:r .",
+    "an alternative of which nothing is known": ABOVE
+    + "t:r a owl:ObjectProperty ; rdfs:range [ a owl:Class ; owl:unionOf ( t:A [ owl:complementOf t:C ] ) ] .\n"
+    "t:s a owl:ObjectProperty ; rdfs:range t:B ; rdfs:subPropertyOf t:r .",
+    "anything as an alternative": ABOVE
+    + "t:r a owl:ObjectProperty ; rdfs:range [ a owl:Class ; owl:unionOf ( t:A owl:Thing ) ] .\n"
+    "t:s a owl:ObjectProperty ; rdfs:range t:B ; rdfs:subPropertyOf t:r .",
+    "a union of itself": ABOVE
+    + "t:r a owl:ObjectProperty ; rdfs:range _:u . _:u a owl:Class ; owl:unionOf ( t:A _:u ) .\n"
+    "t:s a owl:ObjectProperty ; rdfs:range t:B ; rdfs:subPropertyOf t:r .",
     "texts twice": "t:p a owl:DatatypeProperty ; rdfs:range xsd:string, rdfs:Literal .",
 }
 

@@ -54,9 +54,23 @@ def relation(dice: random.Random, one: int, single: bool) -> Iterator[str]:
     yield from (f"g:r{one} a owl:{kind}Property ." for kind in kinds if dice.random() < 0.2)
     for predicate in ("rdfs:domain", "rdfs:range"):
         if dice.random() < 0.5:
-            yield f"g:r{one} {predicate} g:C{dice.randrange(CLASSES)} ."
+            yield f"g:r{one} {predicate} {end(dice, single)} ."
     if one and dice.random() < 0.4:
         yield f"g:r{one} {dice.choice(('rdfs:subPropertyOf', 'owl:inverseOf'))} g:r{dice.randrange(one)} ."
+
+
+def end(dice: random.Random, single: bool) -> str:
+    """Return a domain or range; with `single`, it may be an expression."""
+    first, second, third = (f"g:C{dice.randrange(CLASSES)}" for _ in range(3))
+    part = dice.choice(
+        (
+            f"[ a owl:Class ; owl:complementOf {second} ]",
+            f"[ a owl:Class ; owl:intersectionOf ( {second} [ a owl:Class ; owl:complementOf {third} ] ) ]",
+            second,
+        )
+    )
+    union = f"[ a owl:Class ; owl:unionOf ( {first} {part} ) ]"
+    return dice.choice((first, union, part)) if single else first
 
 
 def ours(text: str) -> set[str]:

@@ -14,10 +14,13 @@ import pyoxigraph as ox
 
 from skillc_rdf.vocabulary.graph import Graph, Node
 from skillc_rdf.vocabulary.iris import EQUAL_CLASS, OWL, SUBCLASS
+from skillc_rdf.vocabulary.types import THING
 
 AT_LEAST = tuple(
     f"{OWL}{name}" for name in ("minCardinality", "cardinality", "minQualifiedCardinality", "qualifiedCardinality")
 )
+MOST_PARTS = 100
+"""The most anonymous parts of a domain or range that are read; a larger one restricts nothing."""
 _COUNT = re.compile(r"[0-9]{1,9}")
 
 
@@ -65,12 +68,36 @@ def subclasses(graph: Graph, cls: str) -> set[str]:
 
 
 def alternatives(graph: Graph, iri: str, predicate: str) -> tuple[str, ...]:
-    """Return the classes of a domain or range: named ones and members of unions, sorted."""
-    found = set(graph.iris(iri, predicate))
-    for node in graph.objects(iri, predicate):
-        heads = graph.objects(node, f"{OWL}unionOf") if isinstance(node, ox.BlankNode) else ()
-        found |= {m.value for head in heads for m in graph.members(head) if isinstance(m, ox.NamedNode)}
-    return tuple(sorted(found))
+    """Return the classes of a domain or range, sorted: each subject or object is of one of them.
+
+    Of an intersection, one of its classes counts. A union with a member of which no class is known restricts nothing.
+    """
+    found = (_containing(graph, node, {}) for node in graph.objects(iri, predicate))
+    return tuple(sorted(frozenset[str]().union(*(each or () for each in found))))
+
+
+def _containing(graph: Graph, node: Node, known: dict[Node, frozenset[str] | None]) -> frozenset[str] | None:
+    """Return classes that together contain an expression; None if none but `owl:Thing` are known to.
+
+    `known` has the expressions around it and their parts: a shared part is read once, one that contains itself ends.
+    """
+    if isinstance(node, ox.NamedNode):
+        return None if node.value == THING else frozenset({node.value})
+    if isinstance(node, ox.BlankNode) and node not in known and len(known) < MOST_PARTS:
+        known[node] = None
+        known[node] = _containing_parts(graph, node, known)
+    return known.get(node)
+
+
+def _containing_parts(graph: Graph, node: Node, known: dict[Node, frozenset[str] | None]) -> frozenset[str] | None:
+    for head in graph.objects(node, f"{OWL}unionOf"):
+        members = [_containing(graph, member, known) for member in graph.members(head)]
+        named = [each for each in members if each is not None]
+        return frozenset[str]().union(*named) if len(named) == len(members) else None
+    for head in graph.objects(node, f"{OWL}intersectionOf"):
+        parts = (_containing(graph, member, known) for member in graph.members(head))
+        return next((each for each in parts if each is not None), None)
+    return None
 
 
 def required_values(graph: Graph, cls: str) -> Iterator[RequiredValue]:
