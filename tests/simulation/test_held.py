@@ -112,7 +112,9 @@ def mean_pull(there: SimulatedCell, scene: str) -> Array:
     pulls = []
     for _ in range(20):
         there.advance(0.005)
-        pulls.append(there.gripper(GRIPPER[scene])._pull())
+        hand = there.gripper(GRIPPER[scene])
+        pull = there.physics.pull_on(ERASER)
+        pulls.append(hand._pull_of_weld() if pull is None else pull.force.copy())
     return np.mean(pulls, axis=0)
 
 

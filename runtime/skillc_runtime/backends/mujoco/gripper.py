@@ -9,7 +9,7 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.mujoco.grip import Grip, make_grip
+from skillc_runtime.backends.mujoco.grip import IS_DUE, SLIPS, Grip, make_grip
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.pressing_force import pressing_force
 from skillc_runtime.backends.simulation.arm import ModelledArm
@@ -18,8 +18,7 @@ from skillc_runtime.backends.simulation.finger_sensor import make_finger_sensor
 from skillc_runtime.backends.simulation.gripper import LossWatch, ModelledGripper, may_be_lost
 from skillc_runtime.backends.simulation.names import part_name, weld_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
-from skillc_runtime.motion.numerics.compiled import bind
-from skillc_runtime.motion.numerics.program import IDLE, Rows, row_of
+from skillc_runtime.motion.numerics.compiled import Bound, bind
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.world.space.bodies import RigidBody
 
@@ -42,6 +41,7 @@ class SimulatedGripper(ModelledGripper):
         model, data, self._physics = physics.model, physics.data, physics
         sensor = make_finger_sensor(facts, seed)
         super().__init__(facts, names, things, arm, model, data, physics.contacts, sensor)
+        self._palm_axes: Array = data.xmat[self._palm].reshape(3, 3)
         self._length = data.actuator_length[self._actuator : self._actuator + 1]
         self._speed = data.actuator_velocity[self._actuator : self._actuator + 1]
         self._data.ctrl[self._actuator] = self._target = self._goal
@@ -122,18 +122,22 @@ class SimulatedGripper(ModelledGripper):
         weight_n = float(self._model.body_subtreemass[block] * np.linalg.norm(self._model.opt.gravity))
         return self._grip is not None and weight_n <= self._grip.bears_n
 
-    def slips(self, now: float) -> bool:
-        """Tell whether more pulls at the carried object than friction bears.
-
-        To be called in each step, between `mj_step2` and the next `mj_step1`.
-        """
-        palm = self._data.xmat[self._palm].reshape(3, 3)
-        return self._grip is not None and self._grip.is_overloaded(now, palm, self._pull)
-
     @property
-    def slip_rows(self) -> Rows | None:
-        """The function that tells when the load on the grasp has to be looked at; none without a grasp."""
-        return IDLE if self._grip is None else row_of(self._grip.is_due)
+    def load_watch(self) -> Bound[[float], int] | None:
+        """What looks at the load on a grasp in each step; None without one. `loses` says what its bits mean."""
+        if self._grip is None:
+            return None
+        pull = self._physics.pull_on(self._carried)
+        return self._grip.is_due if pull is None else self._grip.watch(self._palm_axes, pull)
+
+    def loses(self, events: int, now: float) -> bool:
+        """Tell whether more pulls at the carried object than friction bears, of what looking at the load has found.
+
+        To be called between `mj_step2` and the next `mj_step1`.
+        """
+        if events == IS_DUE and self._grip is not None:
+            return self._grip.slips(now, self._palm_axes, self._pull_of_weld())
+        return events == SLIPS
 
     def _limit(self, force_n: float) -> None:
         """Limit the force of the fingers."""
@@ -145,7 +149,7 @@ class SimulatedGripper(ModelledGripper):
         if grip is None:
             force = abs(float(self._data.actuator_force[self._actuator]))
             normals, friction = self._contacts_with(thing)
-            self._grip = make_grip(self._data.xmat[self._palm].reshape(3, 3), normals, friction, force)
+            self._grip = make_grip(self._palm_axes, normals, friction, force)
         else:
             self._grip = Grip(np.array(grip.pressing), grip.force_n, grip.bears_n)
         row, turn = self._model.eq_data[equality], quaternion_from_rotation(in_palm.rotation)
@@ -160,11 +164,6 @@ class SimulatedGripper(ModelledGripper):
     def _weld(self, thing: str) -> int:
         """Return the number of the weld that holds a thing."""
         return int(self._model.equality(weld_name(self._name, self._names[thing])).id)
-
-    def _pull(self) -> Array:
-        """Return the force (3,) in N, world axes, of the hand on what is carried, in the last step."""
-        force = self._physics.pull_on(self._carried)
-        return self._pull_of_weld() if force is None else force
 
     def _pull_of_weld(self) -> Array:
         """Return the force (3,) in N of the weld; 0 before it acts."""

@@ -9,7 +9,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
-import mujoco
 import numpy as np
 
 from skillc_runtime.backends.mujoco.exchange import (
@@ -27,11 +26,27 @@ from skillc_runtime.backends.mujoco.exchange import (
 from skillc_runtime.backends.mujoco.held_load import Held, make_held, take_off_load
 from skillc_runtime.backends.mujoco.model_map import ModelMap
 from skillc_runtime.backends.simulation.machine_code import address_of, address_of_time
-from skillc_runtime.motion.arrays import Vector
-from skillc_runtime.motion.numerics.compiled import Bound, bind, compiled
+from skillc_runtime.motion.arrays import Integers, Vector
+from skillc_runtime.motion.numerics.compiled import Bound, bind, compiled, inlined
 from skillc_runtime.motion.numerics.copying import Copies, copy, copy_pieces
 from skillc_runtime.motion.numerics.places import call_entry
-from skillc_runtime.motion.pose import Array
+
+
+@dataclass(frozen=True, slots=True)
+class Pull:
+    """The force (3,) in N, world axes, of a hand on what is held, in the step after which it was computed last.
+
+    called (1, 3): the addresses of MuJoCo's function, of the model and of its data.
+    """
+
+    force: Vector
+    called: Integers
+
+
+@inlined
+def measure_pull(pull: Pull) -> None:
+    """Compute the force."""
+    call_entry(pull.called[0, 0], pull.called[0, 1], pull.called[0, 2])
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +80,7 @@ class Mirror:
     """Steps the tight model, and shows its state in the data of the free one.
 
     `blocks` are the outermost bodies of what is held, in the free model. `halves` run half a step each; `take_changes`
-    puts all where it is in the free data.
+    puts all where it is in the free data; `pulls` are those on the blocks.
     """
 
     def __init__(
@@ -87,12 +102,8 @@ class Mirror:
             "mj_step2": bind(run_half, HalfStep(copies(*forces), second, moved, nothing)),
         }
         self.take_changes = bind(copy, copies(taken(rows, CHANGES, free, tight)))
-
-    def pull_on(self, block: int) -> Array:
-        """Return the force (3,) in N, world axes, of the hand on what is held, in the last step."""
-        mujoco.mj_rnePostConstraint(self.tight_model, self.tight)
-        force: Array = self.tight.cfrc_int[self.rows.bodies[block], 3:].copy()
-        return force
+        called = np.array([[address_of("mj_rnePostConstraint"), tight_model._address, tight._address]])
+        self.pulls = [Pull(tight.cfrc_int[rows.bodies[block], 3:], called) for block in blocks]
 
 
 def _find_place(rows: ModelMap, block: int, free_model: Any, free: Any, tight: Any) -> Iterator[Piece]:

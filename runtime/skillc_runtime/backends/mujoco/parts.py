@@ -5,7 +5,7 @@ from __future__ import annotations
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
 from skillc_runtime.backends.mujoco.mirror import Half
 from skillc_runtime.backends.mujoco.physics import Physics
-from skillc_runtime.motion.numerics.program import Rows
+from skillc_runtime.motion.numerics.program import IDLE, Rows, row_of
 
 
 class HalfStep:
@@ -61,15 +61,19 @@ class SlipWatch:
 
     @property
     def rows(self) -> Rows | None:
-        """The function that tells when that has to be looked at."""
-        return self._hand.slip_rows
+        """The function that looks at the load."""
+        watch = self._hand.load_watch
+        return IDLE if watch is None else row_of(watch)
 
     def step(self, now: float) -> bool:
-        """Look at it if it is time; tell whether it slips."""
-        if self._hand.carries is not None and self._hand.slips(now):
-            self._hand.lose()
-        return self._hand.carries is None
+        """Look at the load."""
+        watch = self._hand.load_watch
+        events = 0 if watch is None else watch(now)
+        return events != 0 and self.act(events, now)
 
     def act(self, events: int, now: float) -> bool:
-        """Look at it."""
-        return self.step(now)
+        """Let it slip if that is what was found."""
+        slips = self._hand.loses(events, now)
+        if slips:
+            self._hand.lose()
+        return slips

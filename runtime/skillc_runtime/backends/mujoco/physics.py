@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillc_runtime.backends.mujoco.divergence import DivergenceMonitor
-from skillc_runtime.backends.mujoco.mirror import Half, Mirror
+from skillc_runtime.backends.mujoco.mirror import Half, Mirror, Pull
 from skillc_runtime.backends.mujoco.model_map import map_models
 from skillc_runtime.backends.mujoco.momentum import join, part
 from skillc_runtime.backends.simulation.contacts import Contacts
@@ -29,7 +29,6 @@ from skillc_runtime.backends.simulation.variation import Variation
 from skillc_runtime.backends.simulation.whole_mass import WholeMass
 from skillc_runtime.motion.numerics.compiled import COMPILES
 from skillc_runtime.motion.numerics.program import Rows, row_of
-from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.data_sheet import SheetError
 
 
@@ -46,6 +45,7 @@ class Physics:
     """Whether what is held becomes a part of the hand: if there is one hand, and functions are compiled."""
     _holders: dict[str, str] = field(default_factory=dict)
     _mirror: Mirror | None = None
+    _pulls: dict[str, Pull] = field(default_factory=dict)
     _is_due: bool = False
     monitor: DivergenceMonitor = field(init=False)
     """Watches the model that is stepped."""
@@ -118,12 +118,9 @@ class Physics:
         if self._mirror is not None:
             self._mirror.take_changes()
 
-    def pull_on(self, thing: str) -> Array | None:
-        """Return the force (3,) in N, world axes, of a hand on a thing that is a part of it, in the last step.
-
-        None if it is none.
-        """
-        return None if self._mirror is None or thing not in self._holders else self._mirror.pull_on(self._block(thing))
+    def pull_on(self, thing: str) -> Pull | None:
+        """Return what computes the force of a hand on a thing that is a part of it; None if it is none."""
+        return self._pulls.get(thing)
 
     def find_bodies(self, bodies: list[int]) -> list[int]:
         """Return the numbers of bodies in the model with which contacts are computed."""
@@ -147,11 +144,12 @@ class Physics:
         rows.renew(self.model, model)
         join(rows, self.model, self.data, model, data, blocks)
         self._mirror = Mirror(rows, self.model, self.data, model, data, list(blocks))
+        self._pulls = dict(zip(self._holders, self._mirror.pulls, strict=True))
         self._step_with(model, data, np.argsort(rows.geoms))
 
     def _loosen(self) -> None:
         """Go on with the model of the cell."""
-        mirror, self._mirror = self._mirror, None
+        mirror, self._mirror, self._pulls = self._mirror, None, {}
         if mirror is not None:
             part(mirror.rows, self.model, self.data, mirror.tight_model, mirror.tight, self._blocks(mirror.blocks))
             mujoco.mj_step1(self.model, self.data)
