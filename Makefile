@@ -36,7 +36,7 @@ OPERATIONS := 600
 # How many random mistakes `make mistakes` makes in the shipped and in other libraries: one, two and three at once.
 EDITS := 10000
 
-.PHONY: help demo test slow check reasoners sim robots browser wheel fuzz mistakes soak peers bench editors studio docs pictures accept pin lock clean
+.PHONY: help demo test slow check reasoners sim robots arms nodes browser wheel fuzz mistakes soak peers bench editors studio docs pictures accept pin lock clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -68,11 +68,16 @@ reasoners: .venv/.dev ## check ontology, scenes, descriptions and domains with t
 sim: .venv/.dev  ## run whole tasks in simulation; those that take minutes are in make soak
 	$(BIN)/pytest -m "sim and not (long or robot)" -n 4 --dist worksteal
 
-# A machine that stands still for a second ends what has to keep time, so what fails is run once more.
-ROBOTS = -m "robot and not long"
-robots: .venv/.robots .tools/ros2/.made ## drive robots over the protocols of their makers, against emulators in other processes; none of them is real
-	$(BIN)/pytest $(ROBOTS) --ignore tests/robots/ros2 || $(BIN)/pytest $(ROBOTS) --ignore tests/robots/ros2 --last-failed
-	.tools/ros2/bin/python -m pytest $(ROBOTS) tests/robots/ros2 || .tools/ros2/bin/python -m pytest $(ROBOTS) tests/robots/ros2 --last-failed
+# A machine that stands still for a second ends what has to keep time, so what fails is run once more, by itself.
+ARMS = -m "robot and not long" -o cache_dir=.pytest_cache/arms --ignore tests/robots/ros2
+NODES = -m "robot and not long" -o cache_dir=.pytest_cache/nodes tests/robots/ros2
+robots: arms nodes ## drive robots over the protocols of their makers, against emulators in other processes; none of them is real
+
+arms: .venv/.robots
+	$(BIN)/pytest $(ARMS) -n 2 --dist loadfile || $(BIN)/pytest $(ARMS) --last-failed
+
+nodes: .tools/ros2/.made
+	.tools/ros2/bin/python -m pytest $(NODES) || .tools/ros2/bin/python -m pytest $(NODES) --last-failed
 
 browser: .venv/.dev .venv/.studio ## drive the studio in Chromium; pictures of all tests are kept in out/studio
 	$(BIN)/pytest -m browser tests/studio -n 2 --dist loadfile

@@ -41,9 +41,11 @@ def load_pattern() -> re.Pattern[str]:
 
 
 def build_tables() -> None:
-    """Make the tables and write them beside this file, where installations have them."""
+    """Make the tables and write them beside this file, where installations have them, whoever reads them meanwhile."""
     grammar = grammar_text()
-    BUILT.write_bytes(_digest(grammar) + msgspec.msgpack.encode(_make(grammar)))
+    part = BUILT.with_suffix(".part")
+    part.write_bytes(_digest(grammar) + msgspec.msgpack.encode(_make(grammar)))
+    part.replace(BUILT)
 
 
 def read_built_tables(grammar: str, path: Path) -> Tables | None:
