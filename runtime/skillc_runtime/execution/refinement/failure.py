@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 Cause: TypeAlias = Literal[
-    "out-of-reach", "joint-range", "torque", "in-the-way", "no-path", "no-grasp-or-place", "nothing-fits"
+    "out-of-reach", "joint-range", "torque", "in-the-way", "no-path", "no-grasp-or-place", "no-value", "nothing-fits"
 ]
+"""Why it does not go. After `no-value` nobody knows: it depends on a value that the world model does not have yet."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,8 @@ def plan_in_space(
 ) -> tuple[Answer, PlanRefinement | None]:
     """Return the first plan whose steps all go in space, and how; else the last answer, and what was found before it.
 
-    `plan` plans without some steps, until `cancel` ends it.
+    `plan` plans without some steps, until `cancel` ends it. A plan with a step that depends on a value which only a run
+    will know is returned as it is: nothing is known against it.
     """
     without: list[Excluded] = []
     before: tuple[Answer, PlanRefinement] | None = None
@@ -33,7 +34,9 @@ def plan_in_space(
         if isinstance(answer, Unsolvable | GaveUp):
             return (answer, None) if before is None else (_explain(before[1], state), before[1])
         found = refine_plan(library, state, answer.plan.steps)
-        if found.failed is None or found.before is None or cancel.cancelled_because is not None:
+        if found.failed is None or found.before is None or cancel.reason is not None:
+            return answer, found
+        if found.failure is not None and found.failure.cause == "no-value":
             return answer, found
         why = "no way was found" if found.failure is None else found.failure.message
         excluded = find_excluded(library, found.before, found.failed, why)

@@ -13,6 +13,7 @@ from typing import TypeAlias, assert_never
 from skillc_model import tree
 from skillc_model.conditions import Condition
 from skillc_model.skills import Compound, Implementation, Primitive, SkillLibrary
+from skillc_runtime.cancellation import check_current
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.needs import meet
 from skillc_runtime.execution.refinement.situation import Situation
@@ -24,6 +25,8 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.effects import changes_of
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.grip_force import GraspError
+from skillc_runtime.world.space.no_place import PlaceError
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS, EvaluationError
@@ -56,12 +59,13 @@ class Walk:
     def furthest(self) -> SpaceFailure | None:
         """The failure before which the most went well, the first of these; None if nothing failed.
 
-        That an implementation does not fit counts only if there is no other.
+        A value that is not known counts first: what would have come after it is not known. That an implementation does
+        not fit counts only if as much went well with no other.
         """
-        return max(self.failures, key=lambda each: (each.cause != "nothing-fits", each.depth), default=None)
+        return max(self.failures, key=_rank, default=None)
 
     def go(self, node: tree.Node, here: Situation, scope: Scope) -> Iterator[Situation]:
-        """Yield the situations after a body, the best first."""
+        """Yield the situations after a body, the best first; Cancelled as `cancellation.cancelling` says."""
         match node:
             case tree.Sequence(children=children):
                 yield from self._in_order(children, here, scope)
@@ -118,7 +122,7 @@ class Walk:
         try:
             items = value_of(node.items, here.state, scope.values)
         except EvaluationError as why:
-            self._fail(SpaceFailure("no-grasp-or-place", str(why)), here, scope)
+            self._fail(_without_value(why), here, scope)
             return
         inside = [{**scope.values, node.variable: each} for each in (items if isinstance(items, tuple) else (items,))]
         yield from self._rounds(node.child, inside, here, scope)
@@ -137,7 +141,7 @@ class Walk:
         try:
             arguments = {name: value_of(each, here.state, scope.values) for name, each in call.arguments.items()}
         except EvaluationError as why:
-            self._fail(SpaceFailure("no-grasp-or-place", str(why)), here, inside)
+            self._fail(_without_value(why), here, inside)
             return
         for implementation in ranked_implementations(self.library, call.skill, call.implementation):
             try:
@@ -158,7 +162,7 @@ class Walk:
             for let in implementation.lets:
                 values[let.name] = value_of(let.value, here.state, values)
         except EvaluationError as why:
-            self._fail(SpaceFailure("no-grasp-or-place", str(why)), here, scope)
+            self._fail(_without_value(why), here, scope)
             return
         match implementation.body:
             case Compound(node=node):
@@ -197,6 +201,7 @@ class Walk:
         if not needs:
             yield here
             return
+        check_current()
         self.left -= 1
         if self.left < 0:
             return
@@ -232,3 +237,13 @@ class Walk:
 
     def _fail(self, failure: SpaceFailure, here: Situation, scope: Scope) -> None:
         self.failures.append(replace(failure, depth=len(here.motions), within=scope.within))
+
+
+def _rank(failure: SpaceFailure) -> tuple[bool, int, bool]:
+    return failure.cause == "no-value", failure.depth, failure.cause != "nothing-fits"
+
+
+def _without_value(why: EvaluationError) -> SpaceFailure:
+    """Return the failure of a call one of whose values cannot be computed."""
+    unfit = isinstance(why, GraspError | PlaceError)
+    return SpaceFailure("no-grasp-or-place" if unfit else "no-value", str(why))
