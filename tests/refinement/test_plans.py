@@ -40,6 +40,8 @@ def test_shipped_plans_are_checked_whole(task):
         "unseen": [],
         "chosen": [],
         "failure": None,
+        "stopped": "",
+        "from_home": True,
     }
     assert len(answer["plan"]) >= 2
 

@@ -65,8 +65,8 @@ def _describe_task(event: events.Event) -> Iterator[str]:
             yield f"{describe_disturbance(disturbance)}{f' ({who})' if who else ''}"
         case events.PlanArrived(refused=refused, detail=detail) if refused:
             yield f"no plan: {refused}{f'; {detail}' if detail else ''}"
-        case events.PlanMade(steps=steps, cost=cost, quality=quality):
-            yield f"plan: {' -> '.join(each.skill for each in steps)} (about {cost:.0f} s, {quality})"
+        case events.PlanMade(steps=steps) as plan:
+            yield f"plan: {' -> '.join(each.skill for each in steps)} ({plan.summary})"
         case events.PromptsChanged(prompts=prompts):
             yield from (f"asks: {each.text} ({' | '.join(each.choices)})" for each in prompts)
         case events.Replanned(reason=reason):

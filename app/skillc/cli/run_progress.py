@@ -107,9 +107,9 @@ class RunProgress:
                     self._print(f"{self._title}: stopping: {reason}")
             case Replanned(reason=reason):
                 self._print(f"{self._title}: planning again: {reason}", "warning")
-            case PlanMade(steps=steps, quality=quality, cost=cost):
+            case PlanMade(steps=steps) as plan:
                 calls = " -> ".join(step.skill for step in steps)
-                self._print(f"{self._title}: {calls} (about {cost:.0f} s, {quality})")
+                self._print(f"{self._title}: {calls} ({plan.summary})")
             case PromptsChanged(prompts=prompts) if self._live is None:
                 for each in prompts:
                     self._print(f"{self._title}: asks: {format_prompt(each, event.time)}")

@@ -6,12 +6,14 @@ import json
 from collections.abc import Iterator
 from typing import assert_never
 
+import msgspec
+
 from skillc.services.planning import Answer
 from skillc.services.reporting import format_count
-from skillc.services.space_claims import SpaceClaim
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.planning.plan import GaveUp, Solved, Step, Unsolvable, describe_quality
 from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.recording.space_claim import SpaceClaim
 
 NAMED = 3
 """How many of the things that a planner left out are named in text."""
@@ -74,7 +76,7 @@ def _left_out(answer: Solved | Scheduled, loaded: LoadedTask) -> Iterator[str]:
 def plan_as_json(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None = None) -> str:
     """Return one JSON object: status, steps with source lines, optimality, planner, space, or the reason."""
     described = describe_answer(answer, loaded)
-    return json.dumps(described if space is None else {**described, "space": space.data}, indent=2)
+    return json.dumps(described if space is None else {**described, "space": msgspec.to_builtins(space)}, indent=2)
 
 
 def describe_answer(answer: Answer, loaded: LoadedTask) -> dict[str, object]:

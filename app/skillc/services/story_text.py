@@ -88,6 +88,8 @@ def _attempt(attempt: Attempt) -> Iterator[str]:
         proved = f", {quality}" if quality else ""
         count = f"{attempt.planned} step{'' if attempt.planned == 1 else 's'}"
         yield f"plan of {count} by {attempt.planner}{proved}, {attempt.cost:g} s expected"
+        if attempt.space is not None:
+            yield from _indented(attempt.space.text.splitlines())
     for step in attempt.steps:
         yield _line(step)
         yield from _indented(filter(None, [_arguments(step)]), 7)

@@ -19,6 +19,7 @@ from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import DEADLINE_S, solve
+from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -48,11 +49,15 @@ class Assignment:
 
 @dataclass(frozen=True, slots=True)
 class PlannedSteps:
-    """The planner's answer, how its steps are arranged, and the steps in the order of the body."""
+    """The planner's answer, how its steps are arranged, and the steps in the order of the body.
+
+    `space` is what is known of the plan in space, None if nobody has looked.
+    """
 
     solved: Solved
     arrangement: Arrangement
     steps: tuple[Step, ...]
+    space: SpaceClaim | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,12 +139,17 @@ def replan_task(
     return prepared
 
 
-def arrange_prepared(assignment: Assignment, solved: Solved, library: SkillLibrary) -> PreparedTask:
-    """Return an assignment with the body of a plan for it; PlanError if the plan does not work."""
+def arrange_prepared(
+    assignment: Assignment, solved: Solved, library: SkillLibrary, space: SpaceClaim | None = None
+) -> PreparedTask:
+    """Return an assignment with the body of a plan for it; PlanError if the plan does not work.
+
+    `space` is what is known of the plan in space.
+    """
     arrangement = arrange_plan(solved.plan, library, assignment.state)
     steps = tuple(solved.plan.steps[number] for number in step_numbers(arrangement))
     body = build_plan_body(solved.plan, arrangement, library)
-    return PreparedTask(assignment, body, PlannedSteps(solved, arrangement, steps))
+    return PreparedTask(assignment, body, PlannedSteps(solved, arrangement, steps, space))
 
 
 @dataclass(frozen=True, slots=True)

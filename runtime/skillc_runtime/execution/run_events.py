@@ -60,6 +60,7 @@ def make_plan_event(prepared: PreparedTask, library: SkillLibrary, now: float) -
         steps=record_steps(solved.plan, library),
         quality=describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
         arrangement=record_arrangement(prepared.planned.arrangement),
+        space=prepared.planned.space,
     )
 
 
@@ -68,7 +69,7 @@ def make_arrival_event(answer: PreparedTask | NotStarted, library: SkillLibrary,
     if isinstance(answer, NotStarted):
         return PlanArrived(time=now, tick=tick, refused=answer.reason, detail=answer.detail, proved=answer.proved)
     planned = answer.planned
-    plan = None if planned is None else record_plan(planned.solved, planned.arrangement, library)
+    plan = None if planned is None else record_plan(planned.solved, planned.arrangement, library, planned.space)
     return PlanArrived(time=now, tick=tick, plan=plan)
 
 
@@ -77,6 +78,6 @@ def read_arrival(event: PlanArrived, assignment: Assignment, library: SkillLibra
     if event.refused:
         return NotStarted(event.refused, event.detail, event.proved)
     if event.plan is not None:
-        return arrange_prepared(assignment, restore_plan(event.plan), library)
+        return arrange_prepared(assignment, restore_plan(event.plan), library, event.plan.space)
     assert isinstance(assignment.objective, ExecuteBody), "a goal needs a plan"
     return PreparedTask(assignment, assignment.objective.body, None)

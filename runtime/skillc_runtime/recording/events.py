@@ -24,6 +24,7 @@ from skillc_runtime.recording.reasons import (
     WrittenExpression,
 )
 from skillc_runtime.recording.run_spec import RunSpec
+from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
@@ -117,8 +118,8 @@ class StepGroup(msgspec.Struct, frozen=True, omit_defaults=True):
 class ArrivedPlan(msgspec.Struct, frozen=True, kw_only=True):
     """A plan as the planner found it, with its steps in order.
 
-    `arrangement` has each step, by its index in `steps`, where it runs in the body; the other fields are those of
-    `Solved` in `planning.plan`.
+    `arrangement` has each step, by its index in `steps`, where it runs in the body; `space` is what is known of it in
+    space, None if nobody has looked. The other fields are those of `Solved` in `planning.plan`.
     """
 
     planner: str
@@ -129,6 +130,7 @@ class ArrivedPlan(msgspec.Struct, frozen=True, kw_only=True):
     at_least_s: float | None = None
     assumptions: tuple[str, ...] = ()
     arrangement: StepGroup = StepGroup(())
+    space: SpaceClaim | None = None
 
 
 class PlanArrived(_Event, tag="plan-arrived", frozen=True, kw_only=True):
@@ -148,8 +150,8 @@ class PlanArrived(_Event, tag="plan-arrived", frozen=True, kw_only=True):
 class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
     """A planner found a plan; `cost` is its expected duration in s.
 
-    `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds. `arrangement` is
-    as in `ArrivedPlan`.
+    `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds. `arrangement`
+    and `space` are as in `ArrivedPlan`.
     """
 
     planner: str
@@ -158,6 +160,13 @@ class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
     steps: tuple[PlanStep, ...]
     quality: str = ""
     arrangement: StepGroup = StepGroup(())
+    space: SpaceClaim | None = None
+
+    @property
+    def summary(self) -> str:
+        """How long it takes and what is known of it, such as `about 60 s, proved optimal, all 4 checked in space`."""
+        known = (self.quality, "" if self.space is None else self.space.summary)
+        return ", ".join([f"about {self.cost:.0f} s", *filter(None, known)])
 
 
 class PromptsChanged(_Event, tag="prompts-changed", frozen=True, kw_only=True):

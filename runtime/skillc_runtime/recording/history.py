@@ -11,6 +11,7 @@ from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.reasons import Highlight, ParameterReason, UntriedImplementation, WrittenExpression
+from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.labelled import LabelledFact, LabelledIri, LabelledValue
 
 
@@ -121,7 +122,8 @@ class Attempt(_Part, frozen=True, kw_only=True):
     """A plan and its steps in order of time, or those of a body that was given, which has no `planner`.
 
     Steps that were not started come last. `planned` is how many steps the plan has.
-    `quality` is how good the plan is known to be, `replaces` why the previous plan was abandoned.
+    `quality` is how good the plan is known to be, `space` what is known of it in space, None if nobody has looked;
+    `replaces` is why the previous plan was abandoned.
     """
 
     steps: tuple[RecordedCall, ...]
@@ -129,6 +131,7 @@ class Attempt(_Part, frozen=True, kw_only=True):
     planner: str = ""
     optimal: str = ""
     quality: str = ""
+    space: SpaceClaim | None = None
     cost: float | None = None
     replaces: str = ""
 

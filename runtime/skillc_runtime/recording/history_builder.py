@@ -204,6 +204,7 @@ def _make_attempt(record: AttemptRecord, before: int, body: tree.Node | None) ->
         planner=plan.planner if plan is not None else "",
         optimal=plan.optimal if plan is not None else "",
         quality=plan.quality if plan is not None else "",
+        space=plan.space if plan is not None else None,
         cost=plan.cost if plan is not None else None,
         replaces=record.replaces,
     )

@@ -1494,8 +1494,8 @@ export interface components {
          * ArrivedPlan
          * @description A plan as the planner found it, with its steps in order.
          *
-         *         `arrangement` has each step, by its index in `steps`, where it runs in the body; the other fields are those of
-         *         `Solved` in `planning.plan`.
+         *         `arrangement` has each step, by its index in `steps`, where it runs in the body; `space` is what is known of it in
+         *         space, None if nobody has looked. The other fields are those of `Solved` in `planning.plan`.
          */
         ArrivedPlan: {
             planner: string;
@@ -1514,6 +1514,8 @@ export interface components {
              *     }
              */
             arrangement?: components["schemas"]["StepGroup"];
+            /** @default null */
+            space?: components["schemas"]["SpaceClaim"] | null;
         };
         /**
          * PlanStep
@@ -1547,11 +1549,41 @@ export interface components {
             parallel?: boolean;
         };
         /**
+         * SpaceClaim
+         * @description How many steps of a plan go in space, of how many, and why the next does not; None if it does or is not known.
+         *
+         *         unseen: the calls in these steps that were not looked at. chosen: the steps that go only with another posture than
+         *         the one nearest to home. stopped: why the look ended before it was through; empty if it was. from_home: whether the
+         *         arms begin at home; else where they were when the plan was made.
+         */
+        SpaceClaim: {
+            checked: number;
+            steps: number;
+            /** @default [] */
+            unseen?: components["schemas"]["UnseenCall"][];
+            /** @default [] */
+            chosen?: number[];
+            /** @default null */
+            failure?: string | null;
+            /** @default  */
+            stopped?: string;
+            /** @default true */
+            from_home?: boolean;
+        };
+        /**
+         * UnseenCall
+         * @description A call, by the skills around it, of which nobody says what it needs of space, in a step of a plan, from 1.
+         */
+        UnseenCall: {
+            step: number;
+            what: string;
+        };
+        /**
          * PlanMade
          * @description A planner found a plan; `cost` is its expected duration in s.
          *
-         *         `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds. `arrangement` is
-         *         as in `ArrivedPlan`.
+         *         `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds. `arrangement`
+         *         and `space` are as in `ArrivedPlan`.
          */
         PlanMade: {
             /** @enum {unknown} */
@@ -1569,6 +1601,8 @@ export interface components {
              *     }
              */
             arrangement?: components["schemas"]["StepGroup"];
+            /** @default null */
+            space?: components["schemas"]["SpaceClaim"] | null;
         };
         /**
          * PromptsChanged
@@ -2577,15 +2611,16 @@ export interface components {
          *         `cause` is the same with all details, None if the task did not begin; `failed_calls` lead to it, outermost first.
          *
          *         `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
-         *         which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed, and no
-         *         claim is false. `false_claims` are sentences about what the world model claims of things at the end that is not so
-         *         in the simulator. `plan` has the steps that abandoned plans have started, then those of the last plan or of the
-         *         body, in order of time; `planned_steps` is how many the last plan has, `replanned` why the others were abandoned.
-         *         `wipings` has one entry for each time a surface was wiped, `wiping` is the first of them; `placements` has one for
-         *         each thing that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand
-         *         or base. What only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its
-         *         clock. Arms and bases had the share `speed` of their speeds. After a `dry` run `commands` are what would
-         *         have been sent; nothing was sent, all other results are of the simulation, and `verified` is None.
+         *         which problem, `plan_in_space` what is known of it in space, None if nobody has looked. `facts` are those that a
+         *         success rests on; it is `verified` if none of them is only assumed, and no claim is false. `false_claims` are
+         *         sentences about what the world model claims of things at the end that is not so in the simulator. `plan` has the
+         *         steps that abandoned plans have started, then those of the last plan or of the body, in order of time;
+         *         `planned_steps` is how many the last plan has, `replanned` why the others were abandoned. `wipings` has one entry
+         *         for each time a surface was wiped, `wiping` is the first of them; `placements` has one for each thing that was
+         *         moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand or base. What only
+         *         a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its clock. Arms and
+         *         bases had the share `speed` of their speeds. After a `dry` run `commands` are what would have been sent; nothing
+         *         was sent, all other results are of the simulation, and `verified` is None.
          */
         TaskResult: {
             task: string;
@@ -2606,6 +2641,8 @@ export interface components {
             plan_optimal?: boolean | null;
             /** @default  */
             plan_quality?: string;
+            /** @default null */
+            plan_in_space?: components["schemas"]["SpaceClaim"] | null;
             /** @default  */
             planner?: string;
             /** @default [] */

@@ -82,6 +82,7 @@ def _about_plan(attempt: Attempt, number: int) -> dict[str, Leaf]:
         f"reason for plan {number}": attempt.replaces or None,
         f"planner of plan {number}": attempt.planner or None,
         f"quality of plan {number}": attempt.quality or None,
+        f"plan {number} in space": None if attempt.space is None else attempt.space.text,
         f"expected duration of plan {number} in s": attempt.cost,
     }
 

@@ -11,6 +11,7 @@ from skillc_runtime.evaluation.report.work_result import WorkResult
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.history import LoopRound
 from skillc_runtime.recording.known_facts import KnownFact
+from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.recording.states import EndState
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledValue
 
@@ -139,15 +140,16 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     `cause` is the same with all details, None if the task did not begin; `failed_calls` lead to it, outermost first.
 
     `plan_optimal` is None if nothing was planned; `plan_quality` describes how good the plan is known to be, and for
-    which problem. `facts` are those that a success rests on; it is `verified` if none of them is only assumed, and no
-    claim is false. `false_claims` are sentences about what the world model claims of things at the end that is not so
-    in the simulator. `plan` has the steps that abandoned plans have started, then those of the last plan or of the
-    body, in order of time; `planned_steps` is how many the last plan has, `replanned` why the others were abandoned.
-    `wipings` has one entry for each time a surface was wiped, `wiping` is the first of them; `placements` has one for
-    each thing that was moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand
-    or base. What only a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its
-    clock. Arms and bases had the share `speed` of their speeds. After a `dry` run `commands` are what would
-    have been sent; nothing was sent, all other results are of the simulation, and `verified` is None.
+    which problem, `plan_in_space` what is known of it in space, None if nobody has looked. `facts` are those that a
+    success rests on; it is `verified` if none of them is only assumed, and no claim is false. `false_claims` are
+    sentences about what the world model claims of things at the end that is not so in the simulator. `plan` has the
+    steps that abandoned plans have started, then those of the last plan or of the body, in order of time;
+    `planned_steps` is how many the last plan has, `replanned` why the others were abandoned. `wipings` has one entry
+    for each time a surface was wiped, `wiping` is the first of them; `placements` has one for each thing that was
+    moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand or base. What only
+    a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its clock. Arms and
+    bases had the share `speed` of their speeds. After a `dry` run `commands` are what would have been sent; nothing
+    was sent, all other results are of the simulation, and `verified` is None.
     """
 
     task: str
@@ -160,6 +162,7 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     planned_steps: int = 0
     plan_optimal: bool | None = None
     plan_quality: str = ""
+    plan_in_space: SpaceClaim | None = None
     planner: str = ""
     robots: tuple[LabelledIri, ...] = ()
     controllers: tuple[str, ...] = ()

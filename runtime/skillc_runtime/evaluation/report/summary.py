@@ -136,6 +136,7 @@ def _add_history(result: TaskResult, history: RunHistory) -> TaskResult:
         choices=_make_choices(history.calls),
         plan_optimal=last.optimal == "proven" if last.planner else None,
         plan_quality=last.quality,
+        plan_in_space=last.space,
         planner=last.planner,
         replanned=tuple(each.replaces for each in history.attempts[1:]),
         failed_calls=tuple(FailedCall(name=each.name, source=each.source) for each in failed)

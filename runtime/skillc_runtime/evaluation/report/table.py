@@ -96,7 +96,9 @@ def _robot_rows(result: TaskResult) -> list[tuple[str, str]]:
 
 
 def _describe_plan(result: TaskResult) -> str:
-    return f"{result.planned_steps} step{'s' * (result.planned_steps != 1)} by {result.planner}, {result.plan_quality}"
+    steps = f"{result.planned_steps} step{'s' * (result.planned_steps != 1)} by {result.planner}"
+    known = [] if result.plan_in_space is None else [result.plan_in_space.summary]
+    return ", ".join([steps, result.plan_quality, *known])
 
 
 def format_placement(placed: PlacementResult) -> str:

@@ -9,6 +9,7 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries
 from skillc_runtime.planning.plan import LeftOut, Optimal, Plan, Solved, Step
 from skillc_runtime.recording.events import ArrivedPlan, PartLeftOut, PlanStep, StepGroup
+from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.labelled import LabelledIri
 from skillc_runtime.world.state.labelling import label
 
@@ -49,8 +50,13 @@ def restore_arrangement(recorded: StepGroup) -> Arrangement:
     return InParallel(parts) if recorded.parallel else InSeries(parts)
 
 
-def record_plan(solved: Solved, arrangement: Arrangement, library: SkillLibrary) -> ArrivedPlan:
-    """Return a plan for a recording; of what was left out only the kinds and reasons, because it may be a million."""
+def record_plan(
+    solved: Solved, arrangement: Arrangement, library: SkillLibrary, space: SpaceClaim | None = None
+) -> ArrivedPlan:
+    """Return a plan for a recording; of what was left out only the kinds and reasons, because it may be a million.
+
+    `space` is what is known of the plan in space.
+    """
     return ArrivedPlan(
         planner=solved.planner,
         optimal=solved.optimal,
@@ -60,6 +66,7 @@ def record_plan(solved: Solved, arrangement: Arrangement, library: SkillLibrary)
         at_least_s=solved.at_least_s,
         assumptions=solved.assumptions,
         arrangement=record_arrangement(arrangement),
+        space=space,
     )
 
 

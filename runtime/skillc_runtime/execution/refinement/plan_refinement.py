@@ -42,9 +42,14 @@ class PlanRefinement:
     before: Situation | None = None
 
 
-def refine_plan(library: SkillLibrary, state: WorldState, steps: Sequence[Step]) -> PlanRefinement:
-    """Return how the arms carry out steps in order, beginning at home in a version of the world."""
-    return _Refiner(library).refine(tuple(steps), begin_at_home(state))
+def refine_plan(
+    library: SkillLibrary, state: WorldState, steps: Sequence[Step], begin: Situation | None = None
+) -> PlanRefinement:
+    """Return how the arms carry out steps in order, from a situation on: by default at home in a version of the world.
+
+    Cancelled if the work around it ends.
+    """
+    return _Refiner(library).refine(tuple(steps), begin_at_home(state) if begin is None else begin)
 
 
 class _Refiner:

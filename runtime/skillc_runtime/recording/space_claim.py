@@ -1,0 +1,52 @@
+"""What is known of a plan in space: how many of its steps the arms can carry out, and of which that is not known."""
+
+from __future__ import annotations
+
+import msgspec
+
+
+class UnseenCall(msgspec.Struct, frozen=True):
+    """A call, by the skills around it, of which nobody says what it needs of space, in a step of a plan, from 1."""
+
+    step: int
+    what: str
+
+
+class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
+    """How many steps of a plan go in space, of how many, and why the next does not; None if it does or is not known.
+
+    unseen: the calls in these steps that were not looked at. chosen: the steps that go only with another posture than
+    the one nearest to home. stopped: why the look ended before it was through; empty if it was. from_home: whether the
+    arms begin at home; else where they were when the plan was made.
+    """
+
+    checked: int
+    steps: int
+    unseen: tuple[UnseenCall, ...] = ()
+    chosen: tuple[int, ...] = ()
+    failure: str | None = None
+    stopped: str = ""
+    from_home: bool = True
+
+    @property
+    def summary(self) -> str:
+        """The claim as a clause, such as `all 5 checked in space`."""
+        if self.stopped:
+            return f"not checked in space: {self.stopped}"
+        looked = self.checked - len({each.step for each in self.unseen} | {*self.chosen})
+        return f"{f'all {self.steps}' if looked == self.steps else f'{looked} of {self.steps}'} checked in space"
+
+    @property
+    def text(self) -> str:
+        """The claim, with a line for each step that was not looked at or does not go."""
+        if self.stopped:
+            return self.summary
+        begin = "at home" if self.from_home else "where they are"
+        lines = [f"{self.summary}: reach, joints, torques, paths, room; the arms begin {begin}"]
+        lines += (f"step {each.step}: nobody says what {each.what} needs of space" for each in self.unseen)
+        lines += (
+            f"step {number} goes only with another posture than the nearest one to home" for number in self.chosen
+        )
+        if self.failure is not None:
+            lines.append(f"step {self.checked + 1} does not go: {self.failure}")
+        return "\n".join(lines)
