@@ -24,6 +24,7 @@ from skillc_dsl.formatting.formatter import check_layout
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
+from skillc_rdf.vocabulary.conflicts import judge_conflicts
 from skillc_rdf.vocabulary.load import load
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import SceneError
@@ -106,7 +107,8 @@ def with_shop() -> Vocabulary:
 def in_vocabulary(text: str) -> list[str]:
     """Return the names of the problems of a vocabulary."""
     shipped = [Source(path, turtle) for path, turtle in vocabulary_files()]
-    return [d.name for d in load(shipped, [Source("example.ttl", text)]).diagnostics]
+    found = load(shipped, [Source("example.ttl", text)])
+    return [d.name for d in judge_conflicts(found.diagnostics, found.value, {})]
 
 
 def in_scene(text: str) -> list[str]:

@@ -92,13 +92,36 @@ def test_the_environment_names_folders_too_and_the_option_leaves_no_trace(
     assert result.exit_code == 2 and "SKILLC_ONTOLOGY names nowhere" in result.stderr
 
 
-def test_a_contradiction_stops_every_command_at_its_line(library: Path) -> None:
+CART = """plant:Cart a owl:Class ; rdfs:subClassOf skiros:PlacingPose, skiros:Product .
+plant:Trolley a owl:Class ; rdfs:subClassOf plant:Cart . plant:tows a owl:ObjectProperty .
+plant:Towed a owl:Class ; rdfs:subClassOf
+    [ a owl:Restriction ; owl:onProperty plant:tows ; owl:someValuesFrom plant:Cart ] .
+"""
+
+
+@pytest.mark.parametrize("used", ["Cart", "Trolley", "Towed"])
+def test_a_contradiction_in_what_is_used_stops_every_command_at_its_line(library: Path, used: str) -> None:
     with (library / "plant.ttl").open("a") as file:
-        file.write("plant:Cart a owl:Class ; rdfs:subClassOf skiros:PlacingPose, skiros:Product .\n")
+        file.write(CART)
+    (library / "tow.skill").write_text(f"use plant\nskill Tow {{\n    in load: {used}\n    noplan\n}}\n", "utf-8")
     result = run("check", library, "--ontology", "stock", "--json")
+    (conflict,) = [each for each in json.loads(result.stdout) if each["name"] == "impossible-class"]
+    assert {(each["path"], each["line"]) for each in conflict["labels"]} >= {("lib/tow.skill", 3)}
     assert errors(result) == [("impossible-class", "lib/plant.ttl", 6)] and result.exit_code == 1
     assert run("compile", library, "--ontology", "stock", "-o", "out").exit_code == 1
     assert not Path("out").exists()
+
+
+def test_a_contradiction_in_what_is_not_used_is_one_warning_until_it_is_used(library: Path) -> None:
+    with (library / "plant.ttl").open("a") as file:
+        file.write(CART + "plant:Sled a owl:Class ; rdfs:subClassOf skiros:PlacingPose, skiros:Product .\n")
+    result = run("check", library, "--ontology", "stock", "--json")
+    idle = [each for each in json.loads(result.stdout) if each["name"] == "unused-conflict"]
+    assert [(each["path"], each["line"]) for each in idle] == [("lib/plant.ttl", 6)] and result.exit_code == 0
+    assert "2 conflicts" in idle[0]["message"] and "`plant:Cart`, `plant:Sled`" in idle[0]["message"]
+    assert run("compile", library, "--ontology", "stock", "-o", "out").exit_code == 0
+    (library / "load.skill").write_text(SKILL.replace("belt:    Conveyor", "belt:    Cart"), "utf-8")
+    assert ("impossible-class", "lib/plant.ttl", 6) in errors(run("check", library, "--ontology", "stock", "--json"))
 
 
 def test_what_is_compiled_names_no_folder_of_this_machine(library: Path, tmp_path: Path) -> None:

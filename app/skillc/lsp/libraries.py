@@ -21,6 +21,7 @@ from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import normalise_text
 from skillc_dsl.parsing.reparse import ParseMemo
 from skillc_dsl.source import Source
+from skillc_rdf.vocabulary.conflicts import judge_conflicts
 
 if TYPE_CHECKING:
     from skillc.services.task_scenes import TaskScenes
@@ -139,7 +140,9 @@ class Libraries:
 
     def problems_of_vocabularies(self, root: Root) -> Iterator[Diagnostic]:
         """Yield the diagnostics of the vocabularies in a library's folder."""
-        for problem in load_vocabulary_with(self._vocabularies.get(root, ())).diagnostics:
+        found = load_vocabulary_with(self._vocabularies.get(root, ())).diagnostics
+        program = self.analysis(root).program
+        for problem in judge_conflicts(found, program.vocabulary, program.terms):
             if (root.folder / problem.span.path).is_file():
                 yield problem
 

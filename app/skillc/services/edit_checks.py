@@ -28,6 +28,9 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.source import Source
 
+UNUSED_CONFLICT = "unused-conflict"
+"""The warning about a conflict of ontologies that becomes an error when the library names its terms."""
+
 
 def check_edits(library: LibraryFiles, before: Snapshot, parse: Parser) -> Snapshot | None:
     """Return the snapshot of a library, given the last one; None if it has to be checked as a whole.
@@ -35,6 +38,8 @@ def check_edits(library: LibraryFiles, before: Snapshot, parse: Parser) -> Snaps
     That is so if more than skills and implementations has changed, if there is an error, if an edit concerns a task or
     a text that may name something in a scene, or if it changes what the whole library reads of a skill.
     """
+    if any(each.name == UNUSED_CONFLICT for each in before.diagnostics):
+        return None  # after the edit the library may use what was in conflict
     edited = before.edited(library.sources)
     now = _outlines(edited, before, parse)
     if now is None:

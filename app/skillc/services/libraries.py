@@ -24,6 +24,7 @@ from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.conflicts import judge_conflicts
 from skillc_rdf.vocabulary.load import load
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -62,8 +63,9 @@ def compile_library(
             found = resolve(others.value, scenes=individuals, memo=memo.resolve)
             return find_problems(others, found, memo)
 
+        conflicts = judge_conflicts(known.diagnostics, program.value.vocabulary, program.value.terms)
         useful = keep_useful_fixes(outcome.diagnostics, library.sources, check)
-    return Outcome(outcome.value, tuple(library.with_display_paths(each) for each in (*known.diagnostics, *useful)))
+    return Outcome(outcome.value, tuple(library.with_display_paths(each) for each in (*conflicts, *useful)))
 
 
 def load_vocabulary() -> Vocabulary:

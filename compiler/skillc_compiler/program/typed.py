@@ -236,6 +236,8 @@ class ParsedFile(msgspec.Struct, frozen=True):
 class Program:
     """A resolved library. `used` holds for each file the bare and qualified names that were looked up in it.
 
+    `terms` are the terms that the library names, with the first place of each.
+
     `unknown` are the names that could not be resolved, `lost` is what may be missing because of other errors. In a part
     of a library, `neighbours` are implementations outside of it that its calls may select.
     """
@@ -250,6 +252,7 @@ class Program:
     unknown: tuple[UnknownName, ...] = ()
     lost: LostNames = field(default_factory=LostNames)
     neighbours: tuple[Implementation, ...] = ()
+    terms: Mapping[str, Span] = field(default_factory=dict)
 
     @cached_property
     def implementations_of(self) -> Mapping[str, tuple[Implementation, ...]]:

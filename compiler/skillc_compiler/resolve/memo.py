@@ -18,25 +18,30 @@ from skillc_compiler.resolve.names import Kind, Names
 from skillc_compiler.resolve.scope import FileContext
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import Vocabulary
 
 Typed = TypeVar("Typed", Skill, Implementation, Task)
 
 
 class Findings(msgspec.Struct, frozen=True):
-    """What resolving a part of a file has found besides its meaning: problems, unknown names, the names looked up."""
+    """What resolving a part of a file has found besides its meaning: problems, unknown names, the names looked up.
+
+    `terms` are the terms among them, with the first place of each.
+    """
 
     problems: tuple[Diagnostic, ...]
     unknown: tuple[UnknownName, ...]
     used: frozenset[str]
+    terms: Mapping[str, Span]
 
     @staticmethod
     def of(names: Names) -> Findings:
         """Return what was found with these names."""
-        return Findings(tuple(names.problems), tuple(names.unknown), frozenset(names.used))
+        return Findings(tuple(names.problems), tuple(names.unknown), frozenset(names.used), dict(names.terms))
 
 
-NOTHING = Findings((), (), frozenset())
+NOTHING = Findings((), (), frozenset(), {})
 
 
 class Resolved(msgspec.Struct, frozen=True):
@@ -96,7 +101,7 @@ class Resolver:
         assert isinstance(declaration, s.SkillDeclaration | s.ImplementationDeclaration | s.TaskDeclaration)
 
         def compute() -> Resolved:
-            names = replace(context.names, problems=[], unknown=[], used=set())
+            names = replace(context.names, problems=[], unknown=[], used=set(), terms={})
             skills, implementations = LookUps(context.skills), LookUps(context.implementations)
             value = resolve(replace(context, names=names, skills=skills, implementations=implementations))
             kept = self.memo.typed.same(declaration.span, value)
@@ -115,9 +120,9 @@ class Resolver:
     def look_up_skill(self, context: FileContext, name: s.Name) -> str | None:
         """Return the name if it is a visible skill's; else it is unknown in the file of the context."""
         if name.text in context.names.skills:
-            self.found[name.span.path].append(Findings((), (), frozenset((name.text,))))
+            self.found[name.span.path].append(Findings((), (), frozenset((name.text,)), {}))
             return name.text
-        names = replace(context.names, problems=[], unknown=[], used=set())
+        names = replace(context.names, problems=[], unknown=[], used=set(), terms={})
         found = names.look_up_skill(name)
         self.found[name.span.path].append(Findings.of(names))
         return found

@@ -11,6 +11,7 @@ from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownKind, Un
 from skillc_compiler.resolve.homes import Homes
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.source import Span
 from skillc_dsl.spelling import alike_names
 from skillc_rdf.vocabulary.types import (
     THING,
@@ -44,9 +45,17 @@ class Names:
     problems: list[Diagnostic] = field(default_factory=list)
     unknown: list[UnknownName] = field(default_factory=list)
     used: set[str] = field(default_factory=set)
+    terms: dict[str, Span] = field(default_factory=dict)
+    """The terms that were looked up, with the first place of each."""
 
     def look_up_term(self, kind: Kind, name: s.Name, fits: Callable[[str], bool] = lambda _: True) -> str | None:
         """Return the IRI of a name, or report that it denotes no term or several. Suggestions satisfy `fits`."""
+        found = self._find_term(kind, name, fits)
+        if found is not None:
+            self.terms.setdefault(found, name.span)
+        return found
+
+    def _find_term(self, kind: Kind, name: s.Name, fits: Callable[[str], bool]) -> str | None:
         self.used.add(name.text)
         if ":" in name.text:
             return self._qualified_term(kind, name, fits)

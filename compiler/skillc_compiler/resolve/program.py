@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from types import MappingProxyType
@@ -33,7 +33,7 @@ from skillc_compiler.resolve.tasks import resolve_task
 from skillc_compiler.resolve.terms import extend_vocabulary
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
-from skillc_dsl.source import Source
+from skillc_dsl.source import Source, Span
 from skillc_dsl.spelling import did_you_mean
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -77,6 +77,7 @@ def resolve_program(
         implementations=tuple(_implementations(files, contexts, skills, resolver)),
         tasks=tuple(_tasks(files, contexts, scenes, resolver)),
         used={path: frozenset().union(*(each.used for each in found)) for path, found in resolver.found.items()},
+        terms=_first_places(each for found in resolver.found.values() for each in found),
         unknown=tuple(
             limit_candidates(name for found in resolver.found.values() for each in found for name in each.unknown)
         ),
@@ -84,6 +85,15 @@ def resolve_program(
     )
     problems = (problem for found in resolver.found.values() for each in found for problem in each.problems)
     return Outcome(program, (*_headers(files, base), *unique.diagnostics, *problems))
+
+
+def _first_places(found: Iterable[Findings]) -> dict[str, Span]:
+    """Return the terms that were looked up, with the first place of each."""
+    places: dict[str, Span] = {}
+    for each in found:
+        for iri, place in each.terms.items():
+            places[iri] = min(places.get(iri, place), place)
+    return places
 
 
 def _terms(
@@ -98,7 +108,7 @@ def _terms(
     inputs = memo.declared_terms.same("terms", (base, written))
 
     def extend() -> tuple[Vocabulary, Mapping[str, Findings]]:
-        own = {path: replace(each, problems=[], unknown=[], used=set()) for path, each in names.items()}
+        own = {path: replace(each, problems=[], unknown=[], used=set(), terms={}) for path, each in names.items()}
         vocabulary = extend_vocabulary(base, files, declared, own)
         return vocabulary, {path: Findings.of(each) for path, each in own.items()}
 

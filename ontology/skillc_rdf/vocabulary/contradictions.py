@@ -7,11 +7,12 @@ What is unsatisfiable only because something else is, is not reported.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_rdf.vocabulary.conflicts import Conflict
 from skillc_rdf.vocabulary.datatypes import describe_ranges
-from skillc_rdf.vocabulary.expressions import RequiredValue, required_values, superclasses
+from skillc_rdf.vocabulary.expressions import find_needs, superclasses
 from skillc_rdf.vocabulary.graph import Graph
 from skillc_rdf.vocabulary.iris import DISJOINT, DOMAIN, OWL, SUBCLASS, SUBPROPERTY, TYPE
 from skillc_rdf.vocabulary.places import TermPositions
@@ -40,38 +41,29 @@ def report_contradictions(graph: Graph, vocabulary: Vocabulary, places: TermPosi
 
 def find_unsatisfiable(graph: Graph, vocabulary: Vocabulary) -> Unsatisfiable:
     """Return the classes of a vocabulary without possible members, and the relations that can never hold."""
-    names: dict[str, list[str]] = {iri: [iri] for iri in vocabulary.classes}
-    for alias, term in vocabulary.aliases.items():
-        if term in names:
-            names[term].append(alias)
-    needs = ((iri, _needs(graph, vocabulary, same)) for iri, same in names.items())
-    return Unsatisfiable(vocabulary, {iri: found for iri, found in needs if found})
-
-
-def _needs(graph: Graph, vocabulary: Vocabulary, names: Sequence[str]) -> tuple[RequiredValue, ...]:
-    """Return the values that each member of a class must have, stated under any of its names."""
-    named = vocabulary.aliases.get
-    return tuple(
-        RequiredValue(named(need.property, need.property), need.least, named(need.filler or "", need.filler))
-        for name in names
-        for need in required_values(graph, name)
-    )
+    return Unsatisfiable(vocabulary, find_needs(graph, vocabulary))
 
 
 def _class(vocabulary: Vocabulary, cls: str, reason: Reason, places: TermPositions) -> Diagnostic:
-    labels: tuple[Label, ...] = ()
-    if reason.pair is not None:
-        one, other = reason.pair
-        stated = {places.statement(*each) for each in ((one, DISJOINT, other), (other, DISJOINT, one))}
-        labels = tuple(Label(span, "these are disjoint") for span in sorted(stated)[:1])
     message = f"nothing can be `{vocabulary.short(cls)}`: {reason.text}"
-    return Diagnostic("impossible-class", places.statement(cls, SUBCLASS), message, _HELP_CLASS, labels=labels)
+    place, labels = places.statement(cls, SUBCLASS), _disjointness(reason, places)
+    return Conflict("impossible-class", place, message, _HELP_CLASS, labels=labels, term=cls)
 
 
 def _relation(vocabulary: Vocabulary, relation: str, reason: Reason, places: TermPositions) -> Diagnostic:
     predicate = {"domain": DOMAIN, "parent": SUBPROPERTY, "kind": TYPE}[reason.kind]
     message = f"`{vocabulary.short(relation)}` can hold of nothing: {reason.text}"
-    return Diagnostic("impossible-relation", places.statement(relation, predicate), message, _HELP_RELATION)
+    place, labels = places.statement(relation, predicate), _disjointness(reason, places)
+    return Conflict("impossible-relation", place, message, _HELP_RELATION, labels=labels, term=relation)
+
+
+def _disjointness(reason: Reason, places: TermPositions) -> tuple[Label, ...]:
+    """Return the place where the classes of a reason are declared disjoint."""
+    if reason.pair is None:
+        return ()
+    one, other = reason.pair
+    stated = {places.statement(*each) for each in ((one, DISJOINT, other), (other, DISJOINT, one))}
+    return (Label(min(stated), "these are disjoint"),)
 
 
 def _property(graph: Graph, vocabulary: Vocabulary, iri: str, places: TermPositions) -> Iterator[Diagnostic]:
@@ -79,7 +71,7 @@ def _property(graph: Graph, vocabulary: Vocabulary, iri: str, places: TermPositi
     if len(types) > 1:
         both = " and ".join(types)
         message = f"`{vocabulary.short(iri)}` can have no value: each would have to be {both}"
-        yield Diagnostic("impossible-relation", places.term(iri), message, "keep one of the ranges")
+        yield Conflict("impossible-relation", places.term(iri), message, "keep one of the ranges", term=iri)
 
 
 _HELP_CLASS = "remove one of the superclasses, or correct their axioms"

@@ -7,14 +7,14 @@ class or a domain, complements, and restrictions that require at least one value
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import pyoxigraph as ox
 
 from skillc_rdf.vocabulary.graph import Graph, Node
 from skillc_rdf.vocabulary.iris import EQUAL_CLASS, OWL, SUBCLASS
-from skillc_rdf.vocabulary.types import THING
+from skillc_rdf.vocabulary.types import THING, Vocabulary
 
 AT_LEAST = tuple(
     f"{OWL}{name}" for name in ("minCardinality", "cardinality", "minQualifiedCardinality", "qualifiedCardinality")
@@ -121,3 +121,22 @@ def _needed(graph: Graph, node: Node, property_: str) -> Iterator[RequiredValue]
 def required_terms(graph: Graph, cls: str, aliases: Mapping[str, str]) -> tuple[str, ...]:
     """Return the relations and properties that every individual of a class has at least one of, sorted."""
     return tuple(sorted({aliases.get(need.property, need.property) for need in required_values(graph, cls)}))
+
+
+def find_needs(graph: Graph, vocabulary: Vocabulary) -> dict[str, tuple[RequiredValue, ...]]:
+    """Return the values that each member of a class must have, stated under any name of the class; no empty ones."""
+    names: dict[str, list[str]] = {iri: [iri] for iri in vocabulary.classes}
+    for alias, term in vocabulary.aliases.items():
+        if term in names:
+            names[term].append(alias)
+    needs = ((iri, _needs(graph, vocabulary, same)) for iri, same in names.items())
+    return {iri: found for iri, found in needs if found}
+
+
+def _needs(graph: Graph, vocabulary: Vocabulary, names: Sequence[str]) -> tuple[RequiredValue, ...]:
+    named = vocabulary.aliases.get
+    return tuple(
+        RequiredValue(named(need.property, need.property), need.least, named(need.filler or "", need.filler))
+        for name in names
+        for need in required_values(graph, name)
+    )

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 from skillc_dsl.spelling import did_you_mean
+from skillc_rdf.vocabulary.conflicts import Conflict
 from skillc_rdf.vocabulary.graph import Graph
 from skillc_rdf.vocabulary.iris import DOMAIN, INVERSE, RANGE, SKILLC, TYPE
 from skillc_rdf.vocabulary.places import TermPositions
@@ -55,7 +56,9 @@ def _lint_domains(graph: Graph, vocabulary: Vocabulary, iri: str, places: TermPo
             help_ = "write `[ a owl:Class ; owl:unionOf ( .. ) ]` for either, or name a class below both"
             if _are_two_disjoint(vocabulary, kept):
                 message = f"`{short}` can never hold: its {word} are {both}, which are disjoint"
-                yield Diagnostic("impossible-relation", place, message, help_)
+                others = {places.statement(iri, predicate, each) for each in kept[:-1]} - {place}
+                labels = tuple(Label(each, "the other one") for each in sorted(others)[:1])
+                yield Conflict("impossible-relation", place, message, help_, labels=labels, term=iri)
             else:
                 message = f"the {word} of `{short}` are {both}: in OWL both apply, here either"
                 yield Diagnostic("several-domains", place, message, help_, severity="warning")

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.source import Source
+from skillc_rdf.vocabulary.conflicts import with_concerned
 from skillc_rdf.vocabulary.contradictions import report_contradictions
 from skillc_rdf.vocabulary.datatypes import check_value_types
 from skillc_rdf.vocabulary.equivalents import find_equivalents, report_cycles
@@ -26,7 +27,8 @@ from skillc_rdf.vocabulary.unused import report_missing_imports, report_unused_a
 def load(sources: Sequence[Source], own: Sequence[Source] = ()) -> Outcome[Vocabulary]:
     """Load the shipped ontologies `sources`, and the user's, `own`, which cannot change the terms of the former.
 
-    Diagnostics: unreadable files, contradictions, and for `own` also axioms without effect.
+    Diagnostics: unreadable files, conflicts, which count only where they are used (`judge_conflicts`), and for `own`
+    also axioms without effect.
     """
     shipped, theirs = read_ontologies(sources), read_ontologies(own)
     standing = frozenset(iri for each in shipped.value for iri in _terms(Graph(each.triples))) if own else frozenset()
@@ -72,7 +74,7 @@ def _vocabulary(
         *report_contradictions(graph, vocabulary, places),
         *lint_ontology(graph, vocabulary, places),
     )
-    return Outcome(vocabulary, problems)
+    return Outcome(vocabulary, with_concerned(problems, graph, vocabulary))
 
 
 def _terms(graph: Graph) -> dict[str, str]:

@@ -151,8 +151,10 @@ class Unsatisfiable:
         for sides in self._ends(iri):
             if not self._possible(sides):
                 own = len(self._implied[iri]) == 1
-                names = ", ".join(sorted({" or ".join(map(self._vocabulary.short, each)) for each in sides}))
-                return Reason(f"nothing is all of {names}", kind="domain" if own else "parent")
+                limits = {each for each in sides if THING not in each}
+                names = ", ".join(sorted({" or ".join(map(self._vocabulary.short, each)) for each in limits}))
+                pair = self._clash([each[0] for each in limits if len(each) == 1])
+                return Reason(f"nothing is all of {names}", pair=pair, kind="domain" if own else "parent")
         return None
 
     def _both_ways(self, reached: frozenset[Directed]) -> Reason | None:
