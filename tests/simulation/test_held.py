@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from copy import copy
 
 import mujoco
 import numpy as np
@@ -12,6 +13,7 @@ from cells import ARM, ERASER, GRIPPER, HANDS, at_the_eraser, grasp, lift, reach
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.mujoco.mirror import Mirror
 from skillc_runtime.backends.mujoco.momentum import join, part
+from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.motion.numerics.compiled import COMPILES
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.move import MoveLinear
@@ -148,6 +150,32 @@ def test_what_touches_with_all_free_touches_with_the_tool_in_the_hand(scene: str
         assert touching(there.model, free, np.arange(there.model.ngeom)) == ours
         found += len(ours)
     assert found > 50
+
+
+def test_what_is_held_slides_with_the_forces_of_an_exact_solver() -> None:
+    scene = "iiwa_table"
+    there = at_the_eraser(scene)
+    reach_for_eraser(there, scene)
+    grasp(there, scene)
+    there.advance(0.01)
+    model, data = copy(mirror_of(there).tight_model), copy(mirror_of(there).tight)
+    block, exactly = model.body(there.scene.names[ERASER] + "/block").id, copy(model)
+    exactly.opt.solver, exactly.opt.tolerance = mujoco.mjtSolver.mjSOL_NEWTON, 1e-15
+    sliding = 0
+    for _ in range(200):
+        data.xfrc_applied[block, :3] = data.xmat[block].reshape(3, 3) @ [12.0, 0.0, -18.0]
+        exact = copy(data)
+        mujoco.mj_step(exactly, exact)
+        mujoco.mj_step(model, data)
+        forces = total_force(model, data), total_force(exactly, exact)
+        assert np.linalg.norm(forces[0] - forces[1]) < 2e-4 * np.linalg.norm(forces[1])
+        sliding += mujoco.mjtConstraintState.mjCNSTRSTATE_CONE in exact.efc_state
+    assert sliding > 20
+
+
+def total_force(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
+    contacts = Contacts(model, data)
+    return np.sum([contacts.force(number) for number in range(data.ncon)], axis=0)
 
 
 def test_fingers_that_open_let_go_and_what_they_held_falls() -> None:

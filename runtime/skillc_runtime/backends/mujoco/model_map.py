@@ -28,7 +28,6 @@ OF_OPTIONS = (
     "timestep",
     "integrator",
     "cone",
-    "solver",
     "iterations",
     "tolerance",
     "impratio",
