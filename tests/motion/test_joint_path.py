@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 
 from skillc_runtime.motion.joint import joint_motion
 from skillc_runtime.motion.joint_path import joint_path
+from skillc_runtime.motion.joint_reference_generator import JointReferenceGenerator
 
 SPEED, ACCELERATION = np.linspace(0.5, 2.0, 6), np.linspace(1.0, 6.0, 6)
 
@@ -49,3 +50,16 @@ def test_one_piece_is_the_straight_motion_itself():
     assert path.duration == line.duration > 0
     for time in np.linspace(0.0, line.duration, 20):
         assert (path.at(time).q == line.at(time).q).all() and (path.at(time).dq == line.at(time).dq).all()
+
+
+@given(ways, st.floats(0.0, 1.0))
+@settings(max_examples=20)
+def test_an_arm_that_follows_it_gets_the_same_to_the_last_bit(way, blend):
+    motion = joint_path(way, SPEED, ACCELERATION, [blend] * (len(way) - 2))
+    generator = JointReferenceGenerator(way[0], np.zeros(6), 1.0, 0.0)
+    generator.follow(motion, 0.0)
+    times = map(float, (*motion.starts, *np.linspace(0.0, motion.duration, 50)))
+    for time in (each for each in times if each < motion.duration):  # at the end it rests
+        followed, wanted = generator.sample(time), motion.at(time)
+        for part in ("q", "dq", "ddq"):
+            assert (getattr(followed, part) == getattr(wanted, part)).all(), (part, time)

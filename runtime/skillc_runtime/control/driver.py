@@ -12,7 +12,6 @@ from skillc_runtime.control.period import (
     BEYOND_LIMIT,
     BLOCKED,
     NOT_FINITE,
-    NOT_SAMPLED,
     OVERLAY_OVER,
     PUSH_ACTS,
     TOOL_MOVED,
@@ -108,8 +107,6 @@ class CompliantArmDriver:
     def _command(self, events: int, state: ArmState) -> bool:
         """Act on what was found, and command the arm for a control period; tell whether a push has an action."""
         task, period = self._task, self._period
-        if events & NOT_SAMPLED:
-            events = period.control()
         if events & WATCHED:
             self._handle(events, state)
             events = period.control(is_watched=True) if period.is_computed else 0

@@ -25,18 +25,15 @@ from skillc_runtime.control.virtual_arm import VirtualState
 from skillc_runtime.control.virtual_chain import VirtualChain, compute_virtual
 from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.motion.arrays import OutMatrix, OutVector
-from skillc_runtime.motion.joint_reference_generator import JointAhead, use_ahead
+from skillc_runtime.motion.joint_plan import JointPlan, use_ahead
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import copy_vector, squared, times
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.reference_plan import ReferencePlan, sample_plan
 
-NOT_FINITE, TOOL_MOVED, BEYOND_LIMIT, BAD_COMMAND, OVERLAY_OVER, PUSH_ACTS, BLOCKED, NOT_SAMPLED = (
-    1 << bit for bit in range(8)
-)
+NOT_FINITE, TOOL_MOVED, BEYOND_LIMIT, BAD_COMMAND, OVERLAY_OVER, PUSH_ACTS, BLOCKED = (1 << bit for bit in range(7))
 """Bits of what has happened: the measurement is no number; the tool was moved on the hand; a safety limit was exceeded;
-the law yields no number; an overlay has faded out; a push has come to an action; the joints do not follow; nothing was
-done, since the reference of the joints is not known."""
+the law yields no number; an overlay has faded out; a push has come to an action; the joints do not follow."""
 
 WATCHED: Final = NOT_FINITE | TOOL_MOVED | BEYOND_LIMIT
 """What is found before a command is computed."""
@@ -192,13 +189,13 @@ def control_by_forward_dynamics(memory: ForwardDynamicsPeriod, now: float) -> in
 class JointPeriod:
     """All that a period in which the joints are moved works on.
 
-    ahead: their reference; limits: of the arm, see `TorqueLimit` and `JointLimit`; torque_rate: N m/s, and tau (nv,):
+    plan: of their reference; limits: of the arm, see `TorqueLimit` and `JointLimit`; torque_rate: N m/s, and tau (nv,):
     N m, the command, for an arm that takes torques; pushes (n, m): a row each.
     """
 
     arm: ArmMemory
     compliance: ComplianceMemory
-    ahead: JointAhead
+    plan: JointPlan
     limits: OutMatrix
     torque_rate: float
     tau: OutVector
@@ -224,16 +221,14 @@ def _end_joints(memory: JointPeriod) -> int:
 @compiled
 def control_joints_by_torques(memory: JointPeriod, now: float) -> int:
     """Compute the torques of the period that has begun, at `now` s; return bits, as `control_by_impedance`."""
-    arm, ahead, period = memory.arm, memory.ahead, memory.arm.period
-    row = use_ahead(ahead, arm.clock[TASK])
-    if row < 0:
-        return NOT_SAMPLED
+    arm, plan, period = memory.arm, memory.plan, memory.arm.period
+    row = use_ahead(plan, arm.clock[TASK], period)
     events = _begin_joints(arm, memory.compliance)
     if events != 0:
-        ahead.used[0] -= 1.0
+        plan.used[0] -= 1.0
         return events
     longest = memory.torque_rate * period
-    computed_torque(memory.tau, memory.limits, arm.state, ahead.rows[row : row + 3], longest)
+    computed_torque(memory.tau, memory.limits, arm.state, plan.rows[row : row + 3], longest)
     if not squared(memory.tau) < inf:
         return BAD_COMMAND
     add_impulse(arm.safety.observer.impulse, memory.tau, arm.holds, period)
@@ -246,15 +241,13 @@ def control_joints_by_servos(memory: JointPeriod, now: float) -> int:
 
     As `control_by_impedance`.
     """
-    arm, ahead = memory.arm, memory.ahead
-    row = use_ahead(ahead, arm.clock[TASK])
-    if row < 0:
-        return NOT_SAMPLED
+    arm, plan = memory.arm, memory.plan
+    row = use_ahead(plan, arm.clock[TASK], arm.period)
     events = _begin_joints(arm, memory.compliance)
     if events != 0:
-        ahead.used[0] -= 1.0
+        plan.used[0] -= 1.0
         return events
-    if not move_servos(memory.limits, arm.state, ahead.rows[row : row + 3], arm.period):
+    if not move_servos(memory.limits, arm.state, plan.rows[row : row + 3], arm.period):
         return BLOCKED
     if not squared(memory.limits[COMMANDED]) + squared(memory.limits[DRIVEN]) < inf:
         return BAD_COMMAND

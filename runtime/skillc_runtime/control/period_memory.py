@@ -11,7 +11,6 @@ from skillc_runtime.control.impedance import Impedance
 from skillc_runtime.control.limits import JointLimit, TorqueLimit
 from skillc_runtime.control.period import (
     IS_WATCHED,
-    NOT_SAMPLED,
     ArmMemory,
     ForwardDynamicsPeriod,
     ImpedancePeriod,
@@ -28,7 +27,7 @@ from skillc_runtime.control.period import (
     watch_arm,
 )
 from skillc_runtime.devices.arm import Arm, ArmState, Command, Torque, command_values, copy_command
-from skillc_runtime.motion.joint_reference_generator import JointReferenceGenerator
+from skillc_runtime.motion.joint_plan import JointPlan
 from skillc_runtime.motion.numerics.compiled import COMPILES, Bound, bind
 from skillc_runtime.motion.pose import Array
 
@@ -64,7 +63,7 @@ class ControlPeriod:
         limit = task.controllers.limit
         self._live: Command = Torque(self._tau) if isinstance(limit, TorqueLimit) else limit.live
         self._control: Control | None = None
-        self._joints: JointReferenceGenerator | None = None
+        self._joints: JointPlan | None = None
         self.memory: ImpedancePeriod | ForwardDynamicsPeriod | None = None
         self._bind()
 
@@ -110,9 +109,6 @@ class ControlPeriod:
             task.tool.reference_generator.prepare(task.now)
         task.clock[IS_WATCHED] = is_watched
         events = control(0.0)
-        if events == NOT_SAMPLED and task.joints is not None:
-            task.joints.look_ahead(task.now, task.period)
-            events = control(0.0)
         task.clock[IS_WATCHED] = 0.0
         return events
 
@@ -124,8 +120,8 @@ class ControlPeriod:
             if self._task.tool.reference_generator.plan is not self._plan:
                 self._bind()
             return self._control
-        if joints is not self._joints:
-            self._joints, self._control_joints = joints, self._bind_joints(joints)
+        if joints.plan is not self._joints:
+            self._joints, self._control_joints = joints.plan, self._bind_joints(joints.plan)
         return self._control_joints
 
     def advance_pushes(self) -> int:
@@ -139,10 +135,10 @@ class ControlPeriod:
         assert isinstance(limit, JointLimit)
         limit.give_up(state)
 
-    def _bind_joints(self, joints: JointReferenceGenerator) -> Control:
+    def _bind_joints(self, joints: JointPlan) -> Control:
         limit, compliance = self._task.controllers.limit, self._task.tool.compliance.memory
         rate = limit.rate if isinstance(limit, TorqueLimit) else 0.0
-        memory = JointPeriod(self._memory, compliance, joints.ahead, limit.rows, rate, self._tau, self._pushes)
+        memory = JointPeriod(self._memory, compliance, joints, limit.rows, rate, self._tau, self._pushes)
         law = control_joints_by_torques if isinstance(limit, TorqueLimit) else control_joints_by_servos
         return bind(law, memory)
 

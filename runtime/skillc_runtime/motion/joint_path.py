@@ -14,7 +14,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from skillc_runtime.motion.joint import JointMotion, JointReference, joint_motion
+from skillc_runtime.motion.joint import JointMotion, JointReference, joint_motion, segments_of
 from skillc_runtime.motion.pose import Array
 
 
@@ -39,6 +39,11 @@ class JointPath:
     def duration(self) -> float:
         """The time in s from rest to rest."""
         return self.starts[-1] + self.pieces[-1].duration
+
+    @property
+    def table(self) -> Array:
+        """Its segments, as in `segments_of`."""
+        return segments_of(self.pieces, self.starts, self.start.size)
 
     def at(self, time: float) -> JointReference:
         """Return the reference `time` s after the start."""
