@@ -39,11 +39,28 @@ def pytest_configure() -> None:
         signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the tests of slow folders as `slow`."""
+@pytest.hookimpl(wrapper=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> Generator[None, object, object]:
+    """Mark the tests of slow folders as `slow`; of those that are selected, begin with the ones marked `early`."""
     for item in items:
         if item.nodeid.startswith(SLOW_FOLDERS):
             item.add_marker("slow")
+    done = yield
+    items[:] = begin_with_early(items, int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", 1)))
+    return done
+
+
+def begin_with_early(items: list[pytest.Item], processes: int) -> list[pytest.Item]:
+    """Order tests so that each process, which gets one of as many equal parts, begins with its share of early ones."""
+    early = [item for item in items if item.get_closest_marker("early")]
+    others = [item for item in items if not item.get_closest_marker("early")]
+    ordered: list[pytest.Item] = []
+    for process in range(processes):
+        share = early[process::processes]
+        size = (len(items) - len(ordered)) // (processes - process) - len(share)
+        ordered += (*share, *others[:size])
+        del others[:size]
+    return ordered
 
 
 def pytest_runtest_teardown(item: pytest.Item) -> None:

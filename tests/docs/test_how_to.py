@@ -29,6 +29,7 @@ def follow(page: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Reader:
     return reader
 
 
+@pytest.mark.early
 @pytest.mark.sim
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_everything_is_as_the_page_says(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

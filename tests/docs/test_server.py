@@ -13,6 +13,7 @@ from docs.server_session import follow_session, read_session
 PROGRAMS = ROOT / "docs/server-programs.md"
 
 
+@pytest.mark.early
 @pytest.mark.sim
 def test_the_session_goes_as_it_says(tmp_path: Path) -> None:
     session = read_session(tmp_path)
@@ -20,6 +21,7 @@ def test_the_session_goes_as_it_says(tmp_path: Path) -> None:
     follow_session(session, tmp_path)
 
 
+@pytest.mark.early
 @pytest.mark.sim
 @pytest.mark.parametrize(("file", "program"), [("session.py", "python"), ("session.sh", "curl")])
 def test_programs_go_through_the_same_session(file: str, program: str, tmp_path: Path) -> None:

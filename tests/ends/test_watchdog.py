@@ -92,6 +92,7 @@ def test_the_end_of_a_run_that_is_broken_off_is_written(tmp_path: Path, how: str
     assert ended.status == read_result(tmp_path).status == "interrupted"
 
 
+@pytest.mark.early
 @pytest.mark.parametrize(
     "how", ["finish", *(pytest.param(how, marks=pytest.mark.sim) for how in ("report", "suspend", "compile"))]
 )

@@ -6,13 +6,15 @@ import pytest
 
 from server.running import RunningServer, wait_until
 
+LONG = (pytest.mark.early, pytest.mark.sim)
+
 
 @pytest.mark.parametrize(
     ("name", "said"),
     [
         ("Exits", "its process ended with code 7"),
         ("Crashes", "its process ended with signal 11"),
-        pytest.param("Blocks", "its loop stood still for 30 s, so its process was ended", marks=pytest.mark.sim),
+        pytest.param("Blocks", "its loop stood still for 30 s, so its process was ended", marks=LONG),
     ],
 )
 def test_a_primitive_that_ends_its_cell_ends_nothing_else(bench: RunningServer, name: str, said: str) -> None:

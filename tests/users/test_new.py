@@ -91,6 +91,7 @@ def test_each_template_checks_formats_and_plans_from_any_folder(
     assert sorted(step["skill"] for step in plan) == sorted(each.format(skill="MyCell") for each in chosen.steps)
 
 
+@pytest.mark.early
 @pytest.mark.sim
 @pytest.mark.parametrize(
     "template", [pytest.param(each, marks=pytest.mark.long if each in LONG else ()) for each in NAMES]
