@@ -7,7 +7,8 @@ import pytest
 
 from skillc_rdf.turtle.terms import XSD
 from skillc_rdf.vocabulary.types import PlainType, PropertyTerm, VectorType
-from skillc_runtime.store.literals import LiteralError, read_literal
+from skillc_runtime.store.literals import LiteralError, read_literal, text_literal
+from skillc_runtime.world.state.value_types import value_error
 
 
 def literal(text: str, kind: str) -> ox.Literal:
@@ -42,6 +43,58 @@ def test_a_number_that_is_whole_only_as_a_float_is_none(text: str) -> None:
 def test_an_integer_that_is_too_large_says_so(text: str, kind: str) -> None:
     with pytest.raises(LiteralError, match="this number is too large"):
         read_literal(literal(text, kind), COUNT)
+
+
+DATES = [
+    ("dateTime", "2026-11-29T08:30:00.5+01:00"),
+    ("dateTimeStamp", "2024-02-29T24:00:00Z"),
+    ("date", "-0044-03-15"),
+    ("time", "08:30:00"),
+    ("gYear", "2026"),
+    ("gMonthDay", "--02-29"),
+    ("duration", "-P1Y2M3DT4H5M6.7S"),
+    ("dayTimeDuration", "PT5M"),
+    ("yearMonthDuration", "P1Y"),
+    ("hexBinary", "0fB7"),
+    ("token", "any text"),
+]
+NO_DATES = [
+    ("dateTime", "2026-11-29 08:30:00"),
+    ("dateTimeStamp", "2026-11-29T08:30:00"),
+    ("date", "2026-02-29"),
+    ("date", "yesterday"),
+    ("time", "24:30:00"),
+    ("gMonthDay", "--02-30"),
+    ("duration", "P"),
+    ("duration", "P1DT"),
+    ("dayTimeDuration", "P1Y"),
+    ("hexBinary", "0f7"),
+]
+
+
+def dated(kind: str) -> PropertyTerm:
+    return PropertyTerm(iri="t:when", domains=(), type=PlainType("Text"), datatype=XSD + kind)
+
+
+@pytest.mark.parametrize(("kind", "text"), DATES)
+def test_a_date_is_read_as_its_text_and_written_with_its_datatype(kind: str, text: str) -> None:
+    assert read_literal(literal(text, kind), dated(kind)) == text == read_literal(ox.Literal(text), dated(kind))
+    assert text_literal(text, dated(kind)) == literal(text, kind)
+    assert value_error(dated(kind), text) is None
+
+
+@pytest.mark.parametrize(("kind", "text"), NO_DATES)
+def test_what_is_no_date_says_how_one_is_written(kind: str, text: str) -> None:
+    with pytest.raises(LiteralError, match=f"is no xsd:{kind}") as told:
+        read_literal(literal(text, kind), dated(kind))
+    assert f'"^^xsd:{kind}' in told.value.help
+    assert "as in" in (value_error(dated(kind), text) or "")
+
+
+def test_a_date_is_no_value_of_another_property() -> None:
+    for term in (dated("time"), PropertyTerm(iri="t:text", domains=(), type=PlainType("Text"))):
+        with pytest.raises(LiteralError, match="it takes a text"):
+            read_literal(literal("2026-11-29", "date"), term)
 
 
 def test_a_vector_with_a_number_that_is_too_large_says_so() -> None:

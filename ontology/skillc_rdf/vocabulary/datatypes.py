@@ -12,8 +12,10 @@ from skillc_dsl.source import Span
 from skillc_dsl.spelling import did_you_mean
 from skillc_dsl.units import DIMENSIONS
 from skillc_rdf.vocabulary.graph import Graph, Node
-from skillc_rdf.vocabulary.iris import EQUAL_CLASS, OWL, RANGE, RDFS, SKILLC, XSD
+from skillc_rdf.vocabulary.iris import EQUAL_CLASS, OWL, RANGE, RDF, SKILLC, XSD
+from skillc_rdf.vocabulary.text_forms import FORMS, FREE
 from skillc_rdf.vocabulary.types import (
+    LITERAL,
     Bounds,
     DirectionType,
     NumberType,
@@ -24,7 +26,7 @@ from skillc_rdf.vocabulary.types import (
     local_name,
 )
 
-NUMBERS = frozenset(f"{XSD}{name}" for name in ("double", "float", "decimal"))
+NUMBERS = frozenset({*(f"{XSD}{name}" for name in ("double", "float", "decimal")), f"{OWL}real"})
 INTEGERS = frozenset(
     f"{XSD}{name}"
     for name in (
@@ -35,7 +37,8 @@ INTEGERS = frozenset(
 PLAIN: dict[str, ValueType] = {
     f"{XSD}string": PlainType("Text"),
     f"{XSD}anyURI": PlainType("Text"),
-    f"{RDFS}Literal": PlainType("Text"),
+    f"{RDF}langString": PlainType("Text"),
+    f"{RDF}PlainLiteral": PlainType("Text"),
     f"{XSD}boolean": PlainType("Bool"),
     **{datatype: PlainType("Int") for datatype in INTEGERS},
     f"{SKILLC}Pose": PlainType("Pose"),
@@ -53,18 +56,22 @@ FACETS = {
 
 @dataclass(frozen=True, slots=True)
 class PropertyType:
-    """A type, with the finite set of its values or the bounds of its numbers if it has any."""
+    """A type, with the finite set of its values or the bounds of its numbers if it has any.
+
+    `datatype` is that of texts which are no strings.
+    """
 
     type: ValueType
     values: tuple[str, ...] = ()
     bounds: Bounds | None = None
+    datatype: str = ""
 
 
 def value_type(graph: Graph, iri: str) -> PropertyType | None:
     """Return a data property's type by its range, `skillc:dimension` and bounds; None if the language has none."""
     ranges = graph.objects(iri, RANGE)
     if not ranges:
-        return PropertyType(PlainType("Text"))
+        return PropertyType(PlainType("Text"), datatype=LITERAL)
     typed = _type_of(graph, ranges[0], graph.text(iri, f"{SKILLC}dimension") or "Number")
     return typed and _with_bounds(typed, graph, [ox.NamedNode(iri)])
 
@@ -88,8 +95,7 @@ def check_value_types(graph: Graph, properties: Iterable[str], places: Mapping[s
                 "unknown-datatype",
                 span,
                 f"skillc does not support the range of {iri}, so the property cannot be used",
-                help="use xsd:double, integer, string or boolean, skillc:Pose, skillc:Vector, skillc:Direction "
-                "or an owl:oneOf of texts",
+                help="use a datatype of XSD, skillc:Pose, skillc:Vector, skillc:Direction or an owl:oneOf of texts",
                 severity="warning",
             )
 
@@ -125,6 +131,8 @@ def _type_of(graph: Graph, range_: Node, dimension: str, within: frozenset[Node]
             return PropertyType(VectorType(dimension))
         case ox.NamedNode(value=datatype) if datatype in PLAIN:
             return PropertyType(PLAIN[datatype])
+        case ox.NamedNode(value=datatype) if datatype in FORMS or datatype in FREE or datatype == LITERAL:
+            return PropertyType(PlainType("Text"), datatype=datatype)
         case ox.NamedNode(value=datatype):
             defined = [each for each in graph.objects(datatype, EQUAL_CLASS) if isinstance(each, ox.BlankNode)]
             return _type_of(graph, defined[0], dimension, around) if defined else None
@@ -144,12 +152,13 @@ def _with_bounds(typed: PropertyType, graph: Graph, saying: Iterable[Node]) -> P
         for each in saying
         for facet, end in FACETS.items()
         for literal in graph.objects(each, facet)
-        if (number := _number(literal)) is not None
+        if (number := read_bound(literal)) is not None
     }
     return replace(typed, bounds=Bounds(**ends)) if ends else typed
 
 
-def _number(node: Node) -> float | None:
+def read_bound(node: Node) -> float | None:
+    """Return the number of a facet or of an annotation that bounds numbers, None if it is no number."""
     try:
         return float(node.value) if isinstance(node, ox.Literal) else None
     except ValueError:

@@ -100,6 +100,7 @@ def make_properties(terms: Terms) -> dict[str, PropertyTerm]:
                 type=typed.type,
                 values=typed.values,
                 bounds=typed.bounds,
+                datatype=typed.datatype,
                 functional=_is(terms, iri, "FunctionalProperty"),
                 computed_by=terms.graph.text(iri, f"{SKILLC}computedBy"),
                 measure=_other_property(terms, iri, "measure"),

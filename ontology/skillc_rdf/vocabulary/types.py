@@ -14,6 +14,7 @@ from skillc_rdf.vocabulary.components import components
 T = TypeVar("T")
 
 THING = "http://www.w3.org/2002/07/owl#Thing"
+LITERAL = "http://www.w3.org/2000/01/rdf-schema#Literal"
 CHARACTERISTICS = ("functional", "inverse_functional", "symmetric", "transitive", "asymmetric", "irreflexive")
 """The characteristics of relations, in the order of messages."""
 
@@ -138,7 +139,8 @@ class Bounds(msgspec.Struct, frozen=True, kw_only=True):
 class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
     """A data property.
 
-    `values` is the finite set of values of a text property, () for any; `bounds` are those of a number. `computed_by`
+    `values` is the finite set of values of a text property, () for any; `bounds` are those of a number; `datatype` is
+    the datatype of texts which are no strings, such as dates, and LITERAL if the property has no range. `computed_by`
     names a Python function, "module:function", (world state, individual) -> value. `measure` is the property of the
     same individual with the number from which the value was judged, `threshold` the one with the number that it needs.
     """
@@ -148,6 +150,7 @@ class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
     type: ValueType
     values: tuple[str, ...] = ()
     bounds: Bounds | None = None
+    datatype: str = ""
     functional: bool = True
     computed_by: str | None = None
     measure: str | None = None

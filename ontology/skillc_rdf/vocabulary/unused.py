@@ -9,7 +9,7 @@ import pyoxigraph as ox
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
-from skillc_rdf.vocabulary.datatypes import FACETS
+from skillc_rdf.vocabulary.datatypes import FACETS, read_bound
 from skillc_rdf.vocabulary.graph import Graph, Node
 from skillc_rdf.vocabulary.iris import EQUAL_CLASS, OWL, SUBCLASS, TYPE
 from skillc_rdf.vocabulary.precedence import Split
@@ -77,7 +77,10 @@ def _kinds(triple: ox.Triple, graph: Graph) -> Iterator[str]:
 
 def _are_bounds(head: Node, graph: Graph) -> bool:
     """Whether all restrictions in a list are bounds of numbers."""
-    return all(any(graph.objects(each, facet) for facet in FACETS) for each in graph.members(head))
+    return all(
+        any(read_bound(end) is not None for facet in FACETS for end in graph.objects(each, facet))
+        for each in graph.members(head)
+    )
 
 
 def _expression(node: ox.BlankNode, said: str, graph: Graph) -> Iterator[str]:

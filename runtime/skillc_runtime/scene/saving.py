@@ -15,6 +15,7 @@ from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import NumberType, Vocabulary
 from skillc_runtime.scene.documents import Document, statements_of, with_canonical_terms
 from skillc_runtime.scene.statements import iri_of, select_facts, with_own_classes
+from skillc_runtime.store.literals import text_literal
 from skillc_runtime.store.triples import CLASS, SUBCLASS, TYPE
 from skillc_runtime.world.state.values import Value, has_value, show
 from skillc_runtime.world.state.vectors import format_vector, is_vector
@@ -135,7 +136,8 @@ class _TurtleWriter:
 
     def add_value(self, individual: str, property_: str, value: Value) -> None:
         """Add a value; numbers are written as doubles."""
-        is_number = isinstance(self._vocabulary.properties[property_].type, NumberType)
+        term = self._vocabulary.properties[property_]
+        is_number = isinstance(term.type, NumberType)
         match value:
             case bool():
                 text = "true" if value else "false"
@@ -144,7 +146,7 @@ class _TurtleWriter:
             case int() | float() if isfinite(value):
                 text = _double(float(value))
             case str():
-                text = str(ox.Literal(value))
+                text = str(text_literal(value, term))
             case _ if is_vector(value):
                 text = f'"{format_vector(value)}"'
             case _:

@@ -11,7 +11,16 @@ import pyoxigraph as ox
 
 from skillc_model.format_type import SI_UNITS
 from skillc_rdf.turtle.terms import XSD
-from skillc_rdf.vocabulary.types import DirectionType, NumberType, PlainType, PropertyTerm, VectorType
+from skillc_rdf.vocabulary.text_forms import FORMS
+from skillc_rdf.vocabulary.types import (
+    LITERAL,
+    DirectionType,
+    NumberType,
+    PlainType,
+    PropertyTerm,
+    VectorType,
+    local_name,
+)
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.world.state.terms import SKILLC
 from skillc_runtime.world.state.values import Value
@@ -51,13 +60,27 @@ def read_literal(literal: ox.Literal, term: PropertyTerm) -> Value:
             return _integer(text)
         case PlainType("Bool") if text in ("true", "false", "1", "0") and kind == XSD + "boolean":
             return text in ("true", "1")
-        case PlainType("Text") if kind in TEXTS:
-            return _one_of(text, term.values)
+        case PlainType("Text") if kind in TEXTS or kind == term.datatype:
+            return _text(text, term)
         case VectorType() | DirectionType() if kind in VECTORS:
             return _vector(text, term.type)
         case _:
             help_, instead = _cure(literal, term)
             raise LiteralError(f"it takes {_expected(term)}, and this is {literal}", help_, instead)
+
+
+def text_literal(text: str, term: PropertyTerm) -> ox.Literal:
+    """Return the literal of a text property's value."""
+    is_plain = term.datatype in ("", LITERAL)
+    return ox.Literal(text) if is_plain else ox.Literal(text, datatype=ox.NamedNode(term.datatype))
+
+
+def _text(text: str, term: PropertyTerm) -> str:
+    form = FORMS.get(term.datatype)
+    if form is not None and not form.fits(text):
+        name = f"xsd:{local_name(term.datatype)}"
+        raise LiteralError(f'"{text}" is no {name}', f'write it as in "{form.example}"^^{name}')
+    return _one_of(text, term.values)
 
 
 def _number(text: str) -> float:
@@ -117,6 +140,8 @@ def _expected(term: PropertyTerm) -> str:
             return "a whole number"
         case PlainType("Bool"):
             return "true or false"
+        case PlainType("Text") if term.datatype not in ("", LITERAL):
+            return f"a text of the datatype {local_name(term.datatype)}"
         case PlainType("Text"):
             return "a text in quotes"
         case VectorType() | DirectionType():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import assert_never
 
+from skillc_rdf.vocabulary.text_forms import FORMS
 from skillc_rdf.vocabulary.types import (
     ClassType,
     DirectionType,
@@ -51,6 +52,9 @@ def value_error(term: PropertyTerm, value: Value) -> str | None:
     expected = _expected(term.type, value)
     if expected is not None:
         return f"it takes {expected}"
+    form = FORMS.get(term.datatype)
+    if form is not None and isinstance(value, str) and not form.fits(value):
+        return f"it takes a text as in {form.example}"
     if term.values and value not in term.values:
         return "it is one of " + ", ".join(term.values)
     if term.bounds is not None and isinstance(value, int | float) and not term.bounds.hold(value):
