@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-
-import numpy as np
+from math import dist
 
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.gripper import Gripper
@@ -106,9 +105,10 @@ def base_away_from(cell: Cell, robot: str, place: str, state: WorldState) -> Rea
     def read() -> str | None:
         if not base.at_rest:
             return None
-        off = float(np.linalg.norm((base.pose.position - goal)[:2]))
-        said = f"{short(robot)} reports that it stands {off:.2f} m away from {short(place)}"
-        return said if off > tolerance else None
+        off = dist(base.pose.position[:2], goal[:2])
+        if off <= tolerance:
+            return None
+        return f"{short(robot)} reports that it stands {off:.2f} m away from {short(place)}"
 
     return read
 

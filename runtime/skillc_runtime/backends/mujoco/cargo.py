@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from skillc_runtime.backends.simulation.base import BaseStep
 from skillc_runtime.backends.simulation.cargo import Cargo
 from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
@@ -25,7 +26,7 @@ from skillc_runtime.motion.pose import Array, Pose, log
 STEPS_PER_LOOK = 10
 """Number of steps between looks at what stands on the base."""
 
-AT_REST = Pose.of((0.0, 0.0, 0.0))
+AT_REST = BaseStep(Pose.of((0.0, 0.0, 0.0)), Pose.of((0.0, 0.0, 0.0)))
 
 
 class InertialCargo(Cargo):
@@ -50,22 +51,22 @@ class InertialCargo(Cargo):
         """Whether nothing is left to be done while the base is at rest."""
         return not self._driving and not self._members
 
-    def move(self, motion: Pose | None) -> None:
-        """Move the cargo with the base, new = motion @ old in the world; None while the base is at rest."""
-        if motion is None and not self._driving:
+    def move(self, step: BaseStep | None) -> None:
+        """Move the cargo with the base; None while that is at rest."""
+        if step is None and not self._driving:
             self._unload(list(self._members), AT_REST)
             return
-        step, self._driving = motion or AT_REST, motion is not None
+        step, self._driving = step or AT_REST, step is not None
         if self._steps % STEPS_PER_LOOK == 0:
             self._update_members(step)
         self._steps = self._steps + 1 if self._driving else 0
         for hand in self._own:
             hand.move_with_base(step)
         for block in self._members:
-            self._carry(block, step)
+            self._carry(block, step.motion)
             self._push(block, step)
 
-    def _push(self, block: int, step: Pose) -> None:
+    def _push(self, block: int, step: BaseStep) -> None:
         """Apply the forces of inertia to all parts of a thing."""
         data, model = self._data, self._model
         for part in self._parts[block]:
@@ -76,7 +77,7 @@ class InertialCargo(Cargo):
             data.xfrc_applied[part, 3:] = -axes @ (model.body_inertia[part] * (axes.T @ change[3:]))
             self._velocities[part] = velocity
 
-    def _update_members(self, step: Pose) -> None:
+    def _update_members(self, step: BaseStep) -> None:
         """Load what stands on the base, and unload what touches something else instead."""
         free = set(self._free_blocks())
         neighbours, held_up = self._read_contacts()
@@ -102,7 +103,7 @@ class InertialCargo(Cargo):
                 held_up.add(one)
         return neighbours, held_up
 
-    def _unload(self, blocks: list[int], step: Pose) -> None:
+    def _unload(self, blocks: list[int], step: BaseStep) -> None:
         """Let things go on with the velocity that they have in the world."""
         for block in blocks:
             self._members.remove(block)
@@ -117,6 +118,6 @@ class InertialCargo(Cargo):
         self._data.qvel[first : first + 3] += change[:3]
         self._data.qvel[first + 3 : first + 6] += self._data.xmat[block].reshape(3, 3).T @ change[3:]
 
-    def _base_velocity(self, point: Array, step: Pose) -> Array:
+    def _base_velocity(self, point: Array, step: BaseStep) -> Array:
         """Return the velocity (6,) of the base at a point (3,) in m: m/s and rad/s, in the world."""
-        return np.concatenate([step.apply(point) - point, log(step.rotation)]) / self._period_s
+        return np.concatenate([step.motion.apply(point) - point, log(step.motion.rotation)]) / self._period_s

@@ -13,6 +13,7 @@ from skillc_runtime.backends.mujoco.grip import IS_DUE, SLIPS, Grip, make_grip
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.pressing_force import pressing_force
 from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.base import BaseStep
 from skillc_runtime.backends.simulation.checkpoint import SavedGrip
 from skillc_runtime.backends.simulation.finger_sensor import make_finger_sensor
 from skillc_runtime.backends.simulation.gripper import LossWatch, ModelledGripper, may_be_lost
@@ -129,6 +130,11 @@ class SimulatedGripper(ModelledGripper):
             return None
         pull = self._physics.pull_on(self._carried)
         return self._grip.is_due if pull is None else self._grip.watch(self._palm_axes, pull)
+
+    def move_with_base(self, step: BaseStep) -> None:
+        """Move a carried object with the base of the arm, unless it is a part of the hand, with which it moves."""
+        if self._physics.pull_on(self._carried) is None:
+            super().move_with_base(step)
 
     def loses(self, events: int, now: float) -> bool:
         """Tell whether more pulls at the carried object than friction bears, of what looking at the load has found.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -46,13 +47,27 @@ class Leg:
         return self.at(self.profile.duration)
 
 
+@dataclass(frozen=True)
+class BaseStep:
+    """One step of a base that moves, by its poses in the world before and after it."""
+
+    before: Pose
+    after: Pose
+
+    @cached_property
+    def motion(self) -> Pose:
+        """The motion in the world: new = motion @ old."""
+        return self.after @ self.before.inverse()
+
+
 class SimulatedBase:
     """One mobile base of a simulated cell, implementing `MobileBase`; `touched` is what stopped it, ground truth."""
 
     def __init__(self, facts: BaseSpec, name: str, model: Any, data: Any) -> None:
-        self._facts, self._data = facts, data
-        self._mocap = int(model.body_mocapid[model.body(base_body_name(name)).id])
-        self._pose, self._time = facts.pose, 0.0
+        mocap = int(model.body_mocapid[model.body(base_body_name(name)).id])
+        self._position, self._quaternion = data.mocap_pos[mocap], data.mocap_quat[mocap]
+        self._facts, self._pose, self._time = facts, facts.pose, 0.0
+        self._turned_to: Array | None = None
         self._done, self._stopped, self._speed = True, False, 1.0
         self._legs: list[Leg] = []
         self._bumper, self._steps = Bumper(base_body_name(name), model, data), 0
@@ -91,8 +106,9 @@ class SimulatedBase:
     def place(self, pose: Pose) -> None:
         """Put a base that is at rest somewhere else."""
         self._pose = pose
-        self._data.mocap_pos[self._mocap] = pose.position
-        self._data.mocap_quat[self._mocap] = quaternion_from_rotation(pose.rotation)
+        self._position[:] = pose.position
+        if pose.rotation is not self._turned_to:
+            self._turned_to, self._quaternion[:] = pose.rotation, quaternion_from_rotation(pose.rotation)
 
     def drive_to(self, goal: Pose) -> None:
         """Begin to drive: brake if the base moves, rotate towards the goal, drive straight, rotate to its heading.
@@ -123,19 +139,20 @@ class SimulatedBase:
             peak, brake = leg.profile.peak, leg.profile.deceleration
             self._legs = [replace(leg, profile=trapezoidal_profile(way + speed * speed / (2 * brake), peak, brake))]
 
-    def step(self, period_s: float) -> Pose | None:
-        """Advance by one step; return the motion in the world (new = motion @ old), None when at rest."""
+    def step(self, period_s: float) -> BaseStep | None:
+        """Advance by one step; return it, None when at rest."""
         if not self._legs:
             return None
         self._time, self._steps = self._time + period_s, self._steps + 1
         leg, before = self._legs[0], self._pose
-        if self._steps % STEPS_PER_CHECK == 0 and self._is_blocked(leg.at(self._time)):
+        pose = leg.at(self._time)
+        if self._steps % STEPS_PER_CHECK == 0 and self._is_blocked(pose):
             return None
-        self.place(leg.at(self._time))
+        self.place(pose)
         if self._time >= leg.profile.duration:
             self._legs, self._time = self._legs[1:], 0.0
             self._done = not self._legs and not self._stopped
-        return self._pose @ before.inverse()
+        return BaseStep(before, pose)
 
     def _is_blocked(self, pose: Pose) -> bool:
         """Stop at once if the base would touch something at a pose; tell whether it would."""

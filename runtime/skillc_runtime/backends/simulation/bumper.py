@@ -35,16 +35,21 @@ class Bumper:
 
     def begin(self, pose: Pose) -> None:
         """Allow what overlaps with the base at its pose in the world, at the start of a drive."""
-        self._allowed = {each: min(self._distance(each, pose), 0.0) for each in self._obstacles}
+        self._put(pose)
+        self._allowed = {each: min(self._distance(each), 0.0) for each in self._obstacles}
 
     def touched(self, pose: Pose) -> str | None:
         """Return what the base would touch at a pose in the world, by the name of its body; None for nothing."""
+        self._put(pose)
         for each in self._obstacles:
-            if self._distance(each, pose) < self._allowed[each] - DEPTH_M:
+            if self._distance(each) < self._allowed[each] - DEPTH_M:
                 return str(self._model.body(self._model.geom_bodyid[each]).name)
         return None
 
-    def _distance(self, obstacle: int, pose: Pose) -> float:
+    def _put(self, pose: Pose) -> None:
+        """Put the box where it is with the base at a pose in the world."""
         box = pose @ self._in_base
         self._data.geom_xpos[self._box], self._data.geom_xmat[self._box] = box.position, box.rotation.ravel()
+
+    def _distance(self, obstacle: int) -> float:
         return float(mujoco.mj_geomDistance(self._model, self._data, self._box, obstacle, DEPTH_M, None))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from skillc_runtime.backends.simulation.base import BaseStep
 from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import base_body_name, part_name
@@ -33,17 +34,17 @@ class Cargo:
         """Whether nothing is left to be done while the base is at rest."""
         return self._loaded is None
 
-    def move(self, motion: Pose | None) -> None:
-        """Move the cargo with the base, new = motion @ old in the world; None while the base is at rest."""
-        if motion is None:
+    def move(self, step: BaseStep | None) -> None:
+        """Move the cargo with the base; None while that is at rest."""
+        if step is None:
             self._loaded = None
             return
         if self._loaded is None:
             self._loaded = find_standing(self._model, self._data, self._base, self._free_blocks())
         for hand in self._own:
-            hand.move_with_base(motion)
+            hand.move_with_base(step)
         for block in self._loaded:
-            self._carry(block, motion)
+            self._carry(block, step.motion)
 
     def _carry(self, block: int, motion: Pose) -> None:
         """Move a thing, by the number of its body, with the base."""

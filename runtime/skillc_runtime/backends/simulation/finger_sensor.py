@@ -7,7 +7,8 @@ from math import isnan
 
 import numpy as np
 
-from skillc_runtime.backends.simulation.imperfections import Bias, Imperfection, WhiteNoise, distort
+from skillc_runtime.backends.simulation.imperfections import Bias, Imperfection, distort
+from skillc_runtime.backends.simulation.noise import Noise
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec
 from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Array
@@ -55,6 +56,6 @@ def make_finger_sensor(gripper: GripperSpec, seed: int) -> FingerSensor:
     """Return the sensor of a gripper; its bias and noise follow from the seed."""
     rng = rng_for(gripper.individual, seed, 3)
     bias = np.array([gripper.opening_bias_m * rng.uniform(-1.0, 1.0)])
-    noise = WhiteNoise(np.array([gripper.opening_noise_m]), rng)
+    noise = Noise(np.array([gripper.opening_noise_m]), rng)
     exact = gripper.opening_bias_m == gripper.opening_noise_m == 0.0
     return FingerSensor(gripper.sensing_period_s, () if exact else (Bias(bias), noise), gripper.opening_error_m)

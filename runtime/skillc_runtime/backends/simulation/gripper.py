@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.base import BaseStep
 from skillc_runtime.backends.simulation.checkpoint import SavedGrip, SavedGripper, list_numbers, make_pose
 from skillc_runtime.backends.simulation.contact_bits import HANDLE, PAD
 from skillc_runtime.backends.simulation.contacts import Contacts
@@ -263,11 +264,11 @@ class ModelledGripper(ABC):
         """Whether the fingers have closed so far since they took hold that what they held is not between them."""
         return has_closed_further(self.opening_m, float(self._held[HELD_AT]))
 
-    def move_with_base(self, motion: Pose) -> None:
-        """Move a carried object with the base of the arm: new = motion @ old, in the world."""
+    def move_with_base(self, step: BaseStep) -> None:
+        """Move a carried object with the base of the arm."""
         if self._carried:
             place = self._place(self._carried)
-            place[:] = list_numbers(motion @ Pose.of(place[:3], place[3:]))
+            place[:] = list_numbers(step.motion @ Pose.of(place[:3], place[3:]))
 
     @property
     @abstractmethod
