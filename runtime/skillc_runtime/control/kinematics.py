@@ -35,7 +35,7 @@ class Kinematics:
 
     def tool_at(self, q: Array, state: ArmState) -> tuple[Pose, Array]:
         """Return tool in base and Jacobian (6, nv), [linear m; angular rad] per rad, at joints q (nv,) in rad."""
-        self._arm.mount_tool(state.q, state.tool)
+        self._arm.hang_tool(state.q, state.tool)
         self._arm.update_kinematics(q)
         return self._arm.tool, self._arm.jacobian.copy()
 

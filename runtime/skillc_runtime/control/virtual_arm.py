@@ -77,6 +77,7 @@ class VirtualArm:
         self._data = mujoco.MjData(self._model)
         self._body = model.body("tool").id
         self._flange = Pose.of(model.body_pos[self._body], model.body_quat[self._body])
+        self._turn_of_flange = quaternion_from_rotation(self._flange.rotation)
         self._qpos = self._data.qpos
         self._position, self._rotation = self._data.xpos[self._body], self._data.xmat[self._body].reshape(3, 3)
         self.joints = model.nv
@@ -134,15 +135,17 @@ class VirtualArm:
 
         Move there.
         """
-        self._place_tool(self._flange)
-        self.update_kinematics(q)
-        self._place_tool(self._flange @ self.tool.inverse() @ tool)
+        self.hang_tool(q, tool)
         self.update_kinematics(q)
 
-    def _place_tool(self, mount: Pose) -> None:
-        self._model.body_pos[self._body] = mount.position
-        self._model.body_quat[self._body] = quaternion_from_rotation(mount.rotation)
-        place_body(self.chain, self._body, mount.position, self._model.body_quat[self._body])
+    def hang_tool(self, q: Array, tool: Pose) -> None:
+        """Place the tool centre point as `mount_tool`, for whoever moves on; `tool` and `jacobian` are not updated."""
+        position, quaternion = self._model.body_pos[self._body], self._model.body_quat[self._body]
+        position[:], quaternion[:], self._qpos[:] = self._flange.position, self._turn_of_flange, q
+        mujoco.mj_kinematics(self._model, self._data)
+        mount = self._flange @ self.tool.inverse() @ tool
+        position[:], quaternion[:] = mount.position, quaternion_from_rotation(mount.rotation)
+        place_body(self.chain, self._body, mount.position, quaternion)
 
     def update_kinematics(self, q: Array) -> None:
         """Update `tool` and `jacobian` (6, nv) for joint positions q (nv,) in rad."""
