@@ -57,7 +57,7 @@ def begin_with_early(items: list[pytest.Item], processes: int) -> list[pytest.It
     ordered: list[pytest.Item] = []
     for process in range(processes):
         share = early[process::processes]
-        size = (len(items) - len(ordered)) // (processes - process) - len(share)
+        size = max(0, (len(items) - len(ordered)) // (processes - process) - len(share))
         ordered += (*share, *others[:size])
         del others[:size]
     return ordered
