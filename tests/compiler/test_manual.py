@@ -12,8 +12,8 @@ from unittest.mock import patch
 import pytest
 from shipped import shelf, vocabulary
 
-from skillc.services import library_checks
 from skillc.services.checking import CheckRequest, check_paths
+from skillc.services.known_checks import check_uncached
 from skillc.services.library_files import find_library
 from skillc_compiler.goals.parsing import parse_goal
 from skillc_compiler.manual import Page, load_pages, page_names, parse_page
@@ -126,7 +126,7 @@ def in_library(text: str) -> list[str]:
     """Return the names of the problems that `skillc check` finds in a library of one file."""
     with TemporaryDirectory() as folder:
         Path(folder, "example.skill").write_text(text, "utf-8")
-        return [d.name for d in library_checks.check_library(find_library(Path(folder)), None)]
+        return [d.name for d in check_uncached(find_library(Path(folder)), None, None)]
 
 
 def beside_scene(text: str) -> list[str]:
@@ -134,7 +134,7 @@ def beside_scene(text: str) -> list[str]:
     with TemporaryDirectory() as folder:
         Path(folder, "example.skill").write_text("use skiros\nclass Rag < Product\n", "utf-8")
         Path(folder, "example.ttl").write_text(text, "utf-8")
-        return [d.name for d in library_checks.check_library(find_library(Path(folder)), Path(folder, "example.ttl"))]
+        return [d.name for d in check_uncached(find_library(Path(folder)), Path(folder, "example.ttl"), None)]
 
 
 @pytest.mark.slow

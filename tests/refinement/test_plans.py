@@ -20,13 +20,18 @@ def plan(*arguments):
     return json.loads(ran.stdout)
 
 
-def plan_door(tmp_path: Path, x: float, pitch_deg: float, z: float, **extra: str):
+def tilt_desk(x: float, pitch_deg: float, z: float) -> str:
+    """Return the scene with a larger desk, tilted, that is pressed on with 12 N; place in m."""
     place = "PositionX 0.5 ; skiros:PositionY 0.05 ; skiros:PositionZ 0.75 ;"
     tilted = f"PositionX {x} ; skiros:PositionY 0.05 ; skiros:PositionZ {z} ; skillc:pitch {pitch_deg} ;"
     text = DESK.replace(*LARGE).replace(place, tilted).replace("normalForce 10.0", "normalForce 12.0")
     assert tilted in text
+    return text
+
+
+def plan_door(tmp_path: Path, x: float, pitch_deg: float, z: float):
     scene = tmp_path / "door.ttl"
-    scene.write_text(text + "".join(extra.values()))
+    scene.write_text(tilt_desk(x, pitch_deg, z))
     return plan("--library", "wiping", "--scene", str(scene), "--goal", "lab:Desk-1.isClean == true")
 
 

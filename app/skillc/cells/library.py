@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
@@ -11,7 +11,8 @@ import msgspec
 from skillc.cells.settings import CellSettings
 from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
-from skillc_model.skills import Primitive, SkillLibrary
+from skillc.services.library_modules import find_modules
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.platforms.python_modules import import_named
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS, ForeignError, foreign_code
 
@@ -37,25 +38,6 @@ def load_library(settings: CellSettings) -> SkillLibrary:
     )
     _import(find_modules(library))
     return library
-
-
-def find_modules(library: SkillLibrary) -> Iterator[str]:
-    """Yield the Python modules that a library and its vocabulary name."""
-    for each in library.implementations.values():
-        if isinstance(each.body, Primitive):
-            yield module_of(each.body.python)
-    known = library.vocabulary
-    computed = (
-        *(each.computed_by for each in known.relations.values()),
-        *(each.computed_by for each in known.properties.values()),
-    )
-    yield from (module_of(each) for each in computed if each is not None)
-    yield from (module_of(each.python) for each in known.functions.values())
-
-
-def module_of(python: str) -> str:
-    """Return the module of "module:attribute"."""
-    return python.partition(":")[0]
 
 
 def _import(modules: Iterable[str]) -> None:

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import io
 import pickle
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
+
+import msgspec
 
 from skillc.services.check_cache import digest_parts, installation_digest
 from skillc_dsl import cache
+from skillc_ontology.catalogue import user_models
+
+if TYPE_CHECKING:
+    from skillc_runtime.scene.load import Scene
 
 IsPart: TypeAlias = Callable[[str, str], bool]
 """Whether a class, given by its module and its name, may be part of an entry."""
@@ -22,6 +28,33 @@ def find_entry(folder: str, parts: Iterable[str | bytes]) -> Path | None:
     """
     base = cache.cache_folder()
     return None if base is None else base / folder / digest_parts((installation_digest(), *parts))
+
+
+def describe_scene(scene: Scene) -> Iterator[str | bytes]:
+    """Yield the terms, statements and models that what is found in a scene depends on."""
+    yield encode_meaning(scene.state.vocabulary)
+    for each in scene.said:
+        yield f"{each.subject} {each.predicate} {each.object}"
+    for model in user_models():
+        yield str(model)
+        yield model.read_bytes()
+
+
+def encode_meaning(item: object) -> bytes:
+    """Return structs as bytes that do not depend on where they stand in files."""
+    return msgspec.json.encode(_without_positions(msgspec.to_builtins(item)), order="deterministic")
+
+
+def _without_positions(item: object) -> object:
+    match item:
+        case {"path": str(), "line": int(), "column": int()}:
+            return None
+        case dict():
+            return {name: _without_positions(each) for name, each in item.items()}
+        case list() | tuple():
+            return [_without_positions(each) for each in item]
+        case _:
+            return item
 
 
 def read_pickled(path: Path | None, is_part: IsPart) -> object:

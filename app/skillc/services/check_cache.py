@@ -105,19 +105,29 @@ def installation_digest() -> bytes:
 
 
 def describe_installation() -> Iterator[str]:
-    """Yield texts that identify the state of skillc, Python and the installed packages."""
+    """Yield texts that identify the state of skillc, Python and the installed packages.
+
+    What is read of the Python in projects is part of the inputs of their libraries.
+    """
     yield sys.version
     for folder in filter(os.path.isdir, sys.path):
+        if os.path.isfile(os.path.join(folder, "skillc.toml")):  # noqa: PTH113, PTH118
+            continue
         yield f"{folder} {os.stat(folder).st_mtime_ns}"  # noqa: PTH116
     for package in PACKAGES:
         yield from _states(import_module(package).__path__[0])
 
 
 def named_scenes(library: LibraryFiles) -> Iterator[Path]:
-    """Yield the paths, existing or not, of the scenes that the tasks of a library name."""
+    """Yield the paths, existing or not, of the scenes that the tasks of a library and its manifest name."""
     for source in (*library.sources, *library.importable.values()):
         for name in _SCENE.findall(source.text):
             yield library.places[source.path].parent / name
+    if library.project:
+        manifest = library.project.manifest
+        for named in (manifest.scene, *(each.scene for each in manifest.tasks.values())):
+            if named is not None:
+                yield library.project.root / named
 
 
 def _inputs(library: LibraryFiles, scene: Path | None) -> Iterator[str | bytes]:
@@ -155,6 +165,7 @@ def _python(sources: Iterable[Source]) -> Iterator[str]:
     from skillc_compiler.python.targets import Targets
 
     targets = Targets()
+    yield from digest_modules(module for module, _ in foreign)
     for module, name in foreign:
         yield from (
             module,
@@ -162,6 +173,19 @@ def _python(sources: Iterable[Source]) -> Iterator[str]:
             repr(targets.read(module, name)),
             *sorted(targets.method_returns(module, name, "tick")),
         )
+
+
+def digest_modules(modules: Iterable[str]) -> Iterator[str]:
+    """Yield the path and digest of each file of the packages of Python modules, without importing them."""
+    from skillc_compiler.python.modules import Modules
+
+    found = Modules()
+    for package in sorted({module.partition(".")[0] for module in modules} - {*PACKAGES}):
+        top = found[package].file
+        inside = sorted(top.parent.rglob("*.py")) if isinstance(top, Path) and top.name == "__init__.py" else [top]
+        for file in inside:
+            if isinstance(file, Path):
+                yield f"{file} {hashlib.sha256(read_file(file)).hexdigest()}"
 
 
 def _states(folder: str) -> list[str]:

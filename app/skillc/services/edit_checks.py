@@ -35,8 +35,9 @@ UNUSED_CONFLICT = "unused-conflict"
 def check_edits(library: LibraryFiles, before: Snapshot, parse: Parser) -> Snapshot | None:
     """Return the snapshot of a library, given the last one; None if it has to be checked as a whole.
 
-    That is so if more than skills and implementations has changed, if there is an error, if an edit concerns a task or
-    a text that may name something in a scene, or if it changes what the whole library reads of a skill.
+    That is so if more than skills and implementations has changed, if there is an error, if an edit concerns a task, a
+    text that may name something in a scene or a body that was looked at in space, or if it changes what the whole
+    library reads of a skill.
     """
     if any(each.name == UNUSED_CONFLICT for each in before.diagnostics):
         return None  # after the edit the library may use what was in conflict
@@ -49,7 +50,8 @@ def check_edits(library: LibraryFiles, before: Snapshot, parse: Parser) -> Snaps
     skills = dependencies.callers(changed_skills(before.outlines, now))
     checked = dependencies.concerned(skills) | edited.keys()
     described = changed_signatures(before.outlines, now)
-    if TASK in skills or not checked.isdisjoint(before.texts) or (described and _has_calls(library)):
+    told = not (skills & before.looked) and checked.isdisjoint(before.texts)
+    if TASK in skills or not told or (described and _has_calls(library)):
         return None
     own = {source.path: source for source in library.sources}
     needed = dependencies.needed(checked)

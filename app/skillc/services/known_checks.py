@@ -18,8 +18,9 @@ from skillc_dsl.diagnostics import Diagnostic
 def check_uncached(library: LibraryFiles, scene: Path | None, memo: AnalysisMemo | None) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of a library, without any cache on disk."""
     from skillc.services.library_checks import Known, check_library
+    from skillc.services.space_checks.verdicts import SpaceLook
 
-    return check_library(library, scene, Known(memo=memo))
+    return check_library(library, scene, Known(memo=memo, look=SpaceLook(use_cache=False).judge))
 
 
 def check_and_store(entry: CheckCacheEntry, memo: AnalysisMemo | None) -> tuple[Diagnostic, ...]:
@@ -27,12 +28,12 @@ def check_and_store(entry: CheckCacheEntry, memo: AnalysisMemo | None) -> tuple[
     library = entry.library
     before = load_snapshot(entry.around)
     now = check_edits(library, before, parse_cache.parse_cached) if before else None
-    files = FindingsCache(entry.around)
+    files, complete = FindingsCache(entry.around), True
     if now is not None:
         found = now.diagnostics
     else:
-        found, now = _check_whole(entry, memo or AnalysisMemo(), files)
-    if entry.is_current():
+        found, now, complete = _check_whole(entry, memo or AnalysisMemo(), files)
+    if complete and entry.is_current():
         entry.store(found)
         files.store()
         if now is not None:
@@ -43,15 +44,18 @@ def check_and_store(entry: CheckCacheEntry, memo: AnalysisMemo | None) -> tuple[
 
 def _check_whole(
     entry: CheckCacheEntry, memo: AnalysisMemo, files: FindingsCache
-) -> tuple[tuple[Diagnostic, ...], Snapshot | None]:
-    """Check everything; the result has a snapshot if the library compiles."""
+) -> tuple[tuple[Diagnostic, ...], Snapshot | None, bool]:
+    """Check everything; the result has a snapshot if the library compiles, and whether there was time for all."""
     # After an edit of skills, this is mostly not imported.
     from skillc.services.cell_checks.verdicts import judge_cell_once
     from skillc.services.library_checks import Known, check_whole
+    from skillc.services.space_checks.verdicts import SpaceLook
 
     memo.checks.files = files
-    known = Known(parse_cache.parse_cached, judge_cell_once, memo)
+    look = SpaceLook(use_cache=True)
+    known = Known(parse_cache.parse_cached, judge_cell_once, memo, look.judge)
     found, program, library = check_whole(entry.library, entry.scene, known)
     if program is None or library is None:
-        return found, None
-    return found, take_snapshot(program, library, files.outlines, files_with_texts(program), found)
+        return found, None, look.in_time
+    now = take_snapshot(program, library, files.outlines, files_with_texts(program), look.looked, found)
+    return found, now, look.in_time

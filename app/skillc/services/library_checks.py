@@ -21,6 +21,7 @@ from skillc_model.skills import SkillLibrary
 
 if TYPE_CHECKING:
     from skillc.services.cell_checks.report import CellJudge
+    from skillc.services.space_checks.problems import SpaceJudge
     from skillc.services.task_scenes import TaskScenes
 
 
@@ -28,12 +29,13 @@ if TYPE_CHECKING:
 class Known:
     """Where a check finds what earlier ones have found: a parser and a judge of cells that may cache their results.
 
-    `memo` has the last analysis of the library.
+    `memo` has the last analysis of the library. `look` looks at tasks in space; without it nothing does.
     """
 
     parsed_by: Parser | None = None
     judge: CellJudge | None = None
     memo: AnalysisMemo | None = None
+    look: SpaceJudge | None = None
 
 
 NOTHING = Known()
@@ -58,7 +60,7 @@ def check_whole(library: LibraryFiles, scene: Path | None, known: Known = NOTHIN
     outcome = libraries.compile_library(library, found.individuals, known.parsed_by, known.memo)
     assert found.program is not None, "a compiled library has a program"
     sources = [each._replace(path=library.display_path(each.path)) for each in library.sources]
-    around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources, known.judge)
+    around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources, known)
     problems = sort_diagnostics((*outcome.diagnostics, *around, *_named_goals(library, outcome)))
     return Checked(problems, found.program, outcome.value) if outcome.ok else Checked(problems)
 
@@ -78,18 +80,19 @@ def check_with_scenes(
     scenes: TaskScenes | None,
     display_path: Callable[[str], str],
     sources: Iterable[Source],
-    judge: CellJudge | None = None,
+    known: Known = NOTHING,
 ) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of scenes, of tasks in them, and of text values that name nothing.
 
     `display_path` maps a path of the library to a displayable one. Diagnostics that the `sources` (with displayable
-    paths) suppress are omitted. `judge` may be a cached `judge_cell`.
+    paths) suppress are omitted. The parser and the memo of `known` are not read.
     """
     found: tuple[Diagnostic, ...] = ()
     if scenes is not None:
         from skillc.services.task_checks import check_tasks_in_scenes
 
-        found = (*scenes.problems, *check_tasks_in_scenes(compiled, program, scenes, display_path, judge))
+        of_tasks = check_tasks_in_scenes(compiled, program, scenes, display_path, known.judge, known.look)
+        found = (*scenes.problems, *of_tasks)
     values = check_values(compiled, program, scenes, found, display_path)
     return without_suppressed((*found, *values), sources)
 

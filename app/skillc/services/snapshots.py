@@ -25,13 +25,15 @@ class Snapshot(msgspec.Struct, frozen=True):
     """A library that compiled without errors: the digest and the outline of each file, and everything that was found.
 
     `views` are the digests of what the whole library reads of each skill. `texts` are the files with text values that
-    may name something in a scene; `found` is as `skillc check` writes it.
+    may name something in a scene, `looked` the skills whose bodies were looked at in space; `found` is as
+    `skillc check` writes it.
     """
 
     digests: dict[str, str]
     outlines: dict[str, FileOutline]
     views: dict[str, str]
     texts: frozenset[str]
+    looked: frozenset[str]
     found: str
 
     @property
@@ -49,12 +51,13 @@ def take_snapshot(
     library: SkillLibrary,
     outlines: Mapping[str, FileOutline],
     texts: Iterable[str],
+    looked: Iterable[str],
     found: Iterable[Diagnostic],
 ) -> Snapshot:
     """Return the snapshot of a program without errors, given what it is compiled to and the outlines of its files."""
     digests = {unit.file.path: digest_of(Source(unit.file.path, unit.text)) for unit in program.files}
     views = digest_views(library, library.skills)
-    return Snapshot(digests, dict(outlines), views, frozenset(texts), json.render(found, {}))
+    return Snapshot(digests, dict(outlines), views, frozenset(texts), frozenset(looked), json.render(found, {}))
 
 
 def update_snapshot(

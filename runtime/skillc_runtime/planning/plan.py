@@ -109,12 +109,14 @@ class Unsolvable:
 class GaveUp:
     """No answer, with the reason: out of time or memory, or the planner failed.
 
-    `searched` is False if the goal cannot be expressed for a planner. `causes` are as of `Unsolvable`.
+    `searched` is False if the goal cannot be expressed for a planner. `causes` are as of `Unsolvable`. If it is proved
+    that each plan needs something that was left out, `needed` is what was.
     """
 
     why: str
     searched: bool = True
     causes: tuple[str, ...] = ()
+    needed: tuple[LeftOut, ...] = ()
 
     @property
     def message(self) -> str:

@@ -9,10 +9,9 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
-from skillc.services.cache_entries import find_entry
+from skillc.services.cache_entries import describe_scene, encode_meaning, find_entry
 from skillc_dsl import cache
 from skillc_model.conditions import Condition
-from skillc_ontology.catalogue import user_models
 from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.violation import SceneViolation
 
@@ -50,12 +49,6 @@ def _read(body: bytes | None) -> tuple[SceneViolation, ...] | None:
 
 
 def _inputs(scene: Scene, goals: Sequence[Condition]) -> Iterator[str | bytes]:
-    """Yield the terms, statements, goals and models that a verdict depends on."""
-    encoder = msgspec.msgpack.Encoder(order="deterministic")
-    yield encoder.encode(scene.state.vocabulary)
-    for each in scene.said:
-        yield f"{each.subject} {each.predicate} {each.object}"
-    yield encoder.encode(tuple(goals))
-    for model in user_models():
-        yield str(model)
-        yield model.read_bytes()
+    """Yield the scene and the goals that a verdict depends on."""
+    yield from describe_scene(scene)
+    yield encode_meaning(tuple(goals))

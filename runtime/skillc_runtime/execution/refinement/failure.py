@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from skillc_rdf.vocabulary.types import Position
+
 Cause: TypeAlias = Literal[
     "out-of-reach", "joint-range", "torque", "in-the-way", "no-path", "no-grasp-or-place", "no-value", "nothing-fits"
 ]
@@ -15,13 +17,20 @@ Cause: TypeAlias = Literal[
 class SpaceFailure:
     """Why a primitive does not get what it needs, as a sentence without its subject.
 
-    `depth` is how many motions went well before, `within` the calls around it, from the outermost on.
+    `depth` is how many motions went well before, `within` the calls around it, from the outermost on, which begins at
+    `source`.
     """
 
     cause: Cause
     why: str
     depth: int = 0
     within: tuple[str, ...] = ()
+    source: Position | None = None
+
+    @property
+    def is_in_space(self) -> bool:
+        """Whether it does not go because of space, and not because of facts or values."""
+        return self.cause not in ("no-value", "nothing-fits")
 
     @property
     def message(self) -> str:

@@ -33,13 +33,14 @@ class RefinedStep:
 class PlanRefinement:
     """The steps that go in space, in order, and why the next one, which begins in a situation, does not.
 
-    None if all go, or nothing says why.
+    None if all go, or nothing says why. `unseen` are calls in the next one that nobody could look at.
     """
 
     steps: tuple[RefinedStep, ...]
     failed: Step | None = None
     failure: SpaceFailure | None = None
     before: Situation | None = None
+    unseen: tuple[str, ...] = ()
 
 
 def refine_plan(
@@ -78,7 +79,7 @@ class _Refiner:
                 return
         self._left -= 1
         if len(done) > len(self._furthest.steps) or self._furthest.failed is None:
-            self._furthest = PlanRefinement(done, step, walk.furthest, here)
+            self._furthest = PlanRefinement(done, step, walk.furthest, here, tuple(walk.unseen))
 
     def _with_effects(self, step: Step, after: Situation) -> Situation:
         """Return the situation after a step with all that its skill promises."""

@@ -13,6 +13,7 @@ from typing import TypeAlias, assert_never
 from skillc_model import tree
 from skillc_model.conditions import Condition
 from skillc_model.skills import Compound, Implementation, Primitive, SkillLibrary
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.cancellation import check_current
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.needs import meet
@@ -40,10 +41,11 @@ NEEDS = 400
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """The values by name in a body, and the calls around it, from the outermost on."""
+    """The values by name in a body, and the calls around it, from the outermost on, which begins at `source`."""
 
     values: Mapping[str, Value]
     within: tuple[str, ...] = ()
+    source: Position | None = None
 
 
 @dataclass(slots=True)
@@ -137,7 +139,7 @@ class Walk:
             yield from self._rounds(child, rounds[1:], after, scope)
 
     def _call(self, call: tree.Call, here: Situation, scope: Scope) -> Iterator[Situation]:
-        inside = replace(scope, within=(*scope.within, call.skill))
+        inside = replace(scope, within=(*scope.within, call.skill), source=scope.source or call.source)
         try:
             arguments = {name: value_of(each, here.state, scope.values) for name, each in call.arguments.items()}
         except EvaluationError as why:
@@ -236,7 +238,7 @@ class Walk:
             return None
 
     def _fail(self, failure: SpaceFailure, here: Situation, scope: Scope) -> None:
-        self.failures.append(replace(failure, depth=len(here.motions), within=scope.within))
+        self.failures.append(replace(failure, depth=len(here.motions), within=scope.within, source=scope.source))
 
 
 def _rank(failure: SpaceFailure) -> tuple[bool, int, bool]:

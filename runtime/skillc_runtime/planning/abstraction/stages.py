@@ -106,7 +106,7 @@ def _limit_claims(solved: Solved, posed: PosedProblem) -> Solved:
 def _no_plan(reason: UnsolvabilityReason, posed: PosedProblem) -> Unsolvable | GaveUp:
     """Return that there is no plan; this is a proof only if no skill or step was left out."""
     if posed.restricted:
-        return GaveUp(reason.why, causes=reason.causes)
+        return GaveUp(reason.why, causes=reason.causes, needed=posed.restricted)
     return Unsolvable(reason.why, reason.causes)
 
 

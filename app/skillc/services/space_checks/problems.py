@@ -1,0 +1,38 @@
+"""What looking at a task in space finds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import msgspec
+
+from skillc_model.skills import SkillLibrary, Task
+
+if TYPE_CHECKING:
+    from skillc_runtime.scene.load import Scene
+
+
+class SpaceProblem(msgspec.Struct, frozen=True):
+    """A step that does not go in space, and why.
+
+    `call` is the place of its call among those in the body of the task; None if it was planned. `certain` if nothing
+    that is known would do without it, and nothing before it could not be looked at.
+    """
+
+    step: str
+    why: str
+    certain: bool
+    call: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class OutOfTime:
+    """A look that was given up after so many seconds, so that nothing is known."""
+
+    after_s: float
+
+
+SpaceJudge: TypeAlias = "Callable[[SkillLibrary, Scene, Task], SpaceProblem | OutOfTime | None]"
+"""Returns the step of a task that does not go in its scene; None if nothing is known against any."""

@@ -1,0 +1,177 @@
+"""`skillc check` looks at tasks in space before they run, says once what does not go, and remembers what it saw."""
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+import skillc_skills
+from refinement.test_measured_values import PROBING
+from refinement.test_plans import DESK, tilt_desk
+from skillc.cli.main import skillc
+from skillc.services import cache_entries, check_cache
+from skillc.services.space_checks import look, verdicts
+
+CLEAN = """
+use wiping
+prefix lab: <http://example.org/lab#>
+import "handling.skill"
+import "wiping/wipe.skill"
+
+task clean_door {
+    scene "cell.ttl"
+    goal  lab:Desk-1.isClean == true
+}
+"""
+REACH = """
+use skillc
+prefix lab: <http://example.org/lab#>
+import "motion.skill"
+
+task reach {
+    scene "cell.ttl"
+    do seq {
+        TakePosture(arm: lab:Panda-1)
+        MoveTo(arm: lab:Panda-1, target: lab:Desk-1.pose)
+    }
+}
+"""
+VISIT = """
+use skiros, rparts, skillc, wiping
+import "motion.skill"
+
+skill Visit {
+    in   arm:   ArmDevice
+    in   above: ApproachPose
+    in   on:    WipeableSurface
+    noplan
+}
+
+impl straight of Visit {
+    do seq {
+        MoveTo(arm, target: above.pose)
+        MoveTo(arm, target: above.pose)
+    }
+}
+
+skill Rest { noplan }
+impl idle of Rest { do wait 1 s }
+"""
+VISITING = """
+prefix lab: <http://example.org/lab#>
+import "visit.skill"
+
+task visit {
+    scene "cell.ttl"
+    do    Visit(arm: lab:Panda-1, above: lab:Eraser-1-approach, on: lab:Desk-1)
+}
+"""
+
+
+def write(folder: Path, text: str, scene: str = DESK) -> Path:
+    folder.mkdir(exist_ok=True)
+    (folder / "tasks.skill").write_text(text)
+    (folder / "cell.ttl").write_text(scene)
+    return folder
+
+
+def check(folder: Path, *options: str) -> tuple[list[dict], int]:
+    ran = CliRunner().invoke(skillc, ["check", str(folder), "--json", *options])
+    return json.loads(ran.stdout), ran.exit_code
+
+
+def lines(found: dict) -> set[str]:
+    """Return the lines to which a diagnostic points, as text."""
+    places = [found, *found["labels"]]
+    return {Path(each["path"]).read_text().splitlines()[each["line"] - 1] for each in places}
+
+
+@pytest.fixture
+def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Give this test entries of its own in the cache, which nothing but what is checked invalidates."""
+    for module in (check_cache, cache_entries):
+        monkeypatch.setattr(module, "installation_digest", lambda: str(tmp_path).encode())
+
+
+@pytest.mark.slow
+def test_a_door_at_which_a_joint_would_leave_its_range_is_told_at_the_task_and_the_door(tmp_path, own):
+    folder = write(tmp_path / "door", CLEAN, tilt_desk(0.45, -20.0, 0.75))
+    (found,), code = check(folder)
+    assert (found["name"], found["severity"], code) == ("infeasible-step", "error", 1)
+    assert "Wipe(lab:Desk-1) does not go: FollowPath: lab:Panda-1: joint 4 would be at -3." in found["message"]
+    assert {line.split(" a ")[0] for line in lines(found)} == {"task clean_door {", "lab:Desk-1", "lab:Panda-1"}
+    write(folder, CLEAN, tilt_desk(0.55, -20.0, 0.95))
+    assert check(folder) == ([], 0)
+
+
+@pytest.mark.slow
+def test_a_call_in_a_body_that_does_not_go_is_told_at_the_call(tmp_path):
+    (found,), code = check(write(tmp_path / "reach", REACH), "--no-cache")
+    assert (found["name"], found["severity"], code) == ("infeasible-step", "error", 1)
+    assert "would touch lab:Desk-1" in found["message"]
+    assert "        MoveTo(arm: lab:Panda-1, target: lab:Desk-1.pose)" in lines(found)
+
+
+@pytest.mark.slow
+def test_a_value_that_only_a_run_will_measure_is_no_problem(tmp_path):
+    assert check(write(tmp_path / "probing", PROBING), "--no-cache") == ([], 0)
+
+
+@pytest.mark.slow
+def test_what_was_seen_is_not_looked_at_again_until_something_changes_that_it_depends_on(tmp_path, own, monkeypatch):
+    folder, looks = write(tmp_path / "reach", REACH), []
+    look_at_task = look.look_at_task
+    monkeypatch.setattr(look, "look_at_task", lambda *arguments: looks.append(1) or look_at_task(*arguments))
+    first = check(folder)
+    assert check(folder) == first
+    write(folder, REACH.replace("task reach", "# moved\n\ntask reach"))
+    (moved,), _ = check(folder)
+    assert len(looks) == 1
+    assert moved["line"] == first[0][0]["line"] + 2
+    low = REACH.replace("Desk-1.pose", "Eraser-1-approach.pose")
+    write(folder, low)
+    assert check(folder) == ([], 0)
+    assert len(looks) == 2
+    write(
+        folder,
+        low,
+        DESK.replace("PositionX 0.4 ; skiros:PositionY -0.45", "PositionX 0.42 ; skiros:PositionY -0.45"),
+    )
+    check(folder)
+    assert len(looks) == 3
+
+
+@pytest.mark.slow
+def test_after_an_edit_of_a_body_only_those_are_looked_at_that_it_concerns(tmp_path, own, monkeypatch):
+    folder, looks = write(tmp_path / "visit", VISITING), []
+    look_at_task = look.look_at_task
+    monkeypatch.setattr(look, "look_at_task", lambda *arguments: looks.append(1) or look_at_task(*arguments))
+
+    def told(text: str) -> list[str]:
+        (folder / "visit.skill").write_text(text)
+        return [each["message"] for each in check(folder)[0] if each["name"] == "infeasible-step"]
+
+    assert told(VISIT) == []
+    assert told(VISIT.replace("wait 1 s", "wait 2 s")) == []
+    assert len(looks) == 1
+    (message,) = told(VISIT.replace("above.pose)\n    }", "on.pose)\n    }"))
+    assert message.startswith("Visit does not go in space: MoveTo: where it shall go")
+    assert len(looks) == 2
+
+
+@pytest.mark.slow
+def test_a_task_for_which_there_is_no_time_is_noted_and_nothing_is_remembered(tmp_path, own, monkeypatch):
+    folder = write(tmp_path / "door", CLEAN, tilt_desk(0.45, -20.0, 0.75))
+    monkeypatch.setattr(verdicts, "LIMIT_S", 0.0)
+    (note,), code = check(folder)
+    assert (note["name"], note["severity"], code) == ("unchecked-space", "note", 0)
+    assert "`clean_door` was not looked at in space" in note["message"]
+    monkeypatch.setattr(verdicts, "LIMIT_S", 60.0)
+    assert check(folder)[1] == 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("library", ["wiping", "contact", "sorting"])
+def test_shipped_tasks_go(library):
+    assert check(Path(skillc_skills.__path__[0]) / library, "--no-cache") == ([], 0)
