@@ -79,8 +79,9 @@ arms: .venv/.robots
 nodes: .tools/ros2/.made
 	.tools/ros2/bin/python -m pytest $(NODES) || .tools/ros2/bin/python -m pytest $(NODES) --last-failed
 
+# A browser waits for a server, and both for each other, most of the time.
 browser: .venv/.dev .venv/.studio ## drive the studio in Chromium; pictures of all tests are kept in out/studio
-	$(BIN)/pytest -m browser tests/studio -n 2 --dist loadfile
+	$(BIN)/pytest -m browser tests/studio -n 4 --dist worksteal
 
 wheel: .venv/.dev ## build the wheel and use it in a clean environment
 	$(BIN)/pytest -m wheel tests/distribution -n 2 --dist loadfile
