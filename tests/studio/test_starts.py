@@ -69,6 +69,7 @@ def check_shown(page: Page, cell: str, task: str) -> None:
 def test_a_start_of_each_kind_that_is_printed_shows_what_it_asks_for(
     browser: Browser, stands: dict[str, Path], command: str, known: str
 ) -> None:
+    """Starts of the studio take the port that is printed, so none of them may run beside another."""
     starts = [each for each in collect_starts() if not any(word in each.command for word in FOLLOWED_ELSEWHERE)]
     chosen = [each for each in of_each_kind(starts) if each.words[0] == command]
     assert known in {each.command for each in chosen}
