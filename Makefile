@@ -81,7 +81,7 @@ nodes: .tools/ros2/.made
 
 # A browser waits for a server, and both for each other, most of the time.
 browser: .venv/.dev .venv/.studio ## drive the studio in Chromium; pictures of all tests are kept in out/studio
-	$(BIN)/pytest -m browser tests/studio -n 4 --dist worksteal
+	$(BIN)/pytest -m browser tests/studio -n 3 --dist loadscope
 
 wheel: .venv/.dev ## build the wheel and use it in a clean environment
 	$(BIN)/pytest -m wheel tests/distribution -n 2 --dist loadfile

@@ -28,7 +28,6 @@ def cells(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
         yield running
 
 
-@pytest.mark.early
 def test_all_text_can_be_read_in_every_view_and_state(browser: Browser, cells: RunningServer) -> None:
     context = browser.new_context(viewport={"width": 1280, "height": 800})
     context.set_default_timeout(8_000 * PATIENCE)

@@ -62,7 +62,6 @@ def check_shown(page: Page, cell: str, task: str) -> None:
     expect(page).to_have_url(page.url.partition("#")[0])
 
 
-@pytest.mark.early
 @pytest.mark.parametrize(
     ("command", "known"), [("studio", "studio clean_whiteboard"), ("serve", "serve my_project --cell cell.ttl")]
 )
