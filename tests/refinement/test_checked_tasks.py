@@ -1,6 +1,7 @@
 """`skillc check` looks at tasks in space before they run, says once what does not go, and remembers what it saw."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -101,7 +102,9 @@ def test_a_door_at_which_a_joint_would_leave_its_range_is_told_at_the_task_and_t
     assert (found["name"], found["severity"], code) == ("infeasible-step", "error", 1)
     assert "Wipe(lab:Desk-1) does not go: FollowPath: lab:Panda-1: joint 4 would be at -3." in found["message"]
     assert {line.split(" a ")[0] for line in lines(found)} == {"task clean_door {", "lab:Desk-1", "lab:Panda-1"}
-    write(folder, CLEAN, tilt_desk(0.55, -20.0, 0.95))
+    cure = re.fullmatch(r"with lab:Desk-1 moved by 0\.\d+ m, to PositionX (0\.\d+), all steps go", found["help"])
+    assert cure is not None
+    write(folder, CLEAN, tilt_desk(float(cure[1]), -20.0, 0.75))
     assert check(folder) == ([], 0)
 
 

@@ -82,7 +82,7 @@ class TaskDiagnostics:
         message = f"{found.step} does not go in space: {found.why}"
         if planned and found.certain:
             message = f"no plan for `{name}` goes in space: {found.step} does not go: {found.why}"
-        help_ = "" if found.certain else "nothing proves that it cannot go: `skillc plan` says how far a plan goes"
+        help_ = found.cure or ("" if found.certain else "nothing proves that it cannot go in another way")
         severity: Severity = "error" if found.certain else "warning"
         labels = tuple(self._named(message))
         return Diagnostic("infeasible-step", self._span(place), message, help_, severity, labels)

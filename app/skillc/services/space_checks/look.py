@@ -6,14 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from skillc.services.planning import prepare_planners
+from skillc.services.space_checks.cure import find_cure
 from skillc.services.space_checks.problems import SpaceProblem
 from skillc_model import tree
-from skillc_model.conditions import Condition
+from skillc_model.conditions import Condition, Individual
 from skillc_model.skills import SkillLibrary, Task
 from skillc_model.traversal import find_calls
+from skillc_model.traversal import walk as walk_parts
 from skillc_runtime.cancellation import CancelToken, cancelling
-from skillc_runtime.execution.refinement.failure import SpaceFailure
-from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement
+from skillc_runtime.execution.refinement.plan_refinement import refine_plan
 from skillc_runtime.execution.refinement.replanning import plan_in_space
 from skillc_runtime.execution.refinement.situation import begin_at_home
 from skillc_runtime.execution.refinement.walk import Scope, Walk
@@ -34,55 +35,59 @@ class Looked:
 def look_at_task(library: SkillLibrary, state: WorldState, task: Task, cancel: CancelToken, use_cache: bool) -> Looked:
     """Return which step of a task does not go in a version of the world; Cancelled if `cancel` ends the look."""
     if task.goal is not None:
-        found = _look_at_goal(library, state, task.goal, prepare_planners(use_cache), cancel)
-    else:
-        assert task.body is not None, "a task has a goal or a body"
-        with cancelling(cancel):
-            found = _look_at_body(library, state, task.body)
-    cancel.check()
-    return found
+        return _look_at_goal(library, state, task.goal, prepare_planners(use_cache), cancel)
+    assert task.body is not None, "a task has a goal or a body"
+    return _look_at_body(library, state, task.body, cancel)
 
 
 def _look_at_goal(
     library: SkillLibrary, state: WorldState, goal: Condition, planners: Planners, cancel: CancelToken
 ) -> Looked:
-    skills = set[str]()
+    plans: list[tuple[Step, ...]] = []
 
     def plan(without: Sequence[Excluded]) -> PlanResult:
         answer = solve(library, state, goal, planners.for_work, cancel, without)
-        skills.update(each.skill for each in answer.plan.steps) if isinstance(answer, Solved) else None
+        plans.extend([answer.plan.steps] if isinstance(answer, Solved) else [])
         return answer
 
     answer, found = plan_in_space(library, state, plan, cancel)
+    cancel.check()
+    skills = frozenset(step.skill for steps in plans for step in steps)
     if found is None or found.failed is None or found.failure is None or not found.failure.is_in_space:
-        return Looked(None, frozenset(skills))
-    needed = answer.needed if isinstance(answer, GaveUp) else ()
-    certain = bool(needed) and all(each.kind == "steps" for each in needed) and not _has_unseen(found)
-    step = _describe_step(found.failed, library, state)
-    return Looked(SpaceProblem(step, found.failure.message, certain), frozenset(skills))
-
-
-def _has_unseen(found: PlanRefinement) -> bool:
-    return any(each.unseen for each in found.steps) or bool(found.unseen)
-
-
-def _describe_step(step: Step, library: SkillLibrary, state: WorldState) -> str:
-    """Return a step with the arguments that its skill does not look up itself."""
-    given = [each.name for each in library.skills[step.skill].parameters if each.direction == "in"]
-    named = ", ".join(state.vocabulary.short(step.arguments[name]) for name in given if name in step.arguments)
-    return f"{step.skill}({named})"
-
-
-def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node) -> Looked:
-    walk, calls = Walk(library), list(find_calls(body))
-    goes = next(walk.go(body, begin_at_home(state), Scope({})), None) is not None
-    failure, skills = walk.furthest, frozenset(each.skill for each in calls)
-    if goes or failure is None or not failure.is_in_space:
         return Looked(None, skills)
-    return Looked(_problem_of(failure, calls, certain=not walk.unseen), skills)
+
+    def goes(there: WorldState) -> bool:
+        return refine_plan(library, there, plans[-1]).failed is None
+
+    needed = answer.needed if isinstance(answer, GaveUp) else ()
+    seen = not found.unseen and not any(each.unseen for each in found.steps)
+    certain = seen and bool(needed) and all(each.kind == "steps" for each in needed)
+    things = _given(found.failed, library)
+    step = f"{found.failed.skill}({', '.join(map(state.vocabulary.short, things))})"
+    cure = find_cure(state, things, goes, cancel)
+    return Looked(SpaceProblem(step, found.failure.message, certain, None, cure), skills)
 
 
-def _problem_of(failure: SpaceFailure, calls: Sequence[tree.Call], *, certain: bool) -> SpaceProblem:
+def _given(step: Step, library: SkillLibrary) -> list[str]:
+    """Return the arguments of a step that its skill does not look up itself."""
+    given = (each.name for each in library.skills[step.skill].parameters if each.direction == "in")
+    return [step.arguments[name] for name in given if name in step.arguments]
+
+
+def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node, cancel: CancelToken) -> Looked:
+    def goes(there: WorldState) -> bool:
+        return next(Walk(library).go(body, begin_at_home(there), Scope({})), None) is not None
+
+    walk, calls = Walk(library), list(find_calls(body))
+    skills = frozenset(each.skill for each in calls)
+    with cancelling(cancel):
+        went = next(walk.go(body, begin_at_home(state), Scope({})), None) is not None
+    failure = walk.furthest
+    if went or failure is None or not failure.is_in_space:
+        return Looked(None, skills)
     place = next((number for number, each in enumerate(calls) if each.source == failure.source), None)
+    named = () if place is None else (each.iri for each in walk_parts(calls[place]) if isinstance(each, Individual))
     step, *inside = failure.within
-    return SpaceProblem(step, failure.message if inside else failure.why, certain, place)
+    why = failure.message if inside else failure.why
+    cure = find_cure(state, named, goes, cancel)
+    return Looked(SpaceProblem(step, why, not walk.unseen, place, cure), skills)

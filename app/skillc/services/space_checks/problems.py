@@ -18,13 +18,15 @@ class SpaceProblem(msgspec.Struct, frozen=True):
     """A step that does not go in space, and why.
 
     `call` is the place of its call among those in the body of the task; None if it was planned. `certain` if nothing
-    that is known would do without it, and nothing before it could not be looked at.
+    that is known would do without it, and nothing before it could not be looked at. `cure` is a place of a thing with
+    which all goes, as a sentence; empty if none was found.
     """
 
     step: str
     why: str
     certain: bool
     call: int | None = None
+    cure: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,7 @@ from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.scene.load import Scene
 from skillc_runtime.world.state.terms import ARM_DEVICE
 
-LIMIT_S = 20.0
+LIMIT_S = 60.0
 """How long all tasks of a library are looked at together."""
 _MOST = 500
 """The most entries in the cache; beyond it the older half is deleted."""

@@ -1,0 +1,68 @@
+"""Finds a place nearby for a thing with which a step that does not go in space goes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+
+from skillc_rdf.vocabulary.types import local_name
+from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
+from skillc_runtime.collision.solid_overlaps import overlap_depths
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.occupants import near_pairs, read_occupants
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.terms import OFFSET, POSITION
+from skillc_runtime.world.state.world_state import WorldState
+
+DISTANCES_M = (0.04, 0.08, 0.12, 0.16, 0.2)
+"""How far away places are that are tried, in each direction of the numbers that say where the thing is."""
+
+
+def find_cure(state: WorldState, things: Iterable[str], goes: Callable[[WorldState], bool], cancel: CancelToken) -> str:
+    """Return with which place of the first of some things that stands somewhere all goes, as a sentence.
+
+    Places are tried from the nearest on, and those left out at which it would lie deeper in another thing. Empty if
+    none was found before `cancel` ends the search.
+    """
+    try:
+        with cancelling(cancel):
+            return _find_place(state, things, goes)
+    except Cancelled:
+        return ""
+
+
+def _find_place(state: WorldState, things: Iterable[str], goes: Callable[[WorldState], bool]) -> str:
+    rooms = {each.individual for each in read_occupants(state)}
+    thing = next((each for each in things if each in rooms and any(_numbers(state, each))), None)
+    if thing is None:
+        return ""
+    short, before_m = state.vocabulary.short(thing), _overlap_m(state, thing)
+    for distance_m in DISTANCES_M:
+        for name, stated_m in _numbers(state, thing):
+            for way_m in (distance_m, -distance_m):
+                to_m = round(stated_m + way_m, 4)
+                there = _moved(state, thing, name, to_m)
+                if there is not None and _overlap_m(there, thing) <= before_m and goes(there):
+                    return f"with {short} moved by {distance_m:g} m, to {local_name(name)} {to_m:g}, all steps go"
+    return ""
+
+
+def _numbers(state: WorldState, thing: str) -> Iterator[tuple[str, float]]:
+    """Yield the properties that say where a thing is along an axis, in m."""
+    for name in (*POSITION, *OFFSET):
+        value = state.value(thing, name)
+        if isinstance(value, int | float):
+            yield name, float(value)
+
+
+def _moved(state: WorldState, thing: str, name: str, to_m: float) -> WorldState | None:
+    try:
+        return WorldModel(state).commit([SetProperty(thing, name, to_m)]).after
+    except (WorldError, FrameError):
+        return None
+
+
+def _overlap_m(state: WorldState, thing: str) -> float:
+    """Return how deep a thing lies inside any other one, in m."""
+    pairs = [pair for pair in near_pairs(read_occupants(state)) if thing in (pair[0].individual, pair[1].individual)]
+    return max(overlap_depths([(one.solids, other.solids) for one, other in pairs]), default=0.0)
