@@ -14,6 +14,8 @@ from docs.pages import ROOT, blocks
 from skillc.cli.main import skillc
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
+from skillc_runtime.scene.documents import Document
+from skillc_runtime.scene.load import read_documents, sheet_documents
 from vocabularies.reading import HEAD, beside
 
 PAGE = ROOT / "docs" / "ontologies.md"
@@ -40,6 +42,23 @@ def test_each_construct_has_the_effect_that_the_table_says(construct: str) -> No
         for each in (before, after)
     ]
     assert (terms[0] != terms[1]) == (effect != "reported")
+
+
+FOREIGN = re.compile(r"^\| (.*?) \| `(lab:[^`]* \.)` \|$", re.MULTILINE)
+
+
+@pytest.mark.parametrize("said", [row[2] for row in FOREIGN.finditer(PAGE.read_text("utf-8"))])
+def test_each_statement_that_is_not_understood_is_one_warning(said: str) -> None:
+    vocabulary = beside(Source("t.ttl", HEAD + TERMS)).value
+    text = f"{HEAD}@prefix lab: <http://example.org/lab#> .\nlab:S a t:A .\n{said}\n"
+    problems = read_documents([Document("scene.ttl", text), *sheet_documents()], vocabulary).problems
+    assert [(each.name, each.severity, each.span.line) for each in problems] == [
+        ("not-understood", "warning", text.count("\n"))
+    ]
+
+
+def test_the_table_of_such_statements_is_there() -> None:
+    assert len(FOREIGN.findall(PAGE.read_text("utf-8"))) >= 5
 
 
 def test_the_commands_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -53,7 +53,10 @@ def test_what_is_no_scene_is_told_once(tmp_path: Path, content: bytes, name: str
 def test_columns_count_characters_behind_a_mark_and_before_a_carriage_return(tmp_path: Path) -> None:
     text = "\ufeff@prefix : <http://e/> .\r\n:x a :ä, 'é' .\r\n"
     found = problems(tmp_path / "scene.ttl", text.encode())
-    assert [(p.name, p.span.line, p.span.column) for p in found] == [("unknown-class", 2, 6), ("unknown-class", 2, 10)]
+    assert [(p.name, p.span.line, p.span.column) for p in found] == [
+        ("not-understood", 2, 6),
+        ("unknown-class", 2, 10),
+    ]
 
 
 def test_a_folder_is_no_scene(tmp_path: Path) -> None:

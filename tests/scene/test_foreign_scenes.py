@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import pyoxigraph as ox
 import pytest
 
+from skillc.services.scene_edit import edit_file
 from skillc_dsl.source import Source
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document
@@ -44,3 +48,76 @@ def test_what_is_no_date_is_an_error(text: str) -> None:
     document = Document("scene.ttl", f'{HEAD}t:S a t:Sample ; t:taken "{text}"^^xsd:dateTime .')
     problems = read_documents([document, *sheet_documents()], sensing()).problems
     assert [(each.name, each.severity) for each in problems] == [("wrong-data-type", "error")]
+
+
+PLACE = "t:S a t:Sample .\n"
+KEPT = {
+    "an undeclared property": ('t:S t:tint "red" .', "`t:tint` (1)"),
+    "an undeclared relation": ("t:S t:beside t:Other . t:Other a t:Sample .", "`t:beside` (1)"),
+    "undeclared terms of another vocabulary": (
+        "@prefix geo: <http://example.org/geo#> . t:S geo:lat 57.0 ; geo:long 10.0 .",
+        "`geo:lat` (1), `geo:long` (1)",
+    ),
+    "a thing without a name": ('t:A a t:Act ; t:of [ a t:Sample ; t:due "2026-12-01" ] .', "things without a name (3)"),
+    "a thing without a name or class": ("t:A a t:Act ; t:of [] .", "things without a name (1)"),
+    "a list": ("t:A a t:Act ; t:of ( t:S ) .", "things without a name (3)"),
+    "a structure below an undeclared property": (
+        "t:S t:standing [ t:x 1 ; t:y [ t:z 2 ] ] .",
+        "things without a name (4)",
+    ),
+    "a thing of an undeclared class": (
+        't:B a t:Bread ; t:due "2026-12-01" . t:A a t:Act ; t:of t:B .',
+        "`t:Bread` (3)",
+    ),
+    "an undeclared class beside another": ("t:S a t:Bread .", "`t:Bread` (1)"),
+    "a number of a property without a range": ("t:S t:result 33 .", "`t:result` (1)"),
+    "a value of a datatype of its own": ('t:S t:result "47 km/h"^^t:speed .', "`t:result` (1)"),
+    "a frame without a name": ('t:S skiros:BaseFrameId "" .', "`skiros:BaseFrameId` (1)"),
+}
+
+
+def triples(text: str) -> int:
+    return len(set(map(str, ox.parse(text, ox.RdfFormat.TURTLE))))
+
+
+@pytest.mark.parametrize("kind", KEPT)
+def test_what_is_not_understood_is_listed_once_and_kept(kind: str) -> None:
+    said, listed = KEPT[kind]
+    document = Document("scene.ttl", HEAD + PLACE + said)
+    scene = read_documents([document, *sheet_documents()], sensing())
+    assert [(each.name, each.severity) for each in scene.problems] == [("not-understood", "warning")]
+    assert listed in scene.problems[0].message and scene.problems[0].span.path == "scene.ttl"
+    assert f"{T}S" in scene.state.individuals and f"{T}B" not in scene.state.individuals
+    saved = format_scene(scene.state, load_sheets(sensing()), document)
+    assert triples(saved) == triples(document.text)
+    again = read_documents([Document("scene.ttl", saved), *sheet_documents()], sensing())
+    assert [each.message for each in again.problems] == [each.message for each in scene.problems]
+
+
+@pytest.mark.parametrize("kind", KEPT)
+def test_an_edit_leaves_what_is_not_understood_as_it_is(kind: str, tmp_path: Path) -> None:
+    text = f"{HEAD}# a remark\n{PLACE}{KEPT[kind][0]}\n"
+    file = tmp_path / "scene.ttl"
+    file.write_text(text, "utf-8")
+    state = read_documents([Document.read(file), *sheet_documents()], sensing()).state
+    edit_file(file, state, ['t:S.due == "2027-01-01"', 'not t:S.due == "2027-01-01"', "t:N is t:Act"])
+    edited = file.read_text("utf-8")
+    assert [line for line in edited.split("\n") if line not in text] == ["t:N a t:Act ."]
+    assert all(line in edited for line in text.split("\n"))
+
+
+@pytest.mark.parametrize(
+    ("said", "name"),
+    [
+        ('t:S t:deu "2026-12-01" .', "unknown-property"),
+        ("t:A a t:Act ; t:fo t:S .", "unknown-relation"),
+        ("t:B a t:Sampel .", "unknown-class"),
+        ('t:S <http://example.org/tt#due> "2026-12-01" .', "unknown-property"),
+    ],
+)
+def test_a_name_that_is_probably_misspelt_is_an_error(said: str, name: str) -> None:
+    document = Document("scene.ttl", HEAD + PLACE + said)
+    errors = [
+        each for each in read_documents([document, *sheet_documents()], sensing()).problems if each.severity == "error"
+    ]
+    assert [each.name for each in errors] == [name] and "did you mean" in errors[0].help

@@ -15,10 +15,11 @@ from skillc_ontology.catalogue import sheet_files
 from skillc_rdf.turtle.statements import Parsed, Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
+from skillc_runtime.scene.aside import ASIDE, report_aside, set_aside
 from skillc_runtime.scene.checks.classes import check_class_parents, have_valid_parents, individuals_of_unknown_classes
 from skillc_runtime.scene.checks.identity import IdentityChecker
 from skillc_runtime.scene.checks.ineffective import check_ineffective, check_language_tags, check_missing_classes
-from skillc_runtime.scene.checks.terms import check_spelling, check_unnamed
+from skillc_runtime.scene.checks.terms import check_spelling
 from skillc_runtime.scene.conversion import name_subjects
 from skillc_runtime.scene.documents import Document, SceneError, parse, unreadable_problem, with_canonical_terms
 from skillc_runtime.scene.interpretation import interpret_table
@@ -137,15 +138,18 @@ def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Sce
     """
     parsed = [parse(document, vocabulary.namespaces) for document in documents]
     said = [with_canonical_terms(each, vocabulary.aliases) for document in parsed for each in document.statements]
-    written = said[: len(parsed[0].statements)] if parsed else []
+    here = parsed[0].statements[0].lines.path if parsed and parsed[0].statements else ""
     vocabulary = with_prefixes(vocabulary, parsed)
     known = vocabulary.classes.keys()
     vocabulary = with_own_classes(vocabulary, said)
+    found = set_aside(said, vocabulary)
+    said = list(found.understood)
+    written = [each for each in said if each.lines.path == here]
     syntax = [problem for document in parsed for problem in document.problems]
     own = frozenset(vocabulary.classes.keys() - known)
     terms = [
         *check_spelling(said, vocabulary),
-        *check_unnamed(said, vocabulary),
+        *report_aside(found.aside, vocabulary),
         *check_class_parents(said, own, vocabulary),
     ]
     lost = individuals_of_unknown_classes(said, own, vocabulary)
@@ -163,11 +167,11 @@ def read_with_sheets(own: Document, vocabulary: Vocabulary) -> Scene:
         reason = f"it may contain errors, but there is too little memory to check it: {error}"
         raise SceneError([unreadable_problem(own.path, reason)]) from error
     scene = read_documents([own, *sheet_documents()], vocabulary)
-    if scene.problems or any(each.lines.path == own.path for each in scene.said):
+    if any(each.lines.path == own.path for each in scene.said) or any(each.name != ASIDE for each in scene.problems):
         return scene
     place = Span(own.path, 1, 1, 1, 1)
     nothing = Diagnostic("empty-scene", place, "there is nothing in this scene", "name a thing: `:x a CLASS .`")
-    return Scene(scene.state, (nothing,), scene.said, scene.doubtful)
+    return replace(scene, problems=(*scene.problems, nothing))
 
 
 def _build_scene(

@@ -13,6 +13,7 @@ import pyoxigraph as ox
 
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import NumberType, Vocabulary
+from skillc_runtime.scene.aside import set_aside
 from skillc_runtime.scene.documents import Document, statements_of, with_canonical_terms
 from skillc_runtime.scene.statements import iri_of, select_facts, with_own_classes
 from skillc_runtime.store.literals import text_literal
@@ -111,7 +112,8 @@ def _classes(state: WorldState, library: Vocabulary) -> Iterator[ox.Triple]:
 def _other_statements(source: Document, state: WorldState) -> Iterator[ox.Triple]:
     """Yield the statements of a scene that are not facts."""
     said = [with_canonical_terms(each, state.vocabulary.aliases) for each in statements_of(source)]
-    about = select_facts(said, with_own_classes(state.vocabulary, said))
+    vocabulary = with_own_classes(state.vocabulary, said)
+    about = select_facts(set_aside(said, vocabulary).understood, vocabulary)
     gone = {iri_of(each.subject) for each in about} - state.individuals
     stated = {(each.subject_at, each.predicate_at, each.object_at) for each in about}
     for each in said:

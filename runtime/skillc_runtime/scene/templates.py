@@ -8,6 +8,7 @@ from pathlib import Path
 from skillc_rdf.turtle.statements import Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
+from skillc_runtime.scene.aside import set_aside
 from skillc_runtime.scene.documents import Document, SceneError, parse, with_canonical_terms
 from skillc_runtime.scene.load import sheet_documents
 from skillc_runtime.scene.mistakes import LocatedFacts
@@ -37,7 +38,9 @@ def read_templates(documents: Iterable[Document], vocabulary: Vocabulary) -> Tem
     templates = {
         iri_of(each.subject) for each in said if each.predicate == RDF_TYPE and iri_of(each.object) == TEMPLATE
     }
-    located = LocatedFacts([*select_facts(said, vocabulary), *_patterns(said, templates)], vocabulary)
+    located = LocatedFacts(
+        [*select_facts(set_aside(said, vocabulary).understood, vocabulary), *_patterns(said, templates)], vocabulary
+    )
     patterns: dict[str, list[Change]] = {each: [] for each in sorted(templates)}
     for change, statement in located.changes():
         patterns.get(iri_of(statement.subject), []).append(change)

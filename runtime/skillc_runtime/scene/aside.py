@@ -1,0 +1,178 @@
+"""Sets statements of a scene aside that nothing here understands: they are kept and listed, but are no facts.
+
+Not understood are undeclared relations, properties and classes, unless the name of a declared one is probably meant;
+individuals without a name, or of undeclared classes alone; values that are no text where a property has no range; and
+empty names of frames.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+import pyoxigraph as ox
+
+from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.source import Span
+from skillc_dsl.spelling import alike_names
+from skillc_rdf.turtle.statements import Node, Statement
+from skillc_rdf.turtle.terms import RDF_TYPE
+from skillc_rdf.vocabulary.closure import reachable
+from skillc_rdf.vocabulary.types import LITERAL, Vocabulary, local_name, namespace_of
+from skillc_runtime.scene.standard_terms import is_misspelt
+from skillc_runtime.scene.statements import NAMED_INDIVIDUAL, FactFilter, iri_of, pairs
+from skillc_runtime.store.literals import TEXTS
+from skillc_runtime.world.state.terms import BASE_FRAME_ID, FRAME_ID
+
+ASIDE = "not-understood"
+NAMELESS = "things without a name"
+FRAMES = (FRAME_ID, BASE_FRAME_ID)
+SHOWN = 5
+"""The most kinds of statements that are named for a file."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sorted:
+    """The statements that are understood, and the others in order, each with what is unknown in it."""
+
+    understood: tuple[Statement, ...]
+    aside: tuple[tuple[str, Statement], ...]
+
+
+def set_aside(said: Sequence[Statement], vocabulary: Vocabulary) -> Sorted:
+    """Divide statements into those that are understood and others."""
+    reasons = _Reasons(said, vocabulary)
+    found = [(reasons.of(each), each) for each in said]
+    return Sorted(
+        tuple(each for reason, each in found if reason is None),
+        tuple((reason, each) for reason, each in found if reason is not None),
+    )
+
+
+def report_aside(aside: Iterable[tuple[str, Statement]], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+    """Yield, once for each file, a warning that lists what is not understood."""
+    files: dict[str, dict[str, list[Statement]]] = defaultdict(lambda: defaultdict(list))
+    for reason, each in aside:
+        files[each.lines.path][reason].append(each)
+    for found in files.values():
+        total = sum(map(len, found.values()))
+        kinds = sorted(found, key=lambda reason: (-len(found[reason]), reason))
+        names = [reason if reason == NAMELESS else f"`{vocabulary.short(reason)}`" for reason in kinds]
+        listed = ", ".join(f"{name} ({len(found[kind])})" for name, kind in zip(names, kinds, strict=True))[:400]
+        statements = "1 statement of this file is" if total == 1 else f"{total} statements of this file are"
+        first, *others = sorted(_place(found[kind][0]) for kind in kinds)
+        yield Diagnostic(
+            ASIDE,
+            first,
+            f"{statements} not understood and kept as they are: {listed}",
+            help="declare what skills need in a .skill file or an ontology, and name things",
+            severity="warning",
+            labels=tuple(Label(place, "also this") for place in others[:SHOWN]),
+        )
+
+
+def _place(each: Statement) -> Span:
+    return each.object_place if each.predicate == RDF_TYPE else each.predicate_place
+
+
+class _Reasons:
+    """Finds what is unknown in statements: the IRI of a term, or NAMELESS."""
+
+    def __init__(self, said: Sequence[Statement], vocabulary: Vocabulary) -> None:
+        self._vocabulary = vocabulary
+        self._filter = FactFilter(vocabulary, pairs(said, RDF_TYPE))
+        predicates = {each.predicate for each in said if self._is_unknown_predicate(each)}
+        classes = {iri_of(each.object) for each in said if self._is_unknown_class(each)}
+        meant = _Meant(predicates | classes, vocabulary)
+        self._predicates = {iri for iri in predicates if not meant.is_meant(iri)}
+        self._classes = {iri for iri in classes if not meant.is_meant(iri)}
+        self._lost = self._find_lost(said)
+        self._nameless = self._find_nameless(said)
+
+    def of(self, each: Statement) -> str | None:
+        """Return what is unknown in a statement, None if it is understood."""
+        if each.subject in self._nameless or each.object in self._nameless:
+            return NAMELESS
+        lost = self._lost.get(iri_of(each.subject)) or self._lost.get(iri_of(each.object))
+        if lost is not None and (iri_of(each.subject) in self._lost or self._is_link(each)):
+            return lost
+        if each.predicate in self._predicates and self._is_unknown_predicate(each):
+            return each.predicate
+        if self._is_unknown_class(each) and iri_of(each.object) in self._classes:
+            return iri_of(each.object)
+        return each.predicate if self._is_no_text(each) or _names_nothing(each) else None
+
+    def _is_unknown_predicate(self, each: Statement) -> bool:
+        known = each.predicate in self._vocabulary.relations or each.predicate in self._vocabulary.properties
+        return not known and each.predicate != RDF_TYPE and self._states_fact(each) and not is_misspelt(each.predicate)
+
+    def _is_unknown_class(self, each: Statement) -> bool:
+        cls = iri_of(each.object)
+        if each.predicate != RDF_TYPE or not cls or cls == NAMED_INDIVIDUAL:
+            return False
+        return cls not in self._vocabulary.ancestors and not is_misspelt(cls) and self._states_fact(each)
+
+    def _states_fact(self, each: Statement) -> bool:
+        return iri_of(each.subject) not in self._filter.terms and self._filter.may_state_facts(each.predicate)
+
+    def _is_link(self, each: Statement) -> bool:
+        return each.predicate in self._vocabulary.relations or self._is_unknown_predicate(each)
+
+    def _is_no_text(self, each: Statement) -> bool:
+        """Whether a property without a range has a value that is no text."""
+        term = self._vocabulary.properties.get(each.predicate)
+        if term is None or term.datatype != LITERAL or not isinstance(each.object, ox.Literal):
+            return False
+        return each.object.datatype.value not in TEXTS and iri_of(each.subject) not in self._filter.terms
+
+    def _find_lost(self, said: Sequence[Statement]) -> dict[str, str]:
+        """Return the individuals of unknown classes alone, each with one of them."""
+        types = [each for each in said if each.predicate == RDF_TYPE] if self._classes else []
+        unknown = {each for each in types if self._is_unknown_class(each) and iri_of(each.object) in self._classes}
+        known = {each.subject for each in types if each not in unknown and iri_of(each.object) != NAMED_INDIVIDUAL}
+        return {iri_of(each.subject): iri_of(each.object) for each in unknown if each.subject not in known}
+
+    def _find_nameless(self, said: Sequence[Statement]) -> set[Node]:
+        """Return the blank nodes that individuals would be, and those that only statements about them mention."""
+        found: set[Node] = set()
+        inside: dict[Node, list[Node]] = defaultdict(list)
+        for each in said:
+            blank = [node for node in (each.subject, each.object) if isinstance(node, ox.BlankNode)]
+            if len(blank) == 2:
+                inside[each.subject].append(each.object)
+            if blank and self._is_about_individuals(each):
+                found.update(blank)
+        return reachable(found, lambda node: inside.get(node, ()))
+
+    def _is_about_individuals(self, each: Statement) -> bool:
+        if each.predicate == RDF_TYPE:
+            return iri_of(each.object) in self._vocabulary.classes
+        if each.predicate in self._vocabulary.relations or each.predicate in self._vocabulary.properties:
+            return iri_of(each.subject) not in self._filter.terms or isinstance(each.subject, ox.BlankNode)
+        return each.predicate in self._predicates and not isinstance(each.subject, ox.BlankNode)
+
+
+def _names_nothing(each: Statement) -> bool:
+    """Whether the name of a frame is empty, as SkiROS2 writes it for things without a pose."""
+    return each.predicate in FRAMES and isinstance(each.object, ox.Literal) and not each.object.value
+
+
+class _Meant:
+    """Decides whether an unknown term is a misspelt known one; `unknown` are all unknown terms."""
+
+    def __init__(self, unknown: Iterable[str], vocabulary: Vocabulary) -> None:
+        self._there: dict[str, set[str]] = defaultdict(set)
+        for iri in (*vocabulary.classes, *vocabulary.relations, *vocabulary.properties) if unknown else ():
+            self._there[namespace_of(iri)].add(local_name(iri))
+        self._used: dict[str, set[str]] = defaultdict(set)
+        for iri in unknown:
+            self._used[namespace_of(iri)].add(local_name(iri))
+
+    def is_meant(self, iri: str) -> bool:
+        """Whether a known term is alike, or the namespace is wrong: a known one has all that is used of it."""
+        base, name = namespace_of(iri), local_name(iri)
+        others = (names for namespace, names in self._there.items() if namespace != base)
+        if base in self._there:
+            return bool(alike_names(name, self._there[base])) or any(name in names for names in others)
+        return any(self._used[base] <= names for names in others)
