@@ -15,10 +15,11 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from skillc_runtime.backends.mujoco import momentum
 from skillc_runtime.backends.mujoco.divergence import DivergenceMonitor
+from skillc_runtime.backends.mujoco.far_bodies import FarBodies, make_far_bodies
 from skillc_runtime.backends.mujoco.mirror import Half, Mirror, Pull
 from skillc_runtime.backends.mujoco.model_map import map_models
-from skillc_runtime.backends.mujoco.momentum import join, part
 from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.backends.simulation.hold import read_hold
 from skillc_runtime.backends.simulation.machine_code import address_of, has_room, row_calling
@@ -28,7 +29,7 @@ from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation
 from skillc_runtime.backends.simulation.whole_mass import WholeMass
 from skillc_runtime.motion.numerics.compiled import COMPILES
-from skillc_runtime.motion.numerics.program import Rows, row_of
+from skillc_runtime.motion.numerics.program import Rows, join, row_of
 from skillc_runtime.world.state.data_sheet import SheetError
 
 
@@ -49,10 +50,15 @@ class Physics:
     _is_due: bool = False
     monitor: DivergenceMonitor = field(init=False)
     """Watches the model that is stepped."""
+    far: FarBodies | None = field(init=False)
+    """What the search for contacts leaves out of the model that is stepped."""
     mass: WholeMass = field(init=False)
     """The mass matrix of the model of the cell, in which what is held does not burden an arm."""
 
+    _far_of_cell: FarBodies | None = field(init=False)
+
     def __post_init__(self) -> None:
+        self.far = self._far_of_cell = make_far_bodies(self.model, self.data)
         self.monitor, self.mass = DivergenceMonitor(self.model, self.data), WholeMass(self.model, self.data)
         # Of two hands each may grasp or release while the other one holds something; without compiled functions,
         # showing the state of another model costs more than it saves.
@@ -80,6 +86,8 @@ class Physics:
         if self._mirror is not None:
             self._mirror.rows.renew(self.model, self._mirror.tight_model)
             self._mirror.take_changes()
+        if self.far is not None:
+            self.far.renew()
         self.compute_places()
         self.monitor.step(self.data.time)
 
@@ -102,10 +110,22 @@ class Physics:
         if self._is_due:
             return None
         if self._mirror is None:
-            return row_calling(half, self.model, self.data) if has_room(self.data) else None
-        return row_of(self._mirror.halves[half]) if has_room(self._mirror.tight) else None
+            rows = row_calling(half, self.model, self.data) if has_room(self.data) else None
+        else:
+            rows = row_of(self._mirror.halves[half]) if has_room(self._mirror.tight) else None
+        if half == "mj_step2" or self.far is None:
+            return rows
+        return join(row_of(self.far.leave_out), rows, row_of(self.far.take_in))
 
     def _run(self, half: Half) -> None:
+        far = self.far if half == "mj_step1" else None
+        if far is not None:
+            far.leave_out(self.data.time)
+        self._run_half(half)
+        if far is not None:
+            far.take_in(self.data.time)
+
+    def _run_half(self, half: Half) -> None:
         if self._mirror is not None and has_room(self._mirror.tight):
             self._mirror.halves[half](self.data.time)
             return
@@ -141,22 +161,28 @@ class Physics:
             self._holders.clear()
             return
         data, blocks = mujoco.MjData(model), self._blocks()
+        far = make_far_bodies(model, data)
         rows.renew(self.model, model)
-        join(rows, self.model, self.data, model, data, blocks)
+        momentum.join(rows, self.model, self.data, model, data, blocks)
         self._mirror = Mirror(rows, self.model, self.data, model, data, list(blocks))
         self._pulls = dict(zip(self._holders, self._mirror.pulls, strict=True))
-        self._step_with(model, data, np.argsort(rows.geoms))
+        self._step_with(model, data, np.argsort(rows.geoms), far)
 
     def _loosen(self) -> None:
         """Go on with the model of the cell."""
         mirror, self._mirror, self._pulls = self._mirror, None, {}
         if mirror is not None:
-            part(mirror.rows, self.model, self.data, mirror.tight_model, mirror.tight, self._blocks(mirror.blocks))
+            momentum.part(
+                mirror.rows, self.model, self.data, mirror.tight_model, mirror.tight, self._blocks(mirror.blocks)
+            )
             mujoco.mj_step1(self.model, self.data)
-            self._step_with(self.model, self.data, np.arange(self.model.ngeom))
+            self._step_with(self.model, self.data, np.arange(self.model.ngeom), self._far_of_cell)
 
-    def _step_with(self, model: Any, data: Any, geoms: NDArray[np.int64]) -> None:
+    def _step_with(self, model: Any, data: Any, geoms: NDArray[np.int64], far: FarBodies | None) -> None:
         """Watch what steps use from now on; `geoms` are the numbers (ngeom,) in the cell's model of the geoms there."""
+        if far is not None:
+            far.renew()
+        self.far = far
         self.monitor = DivergenceMonitor(model, data)
         self.contacts.read_from(model, data, geoms)
         self.mass.let_be_stepped(model is self.model)
