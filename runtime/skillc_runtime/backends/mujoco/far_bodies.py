@@ -26,7 +26,7 @@ from skillc_runtime.motion.numerics.compiled import COMPILES, bind, compiled, in
 from skillc_runtime.motion.numerics.copying import Copies, copy_pieces
 from skillc_runtime.motion.numerics.places import call_entry
 
-FAR_M: Final = 0.01
+FAR_M: Final = 0.015
 """A body with this clearance is left out."""
 
 LOOK_M: Final = 0.2
