@@ -24,6 +24,7 @@ from skillc_runtime.backends.mujoco.levers import KNOWN_JOINTS, MOVES_FREELY, SL
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import COMPILES, bind, compiled, inlined
 from skillc_runtime.motion.numerics.copying import Copies, copy_pieces
+from skillc_runtime.motion.numerics.linear import copy_vector
 from skillc_runtime.motion.numerics.places import call_entry
 
 FAR_M: Final = 0.015
@@ -110,13 +111,6 @@ def length_between(one: Vector, other: Vector, first: int, count: int) -> float:
 
 
 @inlined
-def remember(source: Vector, target: OutVector) -> None:
-    """target = source, in any unit."""
-    for k in range(source.size):
-        target[k] = source[k]
-
-
-@inlined
 def place_boxes(near: Clearances) -> None:
     """Compute the centres of all boxes."""
     for geom in range(near.boxes.shape[0]):
@@ -192,9 +186,9 @@ def look(near: Clearances) -> None:
         for k in range(0, 6, 3):
             call_entry(memmove, int(near.bits[body, k]), int(near.bits[body, k + source]), 4)
     ways = near.ways
-    remember(ways.qpos, ways.last_qpos)
-    remember(ways.mocap_pos, ways.last_pos)
-    remember(ways.mocap_quat, ways.last_quat)
+    copy_vector(ways.qpos, ways.last_qpos)
+    copy_vector(ways.mocap_pos, ways.last_pos)
+    copy_vector(ways.mocap_quat, ways.last_quat)
     ways.allowed[0] = allowed
 
 
