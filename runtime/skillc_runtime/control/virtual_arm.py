@@ -139,7 +139,10 @@ class VirtualArm:
         self.update_kinematics(q)
 
     def hang_tool(self, q: Array, tool: Pose) -> None:
-        """Place the tool centre point as `mount_tool`, for whoever moves on; `tool` and `jacobian` are not updated."""
+        """Place the tool centre point on the hand so that it is at `tool` in base for joints q (nv,) in rad.
+
+        For whoever moves on next: `tool` and `jacobian` are not updated.
+        """
         position, quaternion = self._model.body_pos[self._body], self._model.body_quat[self._body]
         position[:], quaternion[:], self._qpos[:] = self._flange.position, self._turn_of_flange, q
         mujoco.mj_kinematics(self._model, self._data)
