@@ -192,6 +192,27 @@ def test_fingers_that_open_let_go_and_what_they_held_falls() -> None:
     assert there.ground_truth.body_pose(ERASER).position[2] < before[2] - 0.05, "it falls"
 
 
+def pulled_out_after(share: float, runs_program: bool) -> int | None:
+    """Return how many ms a hand holds a tool at which somebody pulls with a share of what friction bears."""
+    there = holding("iiwa_table")
+    hand, there.steps.runs_program = there.gripper(GRIPPER["iiwa_table"]), runs_program
+    assert there.physics.pull_on(ERASER) is not None and hand._grip is not None
+    there.data.body(there.scene.names[ERASER] + "/block").xfrc_applied[2] = -share * hand._grip.bears_n
+    for number in range(100):
+        if hand.carries is None:
+            return number
+        there.advance(0.001)
+    return None
+
+
+@pytest.mark.slow
+def test_what_friction_does_not_bear_slips_out_of_the_hand_in_machine_code_as_in_python() -> None:
+    by_program, by_python = (pulled_out_after(1.5, runs_program) for runs_program in (True, False))
+    assert by_program == by_python
+    assert by_program is not None and 30 <= by_program < 60, "an impact does not count"
+    assert pulled_out_after(0.5, True) is None
+
+
 def test_what_is_drawn_is_where_the_held_thing_is() -> None:
     there = holding("iiwa_table")
     drawn = mujoco.MjData(there.model)
