@@ -31,6 +31,11 @@ WRONG = {
         "impossible-class",
         2,
     ),
+    "below a class and its complement": (
+        ABOVE + "t:C owl:complementOf t:B .\nt:X a owl:Class ; rdfs:subClassOf t:B, t:C .",
+        "impossible-class",
+        3,
+    ),
     "listed as disjoint": (
         ABOVE + "[] a owl:AllDisjointClasses ; owl:members ( t:A t:C ) .\nt:X a owl:Class ; rdfs:subClassOf t:A, t:C .",
         "impossible-class",

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import pyoxigraph as ox
 
 from skillc_rdf.vocabulary.graph import Graph, Node
-from skillc_rdf.vocabulary.iris import EQUAL_CLASS, OWL, SUBCLASS
+from skillc_rdf.vocabulary.iris import COMPLEMENT, EQUAL_CLASS, OWL, SUBCLASS
 from skillc_rdf.vocabulary.types import THING, Vocabulary
 
 AT_LEAST = tuple(
@@ -54,8 +54,9 @@ def superclasses(graph: Graph, cls: str) -> set[str]:
 
 
 def complements(graph: Graph, cls: str) -> set[str]:
-    """Return the classes of whose complements a class is a subclass."""
-    return {other for node in superclass_nodes(graph, cls) for other in graph.iris(node, f"{OWL}complementOf")}
+    """Return the classes of whose complements a class is a subclass, or of which it is the complement."""
+    nodes: list[Node] = [ox.NamedNode(cls), *superclass_nodes(graph, cls)]
+    return {other for node in nodes for other in graph.iris(node, COMPLEMENT)}
 
 
 def subclasses(graph: Graph, cls: str) -> set[str]:

@@ -15,7 +15,7 @@ KINDS = (CLASS, RELATION, PROPERTY)
 ANNOTATION, DATATYPE = f"{OWL}AnnotationProperty", f"{RDFS}Datatype"
 SUBCLASS, SUBPROPERTY = f"{RDFS}subClassOf", f"{RDFS}subPropertyOf"
 EQUAL_CLASS, EQUAL_PROPERTY = f"{OWL}equivalentClass", f"{OWL}equivalentProperty"
-DISJOINT, INVERSE = f"{OWL}disjointWith", f"{OWL}inverseOf"
+DISJOINT, COMPLEMENT, INVERSE = f"{OWL}disjointWith", f"{OWL}complementOf", f"{OWL}inverseOf"
 DOMAIN, RANGE = f"{RDFS}domain", f"{RDFS}range"
 BUILT_IN = (RDF, RDFS, OWL, XSD)
 """The namespaces of these vocabularies, whose terms ontologies do not declare."""

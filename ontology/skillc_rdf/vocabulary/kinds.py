@@ -16,6 +16,7 @@ from skillc_rdf.vocabulary.iris import (
     ANNOTATION,
     BUILT_IN,
     CLASS,
+    COMPLEMENT,
     DATATYPE,
     DISJOINT,
     DOMAIN,
@@ -46,7 +47,7 @@ WRITTEN |= {f"{OWL}{name}Property": RELATION for name in ("Transitive", "Symmetr
 WRITTEN |= {f"{OWL}InverseFunctionalProperty": RELATION, f"{OWL}ReflexiveProperty": RELATION}
 UNDECIDED = (f"{OWL}FunctionalProperty", f"{RDF}Property")
 """Instances of these classes are relations or data properties, depending on their ranges."""
-OF_CLASSES = frozenset({SUBCLASS, DISJOINT, f"{OWL}complementOf"})
+OF_CLASSES = frozenset({SUBCLASS, DISJOINT, COMPLEMENT})
 """Predicates both of whose ends are classes."""
 
 

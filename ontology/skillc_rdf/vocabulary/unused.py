@@ -11,7 +11,7 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.datatypes import FACETS, read_bound
 from skillc_rdf.vocabulary.graph import Graph, Node
-from skillc_rdf.vocabulary.iris import EQUAL_CLASS, OWL, SUBCLASS, TYPE
+from skillc_rdf.vocabulary.iris import COMPLEMENT, DISJOINT, EQUAL_CLASS, OWL, SUBCLASS, TYPE
 from skillc_rdf.vocabulary.precedence import Split
 from skillc_rdf.vocabulary.reading import Ontology
 
@@ -28,6 +28,8 @@ CLASSES = frozenset(
     for name in ("ReflexiveProperty", "AllDisjointProperties", "AllDifferent", "NegativePropertyAssertion")
 )
 """Instances of these classes are axioms without effect."""
+ONE_OF = f"{OWL}oneOf"
+COVERING = "owl:complementOf (that everything is of one of both)"
 RESTRICTIONS = f"{OWL}withRestrictions"
 
 
@@ -71,8 +73,16 @@ def _kinds(triple: ox.Triple, graph: Graph) -> Iterator[str]:
         yield _short(said)
     elif said == TYPE and isinstance(triple.object, ox.NamedNode) and triple.object.value in CLASSES:
         yield _short(triple.object.value)
+    elif said in (SUBCLASS, EQUAL_CLASS, DISJOINT) and isinstance(triple.subject, ox.BlankNode):
+        yield "axiom about an expression"
+    elif said == DISJOINT and isinstance(triple.object, ox.BlankNode):
+        yield "owl:disjointWith an expression"
     elif said in (SUBCLASS, EQUAL_CLASS) and isinstance(triple.object, ox.BlankNode):
         yield from _expression(triple.object, said, graph)
+    elif said == COMPLEMENT and isinstance(triple.subject, ox.NamedNode):
+        yield COVERING
+    elif said == ONE_OF and isinstance(triple.subject, ox.NamedNode):
+        yield _short(said)
 
 
 def _are_bounds(head: Node, graph: Graph) -> bool:
@@ -87,7 +97,9 @@ def _expression(node: ox.BlankNode, said: str, graph: Graph) -> Iterator[str]:
     """Yield the kinds of axioms without effect in an expression above or equivalent to a class."""
     if said == SUBCLASS and graph.objects(node, f"{OWL}unionOf"):
         yield "owl:unionOf above a class"
-    if graph.objects(node, f"{OWL}oneOf") and not graph.objects(node, TYPE):
+    if said == EQUAL_CLASS and graph.objects(node, COMPLEMENT):
+        yield COVERING
+    if graph.objects(node, ONE_OF) and not graph.objects(node, TYPE):
         yield "owl:oneOf"
     if said == EQUAL_CLASS and (graph.objects(node, f"{OWL}intersectionOf") or graph.objects(node, f"{OWL}onProperty")):
         yield "definition (members are not inferred from it)"
