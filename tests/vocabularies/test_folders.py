@@ -168,3 +168,15 @@ def test_the_editor_knows_the_vocabularies_beside_the_skills_and_tells_what_is_w
     told = diagnostics_by_uri(libraries, view.root, view.analysis, libraries.problems_around(view.root), "utf-16")
     names = {problem.code for problem in told[(file.parent / "cell.owl").as_uri()]}
     assert names == {"shipped-term", "undeclared-term", "unused-axiom"}
+
+
+def test_the_editor_tells_a_contradiction_as_an_error_once_it_is_used(library: Path) -> None:
+    file, plant = (library / "load.skill").resolve(), (library / "plant.ttl").resolve()
+    shutil.copy("stock/cell.owl", library / "cell.owl")
+    plant.write_text(PLANT + CART, "utf-8")
+    libraries = Libraries((file.parent,))
+    for text, expected in ((SKILL, "unused-conflict"), (SKILL.replace("Conveyor", "Cart"), "impossible-class")):
+        libraries.write(file.as_uri(), text)
+        view = libraries.view(file.as_uri())
+        told = diagnostics_by_uri(libraries, view.root, view.analysis, libraries.problems_around(view.root), "utf-16")
+        assert [problem.code for problem in told[plant.as_uri()]] == [expected]
