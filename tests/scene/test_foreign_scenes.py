@@ -60,6 +60,7 @@ KEPT = {
     ),
     "a thing without a name": ('t:A a t:Act ; t:of [ a t:Sample ; t:due "2026-12-01" ] .', "things without a name (3)"),
     "a thing without a name or class": ("t:A a t:Act ; t:of [] .", "things without a name (1)"),
+    "an individual of another vocabulary": ("t:A a t:Act ; t:of <http://example.org/units/M> .", "units/M` (1)"),
     "a list": ("t:A a t:Act ; t:of ( t:S ) .", "things without a name (3)"),
     "a structure below an undeclared property": (
         "t:S t:standing [ t:x 1 ; t:y [ t:z 2 ] ] .",
@@ -109,6 +110,8 @@ def test_an_edit_leaves_what_is_not_understood_as_it_is(kind: str, tmp_path: Pat
 @pytest.mark.parametrize(
     ("said", "name"),
     [
+        ("t:Board a t:Sample . t:A a t:Act ; t:of t:Bord .", "unknown-individual"),
+        ("t:A a t:Act ; t:of <http://example.org/tt#S> .", "unknown-individual"),
         ('t:S t:deu "2026-12-01" .', "unknown-property"),
         ("t:A a t:Act ; t:fo t:S .", "unknown-relation"),
         ("t:B a t:Sampel .", "unknown-class"),

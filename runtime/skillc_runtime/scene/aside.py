@@ -1,8 +1,8 @@
 """Sets statements of a scene aside that nothing here understands: they are kept and listed, but are no facts.
 
 Not understood are undeclared relations, properties and classes, unless the name of a declared one is probably meant;
-individuals without a name, or of undeclared classes alone; values that are no text where a property has no range; and
-empty names of frames.
+individuals without a name, of undeclared classes alone, or of other vocabularies, such as units; values that are no
+text where a property has no range; and empty names of frames.
 """
 
 from __future__ import annotations
@@ -88,6 +88,7 @@ class _Reasons:
         self._predicates = {iri for iri in predicates if not meant.is_meant(iri)}
         self._classes = {iri for iri in classes if not meant.is_meant(iri)}
         self._lost = self._find_lost(said)
+        self._elsewhere = self._find_elsewhere(said)
         self._nameless = self._find_nameless(said)
 
     def of(self, each: Statement) -> str | None:
@@ -97,6 +98,8 @@ class _Reasons:
         lost = self._lost.get(iri_of(each.subject)) or self._lost.get(iri_of(each.object))
         if lost is not None and (iri_of(each.subject) in self._lost or self._is_link(each)):
             return lost
+        if iri_of(each.object) in self._elsewhere and self._relates(each):
+            return iri_of(each.object)
         if each.predicate in self._predicates and self._is_unknown_predicate(each):
             return each.predicate
         if self._is_unknown_class(each) and iri_of(each.object) in self._classes:
@@ -132,6 +135,23 @@ class _Reasons:
         unknown = {each for each in types if self._is_unknown_class(each) and iri_of(each.object) in self._classes}
         known = {each.subject for each in types if each not in unknown and iri_of(each.object) != NAMED_INDIVIDUAL}
         return {iri_of(each.subject): iri_of(each.object) for each in unknown if each.subject not in known}
+
+    def _find_elsewhere(self, said: Sequence[Statement]) -> set[str]:
+        """Return the objects of relations of which nothing is said, nor of anything else of their namespaces.
+
+        They belong to another vocabulary, as units do, unless all used of the namespace is in one of the individuals.
+        """
+        homes, used = defaultdict[str, set[str]](set), defaultdict[str, set[str]](set)
+        for iri in {iri_of(each.subject) for each in said} - {""}:
+            homes[namespace_of(iri)].add(local_name(iri))
+        objects = {iri_of(each.object) for each in said if self._relates(each)} - {""}
+        for iri in (each for each in objects if namespace_of(each) not in homes):
+            used[namespace_of(iri)].add(local_name(iri))
+        wrong = {base for base, names in used.items() if any(names <= there for there in homes.values())}
+        return {iri for iri in objects if namespace_of(iri) in used.keys() - wrong}
+
+    def _relates(self, each: Statement) -> bool:
+        return each.predicate in self._vocabulary.relations and iri_of(each.subject) not in self._filter.terms
 
     def _find_nameless(self, said: Sequence[Statement]) -> set[Node]:
         """Return the blank nodes that individuals would be, and those that only statements about them mention."""
