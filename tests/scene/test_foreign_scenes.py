@@ -124,3 +124,15 @@ def test_a_name_that_is_probably_misspelt_is_an_error(said: str, name: str) -> N
         each for each in read_documents([document, *sheet_documents()], sensing()).problems if each.severity == "error"
     ]
     assert [each.name for each in errors] == [name] and "did you mean" in errors[0].help
+
+
+def test_what_is_stated_is_not_missed_and_frames_are_checked_beside_what_is_not_understood() -> None:
+    needed = "[ a owl:Restriction ; owl:onProperty t:of ; owl:someValuesFrom t:Sample ]"
+    terms = beside(Source("t.ttl", f"{HEAD}{SENSING}t:Act rdfs:subClassOf {needed} .")).value
+    said = f't:A a t:Act ; t:of [ a t:Sample ] . t:B a t:Act . {PLACE} t:S skiros:BaseFrameId "nowhere" .'
+    problems = read_documents([Document("scene.ttl", HEAD + said), *sheet_documents()], terms).problems
+    found = [(each.name, each.message.partition(" ")[0]) for each in problems if each.severity == "error"]
+    assert ("missing-property", "t:B") in found and ("missing-property", "t:A") not in found
+    said = said.replace("t:B a t:Act .", "")
+    problems = read_documents([Document("scene.ttl", HEAD + said), *sheet_documents()], terms).problems
+    assert {"not-understood", "unknown-frame"} <= {each.name for each in problems}

@@ -154,7 +154,9 @@ def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Sce
     ]
     lost = individuals_of_unknown_classes(said, own, vocabulary)
     clear = tuple(each for each in select_facts(said, vocabulary) if iri_of(each.subject) not in lost)
-    scene = _build_scene(clear, vocabulary, [*syntax, *terms], _doubtful_individuals(parsed) | lost)
+    declared = vocabulary.relations.keys() | vocabulary.properties.keys()
+    partly = frozenset(iri_of(each.subject) for _, each in found.aside if each.predicate in declared)
+    scene = _build_scene(clear, vocabulary, [*syntax, *terms], _doubtful_individuals(parsed) | lost, partly)
     scene = _with_scene_warnings(scene, written, own)
     return replace(scene, problems=_sort_problems(name_subjects(scene.problems, said, vocabulary.short)))
 
@@ -175,13 +177,17 @@ def read_with_sheets(own: Document, vocabulary: Vocabulary) -> Scene:
 
 
 def _build_scene(
-    said: tuple[Statement, ...], vocabulary: Vocabulary, problems: list[Diagnostic], doubtful: frozenset[str]
+    said: tuple[Statement, ...],
+    vocabulary: Vocabulary,
+    problems: list[Diagnostic],
+    doubtful: frozenset[str],
+    partly: frozenset[str],
 ) -> Scene:
     located = LocatedFacts(said, vocabulary)
     written = located.changes()
     state = WorldState.empty(vocabulary).with_changes(change for change, _ in written)
     wrong = [*problems, *located.problems(doubtful), *report_axiom_violations(state, written)]
-    wrong += report_scene_violations(state, said, wrong, doubtful)
+    wrong += report_scene_violations(state, said, wrong, doubtful, partly)
     return Scene(state, _sort_problems(wrong), said, doubtful)
 
 

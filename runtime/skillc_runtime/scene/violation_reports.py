@@ -134,14 +134,20 @@ def check_placement(state: WorldState) -> Iterator[SceneViolation]:
 
 
 def report_scene_violations(
-    state: WorldState, said: Sequence[Statement], problems: Collection[Diagnostic], doubtful: Collection[str]
+    state: WorldState,
+    said: Sequence[Statement],
+    problems: Collection[Diagnostic],
+    doubtful: Collection[str],
+    partly: Collection[str] = (),
 ) -> Iterator[Diagnostic]:
     """Yield the violations of individuals all of whose statements are valid.
 
-    Frames and poses are checked only when there is no other problem, which may be the cause of a missing frame.
+    Of `partly` individuals, a value or object of a known property or relation is not understood. Frames and poses are
+    checked only when there is no other error, which may be the cause of a missing frame.
     """
-    with_problems = {*doubtful, *_subjects(said, problems)}
-    found = [*check_individuals(state), *(check_placement(state) if not problems and not doubtful else ())]
+    errors = [each for each in problems if each.severity == "error"]
+    with_problems = {*doubtful, *partly, *_subjects(said, errors)}
+    found = [*check_individuals(state), *(check_placement(state) if not errors and not doubtful else ())]
     places = {(iri_of(each.subject), each.predicate): each for each in reversed(said)}
     for violation in found:
         if violation.individual not in with_problems:
