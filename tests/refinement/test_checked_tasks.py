@@ -117,6 +117,17 @@ def test_a_call_in_a_body_that_does_not_go_is_told_at_the_call(tmp_path):
 
 
 @pytest.mark.slow
+def test_a_goal_that_the_manifest_names_is_looked_at_and_its_scene_counts(tmp_path, own):
+    folder = write(tmp_path / "door", CLEAN[: CLEAN.index("task")], tilt_desk(0.45, -20.0, 0.75))
+    named = '[tasks.clean]\ngoal = "lab:Desk-1.isClean == true"\n'
+    (folder / "skillc.toml").write_text(f'name = "door"\nscene = "cell.ttl"\n{named}')
+    told = [each for each in check(folder)[0] if each["name"] == "infeasible-step"]
+    assert [Path(each["path"]).name for each in told] == ["skillc.toml"]
+    (folder / "cell.ttl").write_text(tilt_desk(0.55, -20.0, 0.95))
+    assert not [each for each in check(folder)[0] if each["name"] == "infeasible-step"]
+
+
+@pytest.mark.slow
 def test_a_value_that_only_a_run_will_measure_is_no_problem(tmp_path):
     assert check(write(tmp_path / "probing", PROBING), "--no-cache") == ([], 0)
 

@@ -21,7 +21,7 @@ from skillc_model.skills import SkillLibrary
 
 if TYPE_CHECKING:
     from skillc.services.cell_checks.report import CellJudge
-    from skillc.services.space_checks.problems import SpaceJudge
+    from skillc.services.space_problems import SpaceJudge
     from skillc.services.task_scenes import TaskScenes
 
 
@@ -61,17 +61,19 @@ def check_whole(library: LibraryFiles, scene: Path | None, known: Known = NOTHIN
     assert found.program is not None, "a compiled library has a program"
     sources = [each._replace(path=library.display_path(each.path)) for each in library.sources]
     around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources, known)
-    problems = sort_diagnostics((*outcome.diagnostics, *around, *_named_goals(library, outcome)))
+    problems = sort_diagnostics((*outcome.diagnostics, *around, *_named_goals(library, outcome, known.look)))
     return Checked(problems, found.program, outcome.value) if outcome.ok else Checked(problems)
 
 
-def _named_goals(library: LibraryFiles, compiled: Outcome[SkillLibrary]) -> tuple[Diagnostic, ...]:
+def _named_goals(
+    library: LibraryFiles, compiled: Outcome[SkillLibrary], look: SpaceJudge | None
+) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of the goals that the manifest names; none if the library has errors."""
     if library.project is None or not library.project.manifest.tasks or not compiled.ok:
         return ()
     from skillc.services.named_goals import check_named_goals
 
-    return tuple(check_named_goals(library.project, compiled.value))
+    return tuple(check_named_goals(library.project, compiled.value, look))
 
 
 def check_with_scenes(

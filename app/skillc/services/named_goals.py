@@ -6,11 +6,16 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+import msgspec
+
 from skillc.errors import DiagnosticsError, RequestError, ServiceError
+from skillc.extras import missing_extras
 from skillc.services import task_scenes
 from skillc.services.project.project import Project
 from skillc.services.reporting import SilentReporter
+from skillc.services.space_problems import OutOfTime, SpaceJudge, SpaceProblem
 from skillc.services.stores import load_world
+from skillc.services.task_diagnostics import TaskDiagnostics
 from skillc_compiler.goals.parsing import home_of, parse_call, parse_goal
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_model.skills import SkillLibrary, Task
@@ -46,15 +51,35 @@ def make_named_task(project: Project, name: str, library: SkillLibrary, scene: P
     return Task(name=name, scene=str(scene), body=call.value, source=source)
 
 
-def check_named_goals(project: Project, library: SkillLibrary) -> Iterator[Diagnostic]:
-    """Yield the diagnostics of all goals and calls that a manifest names, at their places in it."""
+def check_named_goals(project: Project, library: SkillLibrary, look: SpaceJudge | None = None) -> Iterator[Diagnostic]:
+    """Yield the diagnostics of all goals and calls that a manifest names, at their places in it.
+
+    `look` looks in space at those that have no errors.
+    """
     for name in project.manifest.tasks:
         try:
-            make_named_task(project, name, library, named_scene(project, name))
+            scene = named_scene(project, name)
+            task = make_named_task(project, name, library, scene)
+            yield from () if look is None or missing_extras("run") else _in_space(task, scene, library, look)
         except DiagnosticsError as error:
             yield from (each for each in error.diagnostics if each.span.path == project.source.path)
         except ServiceError as error:
             yield Diagnostic("wrong-setting", project.place_of("tasks", name), str(error))
+
+
+def _in_space(task: Task, file: Path, library: SkillLibrary, look: SpaceJudge) -> Iterator[Diagnostic]:
+    """Yield the diagnostic of a step that does not go in space, at the task in the manifest."""
+    scene = task_scenes.read_scene(file, library.vocabulary).value
+    if scene is None or not scene.ok:
+        return
+    of_task = TaskDiagnostics(str, scene, task)
+    match look(library, scene, task):
+        case SpaceProblem() as found:
+            yield of_task.infeasible(msgspec.structs.replace(found, call=None))
+        case OutOfTime() as given_up:
+            yield of_task.unlooked(given_up)
+        case None:
+            pass
 
 
 def _require_valid(outcome: Outcome[object], project: Project, name: str, key: str) -> None:

@@ -14,7 +14,7 @@ from skillc.services import scene_diagnostics, value_checks
 from skillc.services.angle_checks import check_angles
 from skillc.services.cell_checks.report import CellJudge, CellProblem, cell_problems, used_individuals
 from skillc.services.cell_checks.verdicts import judge_cell
-from skillc.services.space_checks.problems import OutOfTime, SpaceJudge, SpaceProblem
+from skillc.services.space_problems import OutOfTime, SpaceJudge, SpaceProblem
 from skillc.services.task_diagnostics import DisplayPath, TaskDiagnostics
 from skillc.services.task_scenes import TaskScenes
 from skillc_compiler.program.typed import Program

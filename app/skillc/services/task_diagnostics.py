@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from skillc.services import scene_diagnostics, value_checks
-from skillc.services.space_checks.problems import OutOfTime, SpaceProblem
+from skillc.services.space_problems import OutOfTime, SpaceProblem
 from skillc_dsl.diagnostics import Diagnostic, Label, Severity
 from skillc_dsl.source import Span
 from skillc_dsl.spelling import did_you_mean
@@ -75,12 +75,12 @@ class TaskDiagnostics:
 
     def infeasible(self, found: SpaceProblem) -> Diagnostic:
         """Return the diagnostic of a step that does not go in space, at its call, or at the task if it was planned."""
-        name, planned = self.task.name, found.call is None or self.task.body is None
+        name = self.task.name
         place = self.task.source
         if found.call is not None and self.task.body is not None:
             place = list(find_calls(self.task.body))[found.call].source
         message = f"{found.step} does not go in space: {found.why}"
-        if planned and found.certain:
+        if self.task.goal is not None and found.certain:
             message = f"no plan for `{name}` goes in space: {found.step} does not go: {found.why}"
         help_ = found.cure or ("" if found.certain else "nothing proves that it cannot go in another way")
         severity: Severity = "error" if found.certain else "warning"

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from skillc.services.planning import prepare_planners
 from skillc.services.space_checks.cure import find_cure
-from skillc.services.space_checks.problems import SpaceProblem
+from skillc.services.space_problems import SpaceProblem
 from skillc_model import tree
 from skillc_model.conditions import Condition, Individual
 from skillc_model.skills import SkillLibrary, Task

@@ -14,7 +14,7 @@ import msgspec
 from skillc.services.cache_entries import describe_scene, encode_meaning, find_entry
 from skillc.services.check_cache import digest_modules, digest_parts
 from skillc.services.library_modules import find_modules
-from skillc.services.space_checks.problems import OutOfTime, SpaceProblem
+from skillc.services.space_problems import OutOfTime, SpaceProblem
 from skillc_dsl import cache
 from skillc_model.planning_view import encode_view
 from skillc_model.skills import Compound, SkillLibrary, Task
