@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
+from msgspec import structs
 
 from plans.depot import CONTAIN, LAB, Depot, carried_out, contain, iri, library, world
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, NodeEnded, Replanned
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.failure_text import describe_failure, list_details
-from skillc_runtime.world.state.changes import RemoveIndividual, RemoveRelation, SetProperty
+from skillc_runtime.world.space.frames import placement_changes
+from skillc_runtime.world.state.changes import Change, RemoveIndividual, RemoveRelation, SetProperty
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.terms import POSITION
+from skillc_runtime.world.state.terms import POSITION, SIZE
 
+HERE = Pose(np.array([0.5, 0.0, 0.0]), np.eye(3))
 SLIPPED = Failure(kind="body", message="it slipped")
 MOVED = "lab:b contain lab:crate"
 
@@ -164,6 +169,32 @@ def test_a_measurement_that_is_repeated_is_no_reason_to_try_again(moved_m: float
     failures.add("Unload", arguments, "lower", state, SLIPPED, 0)
     after = state.with_changes([SetProperty(iri("crate"), POSITION[0], 0.5 + moved_m)])
     assert (failures.find_repeated("Unload", arguments, "lower", after) is None) is again
+
+
+@pytest.mark.parametrize(
+    ("change", "again"),
+    [
+        (SetProperty(iri("crate"), POSITION[0], 0.502), False),
+        (SetProperty(iri("crate"), POSITION[0], 0.52), True),
+        (SetProperty(iri("crate"), SIZE[0], 0.7), False),
+        (SetProperty(iri("box"), POSITION[1], 0.3), True),
+        (contain("b", "box"), True),
+    ],
+)
+def test_where_space_was_lacking_only_what_stands_elsewhere_is_a_reason_to_try_again(
+    change: Change, again: bool
+) -> None:
+    failures, arguments = FailedSteps(library()), {"robot": iri("carl"), "crate": iri("crate"), "to": iri("b")}
+    state = world({"carl": "c"}, {"crate": "a", "box": "d"}).with_changes(
+        [
+            *placement_changes(iri("crate"), Pose(np.array([0.5, 0.0, 0.0]), np.eye(3))),
+            *placement_changes(iri("box"), HERE),
+        ]
+    )
+    tried = Failure(kind="body", message="nothing goes", causes=(structs.replace(SLIPPED, kind="space"),) * 2)
+    failures.add("Unload", arguments, "lower", state, tried, 0)
+    assert failures.find_repeated("Unload", arguments, "lower", state) == tried
+    assert (failures.find_repeated("Unload", arguments, "lower", state.with_changes([change])) is None) is again
 
 
 def test_a_change_elsewhere_is_no_reason_to_try_again() -> None:

@@ -8,8 +8,8 @@ import pytest
 from click.testing import CliRunner
 
 import skillc_skills
+from refinement.scenes import DESK, tilt_desk
 from refinement.test_measured_values import PROBING
-from refinement.test_plans import DESK, tilt_desk
 from skillc.cli.main import skillc
 from skillc.services import cache_entries, check_cache
 from skillc.services.space_checks import look, verdicts

@@ -8,11 +8,8 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from refinement.scenes import write_door
 from skillc.cli.main import skillc
-from skillc_ontology import catalogue
-
-DESK = catalogue.scene_path("panda_desk").read_text()
-LARGE = ("SizeX 0.30 ; skiros:SizeY 0.40", "SizeX 0.40 ; skiros:SizeY 0.60")
 
 
 def plan(*arguments):
@@ -20,18 +17,8 @@ def plan(*arguments):
     return json.loads(ran.stdout)
 
 
-def tilt_desk(x: float, pitch_deg: float, z: float) -> str:
-    """Return the scene with a larger desk, tilted, that is pressed on with 12 N; place in m."""
-    place = "PositionX 0.5 ; skiros:PositionY 0.05 ; skiros:PositionZ 0.75 ;"
-    tilted = f"PositionX {x} ; skiros:PositionY 0.05 ; skiros:PositionZ {z} ; skillc:pitch {pitch_deg} ;"
-    text = DESK.replace(*LARGE).replace(place, tilted).replace("normalForce 10.0", "normalForce 12.0")
-    assert tilted in text
-    return text
-
-
 def plan_door(tmp_path: Path, x: float, pitch_deg: float, z: float):
-    scene = tmp_path / "door.ttl"
-    scene.write_text(tilt_desk(x, pitch_deg, z))
+    scene = write_door(tmp_path, x, pitch_deg, z)
     return plan("--library", "wiping", "--scene", str(scene), "--goal", "lab:Desk-1.isClean == true")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager, suppress
+from functools import partial
 from pathlib import Path
 
 from msgspec import structs
@@ -35,6 +36,7 @@ from skillc.errors import RequestError
 from skillc.services.breakpoints import make_gate, parse_breakpoints
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import Reporter
+from skillc.services.run_looks import look_from
 from skillc.services.stores import StoreChoice, read_or_fill
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.disturbances import Disturbance
@@ -85,9 +87,10 @@ class CellHost:
         self._evidence = EvidenceKeeper(world, journal, reader)
         self._checkpoints = CellCheckpoints(settings, scene, self.devices, self._evidence, journal, reader)
         self._resets = 0
+        self._plans = PlanningQueue(self._plan)
         origin = CellOrigin(str(scene), settings.seed, settings.backend)
         self._recordings = CellRecordings(Path(settings.folder), self.devices, origin, reporter)
-        self.loop = CellLoop(self.devices.backend, library, PlanningQueue(self._plan), origin, commit=self._commit)
+        self.loop = CellLoop(self.devices.backend, library, self._plans, origin, commit=self._commit)
         self._condition = CellCondition(settings.name, self.loop, journal, reader)
         self._operations: dict[str, SubmittedOperation] = {}
         self._snapshots = SnapshotTaker(world, settings.backend)
@@ -263,7 +266,7 @@ class CellHost:
         """Submit a run to the loop."""
         gate, origin = make_gate(request, self.library), self.loop.origin
         spec = specify(request, origin.scene, origin.seed, origin.backend)
-        prepared, plan = continuation.prepared, self.loop.start_preparation
+        prepared, plan = continuation.prepared, self._plans.queue(partial(self._plan, geometry=request.geometry))
         start = plan if prepared is None else prepare_after(prepared, plan)
         account, submitted_ns = RunAccount(), time.time_ns()
         self._journal.add_operation(operation, request, submitted_ns)
@@ -281,8 +284,9 @@ class CellHost:
         state = self.world.snapshot()
         return assign_request(request.task, request.goal, request.call, request.arguments, self.library, state)
 
-    def _plan(self, assignment: Assignment, failures: FailedSteps) -> PlanningJob:
-        return PlanningJob(assignment, failures.library, failures)
+    def _plan(self, assignment: Assignment, failures: FailedSteps, geometry: bool = True) -> PlanningJob:
+        look = look_from(self.devices.backend.cell, failures.library) if geometry else None
+        return PlanningJob(assignment, failures.library, failures, look=look)
 
 
 @contextmanager

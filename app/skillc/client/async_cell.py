@@ -22,8 +22,7 @@ from skillc.client.requests import (
     describe_rehearsal,
     describe_trials,
 )
-from skillc.contract.cell import CellStatus, PaceSetting
-from skillc.contract.disturbance import Disturbance
+from skillc.contract.cell import CellStatus, Disturbance, PaceSetting
 from skillc.contract.endpoints import (
     ADD_ORDER,
     DISTURB_CELL,

@@ -13,9 +13,8 @@ from skillc.client.requests import (
     PLANNING_S,
 )
 from skillc.client.waiting import WaitingCell
-from skillc.contract.cell import CellCheckpoint, CellStatus
+from skillc.contract.cell import CellCheckpoint, CellStatus, Disturbance
 from skillc.contract.device import DeviceStatus
-from skillc.contract.disturbance import Disturbance
 from skillc.contract.geometry import CellModel, SurfaceCoverage
 from skillc.contract.lease import Lease
 from skillc.contract.library import LibraryDescription

@@ -1,4 +1,4 @@
-"""Cells: how they are, and how fast their time may pass."""
+"""Cells: how they are, how fast their time may pass, and what can happen to simulated ones that no skill does."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
+from skillc_runtime.devices.disturbances import Disturbance as Disturbance
 from skillc_runtime.execution.pace import SLOWEST
 
 CellState: TypeAlias = Literal["off", "operational", "protective-stop", "fault", "emergency-stop"]

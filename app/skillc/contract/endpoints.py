@@ -12,10 +12,9 @@ from typing import Any
 
 from skillc.contract.access import LoginCode, MadeToken, NewToken, SessionInfo, TokenInfo
 from skillc.contract.audit import AuditEntry, AuditPage
-from skillc.contract.cell import CellCheckpoint, CellStatus, CheckpointName, PaceSetting, ResetReason
+from skillc.contract.cell import CellCheckpoint, CellStatus, CheckpointName, Disturbance, PaceSetting, ResetReason
 from skillc.contract.commands import OperatorCommand
 from skillc.contract.device import DeviceStatus
-from skillc.contract.disturbance import Disturbance
 from skillc.contract.endpoint import Endpoint, Stream
 from skillc.contract.explanation import Question, RunExplanation
 from skillc.contract.geometry import CellModel, Coverage, Poses

@@ -8,7 +8,7 @@ import msgspec
 
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.recording.documented import documented
-from skillc_runtime.recording.run_spec import EXECUTION, TaskRequest
+from skillc_runtime.recording.run_spec import EXECUTION, PLANNING, TaskRequest
 
 
 class RehearsalRequest(TaskRequest, frozen=True, kw_only=True):
@@ -25,6 +25,9 @@ class RehearsalRequest(TaskRequest, frozen=True, kw_only=True):
         Annotated[float, msgspec.Meta(gt=0.0, le=3600.0)],
         documented("Let the task fail if it has not ended after these seconds of the twin's time.", EXECUTION),
     ] = 600.0
+    geometry: Annotated[
+        bool, documented("Look whether the arms can carry out a plan, before anything moves.", PLANNING)
+    ] = True
     film: bool = False
     record: bool = False
 

@@ -22,6 +22,10 @@ DEFAULT_BACKEND = "mujoco"
 """The back end of runs, of trials, and of the twins of cells that cannot be built again."""
 
 
+SIMULATED = ("mujoco", "kinematic")
+"""The back ends that are known to begin with all arms at home, unless the cell was saved."""
+
+
 def list_backends() -> tuple[str, ...]:
     """Return the names of all back ends that are installed, sorted."""
     return tuple(sorted(entry_points(group=GROUP).names))

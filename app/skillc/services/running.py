@@ -10,7 +10,7 @@ from pathlib import Path
 from time import perf_counter
 
 from skillc.errors import RequestError, ServiceError
-from skillc.services.backends import DEFAULT_BACKEND, check_pace, make_backend
+from skillc.services.backends import DEFAULT_BACKEND, SIMULATED, check_pace, make_backend
 from skillc.services.breakpoints import make_gate
 from skillc.services.cell_checks.starting import find_start_problem
 from skillc.services.operating import RunMonitor, operate
@@ -18,6 +18,7 @@ from skillc.services.picture_making import Pictures, making_pictures
 from skillc.services.planning import with_minimal_makespan
 from skillc.services.recorded_run import RecordingOptions, recorded_run
 from skillc.services.reporting import Reporter
+from skillc.services.run_looks import look_from, look_from_home
 from skillc.services.run_recordings import KnownStart, describe_contents, find_obstacle, recorded_in
 from skillc.services.run_result import (
     PRIMITIVE_LOOKS,
@@ -42,6 +43,7 @@ from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.execute import describe_execution, prepare_after
 from skillc_runtime.execution.planning_job import PlanningJob
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.execution.refinement.run_planning import SpaceLook
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.solve import DEADLINE_S
@@ -116,7 +118,7 @@ def run_task(
     problem = find_start_problem(task, reporter)
     if problem is not None:
         return end("refused", problem, reporter)
-    with _start_planning(task, task.assignment, FailedSteps(task.library), options) as planning:
+    with _plan_ahead(task, options) as planning:
         try:
             monitor.say("planning, and building the cell")
             cell = _make_cell(task, options)
@@ -165,7 +167,7 @@ class _Run:
         """The reporter of problems."""
         return self.destination.reporter
 
-    def carry_out(self, planning: PlanningJob) -> RunResult:
+    def carry_out(self, planning: PlanningJob | None) -> RunResult:
         """Run the task once it is planned, and report it."""
         task, options, cell = self.task, self.options, self.cell
         builder = HistoryBuilder()
@@ -208,13 +210,15 @@ class _Run:
             options.out, options.tick_timeout_s, options.prints_json, run_id, (*options.recorders, *recorders)
         )
 
-    def _make_loop(self, planning: PlanningJob, recording: tuple[Callable[[], None], ...]) -> CellLoop:
+    def _make_loop(self, planning: PlanningJob | None, recording: tuple[Callable[[], None], ...]) -> CellLoop:
         def plan_again(assignment: Assignment, failures: FailedSteps) -> PlanningJob:
-            return _start_planning(self.task, assignment, failures, self.options, self.cell.clock.now)
+            spec, library = self.options.spec, self.task.library
+            look = look_from(self.cell.cell, library, spec.plan_cache) if spec.geometry else None
+            return _start_planning(self.task, assignment, failures, self.options, look, self.cell.clock.now)
 
         poller = StorePoller(self.cell.cell.world, self.reporter)
         hooks = (poller.poll, *recording, self.samples.sample)
-        preparation = prepare_after(planning, plan_again)
+        preparation = plan_again if planning is None else prepare_after(planning, plan_again)
         return CellLoop(self.cell, self.task.library, preparation, self._origin, hooks)
 
     @property
@@ -223,19 +227,34 @@ class _Run:
         return CellOrigin(self.task.scene, spec.seed, DEFAULT_BACKEND if spec.dry else spec.backend)
 
 
+def _plan_ahead(task: LoadedTask, options: RunOptions) -> AbstractContextManager[PlanningJob | None]:
+    """Start to plan before there is a cell; None where only the cell can tell from where its arms begin."""
+    spec = options.spec
+    at_home = spec.backend in SIMULATED and not spec.dry and options.saved is None
+    if spec.geometry and not at_home:
+        return nullcontext()
+    look = look_from_home(task.library, spec.plan_cache) if spec.geometry else None
+    return _start_planning(task, task.assignment, FailedSteps(task.library), options, look)
+
+
 def _start_planning(
-    task: LoadedTask, assignment: Assignment, failures: FailedSteps, options: RunOptions, now: float = 0.0
+    task: LoadedTask,
+    assignment: Assignment,
+    failures: FailedSteps,
+    options: RunOptions,
+    look: SpaceLook | None,
+    now: float = 0.0,
 ) -> PlanningJob:
     """Start a worker that plans, for as long as the deadline of the task leaves at the time `now` of the cell in s."""
     limit_s = options.spec.deadline_s
     left_s = DEADLINE_S if limit_s is None else min(DEADLINE_S, max(0.0, limit_s - now))
     try:
-        return PlanningJob(assignment, task.library, failures, options.planners, deadline_s=left_s)
+        return PlanningJob(assignment, task.library, failures, options.planners, deadline_s=left_s, look=look)
     except OSError as error:
         raise ServiceError(f"no process can be started that plans: {error.strerror or error}") from error
 
 
-def _find_refusal(planning: PlanningJob, error: Exception) -> str:
+def _find_refusal(planning: PlanningJob | None, error: Exception) -> str:
     """Return why a task cannot start whose scene cannot be simulated: what planning finds says more about it."""
-    answer = planning.wait(DEADLINE_S)
+    answer = None if planning is None else planning.wait(DEADLINE_S)
     return answer.reason if isinstance(answer, NotStarted) else f"the scene cannot be simulated: {error}"

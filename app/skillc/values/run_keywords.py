@@ -15,6 +15,8 @@ from skillc.values.arguments import AnyPath
 class WorkKeywords(TypedDict, total=False):
     """How something is run, and what is written of it."""
 
+    geometry: bool
+    """Look whether the arms can carry out a plan, before anything moves."""
     deadline_s: float | None
     """Let the task fail if it has not ended after these seconds of the cell's time; also limits planning."""
     step_deadline_s: float | None
@@ -99,6 +101,8 @@ class SubmitKeywords(TypedDict, total=False):
     """Instead of a task: plan for this goal, a condition, PDDL or JSON."""
     call: str | None
     """Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`."""
+    geometry: bool
+    """Look whether the arms can carry out a plan, before anything moves."""
     approve: bool
     """Let each plan, also a new one, wait for approval."""
     ask_after_failure: bool

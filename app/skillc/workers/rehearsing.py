@@ -34,6 +34,7 @@ def rehearse(job: Rehearse, known: CellSnapshot) -> TaskResult:
             call=wanted.call,
             seed=wanted.seed,
             deadline_s=wanted.deadline_s,
+            geometry=wanted.geometry,
             backend=known.backend,
             out=job.folder if wanted.film else None,
         ),

@@ -12,6 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from skillc_runtime.cancellation import check_current
 from skillc_runtime.collision.collision_checker import MIN_STEP_M, Collision, CollisionChecker
 from skillc_runtime.collision.rrt_connect import sample_path
 from skillc_runtime.motion.joint import JointTrajectory
@@ -45,7 +46,7 @@ def plan_joint_path(
     """Return the postures (nv,) of a path, without the start, to the first goal that can be reached.
 
     `contacts` then allows the distances at start and goal. Raises NoPath, which says what is in the way to the first
-    goal.
+    goal. Cancelled if the work around it ends.
     """
     reasons, searched = list[str](), 0
     for goal in goals:
@@ -115,6 +116,7 @@ def _sample_path(contacts: CollisionChecker, start: Array, goal: Array, limits: 
     levers = contacts.model.levers
 
     def reach(one: Array, other: Array) -> float:
+        check_current()
         return contacts.find_free_share(one / levers, other / levers)
 
     for seed, (more_rad, rounds) in enumerate(SEARCHES):

@@ -12,9 +12,10 @@ from skillc_model.tree import Node
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.plan_body import build_plan_body
+from skillc_runtime.execution.refinement.run_planning import SpaceLook, plan_for_run
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.planning.arrangement import Arrangement, arrange_plan, step_numbers
-from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Step, Unsolvable
+from skillc_runtime.planning.plan import Excluded, GaveUp, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Scheduled
@@ -88,15 +89,16 @@ def prepare_task(
     planners: Planners | None = None,
     cancel: CancelToken | None = None,
     report: ReportProgress = ignore_progress,
+    look: SpaceLook | None = None,
 ) -> PreparedTask | NotStarted:
     """Plan if there is a goal, and check everything that would keep the body from running, before anything moves.
 
     The plan has none of the steps in `without`. `planners` defaults to those that are installed; they search until
-    `cancel` ends them, by default for DEADLINE_S.
+    `cancel` ends them, by default for DEADLINE_S. With a `look` the arms can carry out the plan, as far as is known.
     """
     match assignment.objective:
         case AchieveGoal() as objective:
-            search = _Search(planners or find_planners(), cancel or CancelToken(DEADLINE_S), report)
+            search = _Search(planners or find_planners(), cancel or CancelToken(DEADLINE_S), report, look)
             prepared = _prepare_plan(assignment, objective, library, without, search)
         case ExecuteBody(body):
             prepared = PreparedTask(assignment, body, None)
@@ -115,18 +117,19 @@ def replan_task(
     planners: Planners | None = None,
     cancel: CancelToken | None = None,
     report: ReportProgress = ignore_progress,
+    look: SpaceLook | None = None,
 ) -> PreparedTask | NotStarted:
     """Plan without the steps that failed; if there is no such plan, without those that can only fail again.
 
     Without failures this is `prepare_task`.
     """
     cancel = cancel or CancelToken(DEADLINE_S)
-    prepared = prepare_task(assignment, library, failures.steps, planners, cancel, report)
+    prepared = prepare_task(assignment, library, failures.steps, planners, cancel, report, look)
     if isinstance(prepared, PreparedTask) or not failures.steps:
         return prepared
     without: tuple[Step, ...] = ()
     while True:
-        prepared = prepare_task(assignment, library, without, planners, cancel, report)
+        prepared = prepare_task(assignment, library, without, planners, cancel, report, look)
         if isinstance(prepared, NotStarted) or prepared.planned is None:
             break
         repeated = failures.find_repeated_steps(prepared.planned.steps, assignment.state)
@@ -157,15 +160,22 @@ class _Search:
     planners: Planners
     cancel: CancelToken
     report: ReportProgress
+    look: SpaceLook | None
 
 
 def _prepare_plan(
     assignment: Assignment, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Step], search: _Search
 ) -> PreparedTask | NotStarted:
-    result = _plan(assignment.state, objective, library, without, search)
+    def plan(more: Sequence[Excluded]) -> PlanResult:
+        return _plan(assignment.state, objective, library, (*without, *more), search)
+
+    if search.look is None:
+        result, space = plan(()), None
+    else:
+        result, space = plan_for_run(library, assignment.state, plan, search.look, search.cancel)
     if not isinstance(result, Solved):
         return _refuse(result)
-    return arrange_prepared(assignment, result, library)
+    return arrange_prepared(assignment, result, library, space)
 
 
 def _refuse(answer: Unsolvable | GaveUp) -> NotStarted:
@@ -177,7 +187,7 @@ def _refuse(answer: Unsolvable | GaveUp) -> NotStarted:
 
 
 def _plan(
-    state: WorldState, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Step], search: _Search
+    state: WorldState, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Excluded], search: _Search
 ) -> PlanResult:
     planners, cancel, report = search.planners, search.cancel, search.report
     match objective.minimise:

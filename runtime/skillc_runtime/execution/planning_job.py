@@ -18,6 +18,7 @@ from skillc_runtime.execution.assignment import (
 )
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.plan_body import build_plan_body
+from skillc_runtime.execution.refinement.run_planning import LOOK_S, SpaceLook
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.execution.worker_process import ReportingFunction, Returned, WorkerProcess, WorkerResult
 from skillc_runtime.planning.arrangement import arrange_plan
@@ -54,16 +55,18 @@ class PlanningJob:
         cancel: CancelToken | None = None,
         deadline_s: float = DEADLINE_S,
         start: StartMethod = DEFAULT_START,
+        look: SpaceLook | None = None,
     ) -> None:
         """Start planning without the steps in `failures`, for up to `deadline_s` or until it is cancelled.
 
+        With a `look` each plan is looked at in space, which may take until then, or LOOK_S longer than the planners.
         OSError if no process can be started.
         """
         self._assignment, self._cancel = assignment, cancel or CancelToken()
         self._answer: Answer | None = None
-        self._deadline = CancelToken(deadline_s + GRACE_S)
+        self._deadline = CancelToken(deadline_s + GRACE_S + (0.0 if look is None else LOOK_S))
         task = _PlanningTask(
-            assignment, library, failures or FailedSteps(library), planners, self._cancel.limited(deadline_s)
+            assignment, library, failures or FailedSteps(library), planners, self._cancel.limited(deadline_s), look
         )
         self._worker = WorkerProcess(ReportingFunction(task), start)
         self._worker.ask(None)
@@ -149,7 +152,10 @@ class _PlanningTask:
     failures: FailedSteps
     planners: Planners | None
     cancel: CancelToken
+    look: SpaceLook | None
 
     def __call__(self, _request: None, report: ReportProgress) -> _Planned | NotStarted:
-        answer = replan_task(self.assignment, self.library, self.failures, self.planners, self.cancel, report)
+        answer = replan_task(
+            self.assignment, self.library, self.failures, self.planners, self.cancel, report, self.look
+        )
         return answer if isinstance(answer, NotStarted) else _Planned(answer.body, answer.planned)

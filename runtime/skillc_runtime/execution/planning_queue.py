@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
@@ -22,18 +23,22 @@ class PlanningQueue:
 
     def __call__(self, assignment: Assignment, failures: FailedSteps) -> QueuedPlanning:
         """Start to plan, now or once fewer planners run."""
-        return QueuedPlanning(self, assignment, failures)
+        return QueuedPlanning(self, partial(self._start, assignment, failures))
+
+    def queue(self, start: StartPreparation) -> StartPreparation:
+        """Return what starts to plan in another way once fewer planners run, which count together with all others."""
+        return lambda assignment, failures: QueuedPlanning(self, partial(start, assignment, failures))
 
     @property
     def waits_for(self) -> str:
         """For what a planning waits that begins now; empty if for nothing."""
         return f"waits for one of {self._limit} planners" if len(self._going_on) >= self._limit else ""
 
-    def begin(self, planning: QueuedPlanning, assignment: Assignment, failures: FailedSteps) -> Preparation | None:
+    def begin(self, planning: QueuedPlanning, start: Callable[[], Preparation]) -> Preparation | None:
         """Start a planning; None while as many as possible go on."""
         if len(self._going_on) >= self._limit:
             return None
-        job = self._start(assignment, failures)
+        job = start()
         self._going_on.add(planning)
         return job
 
@@ -45,8 +50,8 @@ class PlanningQueue:
 class QueuedPlanning:
     """A planning that begins when its queue allows it, at the next look for its answer."""
 
-    def __init__(self, queue: PlanningQueue, assignment: Assignment, failures: FailedSteps) -> None:
-        self._queue, self._assignment, self._failures = queue, assignment, failures
+    def __init__(self, queue: PlanningQueue, start: Callable[[], Preparation]) -> None:
+        self._queue, self._start = queue, start
         self._job: Preparation | None = None
 
     @property
@@ -77,7 +82,7 @@ class QueuedPlanning:
         self, look: Callable[[Preparation], PreparedTask | NotStarted | None]
     ) -> PreparedTask | NotStarted | None:
         """Begin if it is its turn, and look for the answer."""
-        self._job = self._job or self._queue.begin(self, self._assignment, self._failures)
+        self._job = self._job or self._queue.begin(self, self._start)
         answer = look(self._job) if self._job is not None else None
         if answer is not None:
             self._queue.end(self)

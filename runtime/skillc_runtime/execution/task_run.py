@@ -193,6 +193,8 @@ class TaskRun(RunStatus):
             self._emit(Replanned(time=self._now, reason=last.reason))
         if (event := make_plan_event(prepared, context.library, self._now)) is not None:
             self._emit(event)
+            if event.space is not None and event.space.stopped:
+                context.emit_notes([f"the plan is {event.space.summary}"])
         context.gate.forget_waiting()
         self._pause = PauseControl(context.gate, context.backend.clock)
         self._attempt = Attempt(prepared, context, last.last_node if last else 0)

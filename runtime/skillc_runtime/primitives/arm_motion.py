@@ -11,7 +11,7 @@ from skillc_runtime.primitives.computation import Computing
 from skillc_runtime.primitives.compute_here import compute_here
 from skillc_runtime.primitives.known_limits import find_excess, find_place_outside
 from skillc_runtime.primitives.place_description import describe_place
-from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
+from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, SpaceLacking, Status
 from skillc_runtime.primitives.time_limits import STANDSTILL_S
 from skillc_runtime.primitives.touch_guard import RESISTANCE_N, TouchGuard
 from skillc_runtime.world.state.labelled import Quantity
@@ -138,10 +138,10 @@ class ArmMotion(Primitive):
         return MotionLimits(speed, self.arm.task_limits.acceleration_m_s2, jerk=self.arm.task_limits.jerk_m_s3)
 
 
-def infeasible_motion(cell: Cell, arm: ArmDriver, why: Infeasible) -> SkillFailure:
+def infeasible_motion(cell: Cell, arm: ArmDriver, why: Infeasible) -> SpaceLacking:
     """Return the failure of a motion that the arm cannot follow, with the place in the world frame."""
     place = describe_place(cell.world.snapshot(), arm.measured.in_world(why.place))
-    return SkillFailure(f"the motion does not fit the arm: {why.problem}, at {place}")
+    return SpaceLacking(f"the motion does not fit the arm: {why.problem}, at {place}")
 
 
 def raise_fault(arm: ArmDriver) -> None:

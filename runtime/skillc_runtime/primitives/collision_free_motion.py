@@ -21,7 +21,7 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.reference import Trajectory
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.computation import Computation, Computing
-from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.primitives.primitive import SkillFailure, SpaceLacking
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
@@ -45,7 +45,7 @@ LIMIT_S = 120.0
 """How long a search may take, in s of wall time, on a machine that does much else: it ends after so many looks."""
 
 
-def move_collision_free(cell: Cell, arm: str, goals: JointGoals, pace: float, unreachable: SkillFailure) -> Computing:
+def move_collision_free(cell: Cell, arm: str, goals: JointGoals, pace: float, unreachable: SpaceLacking) -> Computing:
     """Move the joints to the first of the goals that can be reached without a collision; `unreachable` without any.
 
     `pace` is the share of the maximum joint speeds. SkillFailure, before anything moves, says what is in the way.
@@ -58,7 +58,7 @@ def move_collision_free(cell: Cell, arm: str, goals: JointGoals, pace: float, un
         if found is None:
             raise unreachable
         if isinstance(found, NoPath):
-            raise SkillFailure(str(found))
+            raise SpaceLacking(str(found))
         if isinstance(found, Infeasible):
             raise found
         raise_fault(driver)
@@ -81,7 +81,7 @@ def move_tool_along(cell: Cell, arm: str, make: Callable[[], Trajectory]) -> Com
         arguments = (seen.around, driver.motion.model(), trajectory, seen.movable)
         found = yield Computation(find_tool_motion, arguments, LIMIT_S, "the look at the way of the tool")
         if isinstance(found, Collision):
-            raise SkillFailure(f"on the way of the tool {found} and overlap it by {-1e3 * found.distance_m:.0f} mm")
+            raise SpaceLacking(f"on the way of the tool {found} and overlap it by {-1e3 * found.distance_m:.0f} mm")
         if isinstance(found, Infeasible):
             raise found
         raise_fault(driver)

@@ -18,7 +18,7 @@ from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.collision_free_motion import move_collision_free, move_tool_along
 from skillc_runtime.primitives.computation import Computing
 from skillc_runtime.primitives.known_limits import CORRECTION_M
-from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.primitives.primitive import SkillFailure, SpaceLacking
 from skillc_runtime.primitives.space_needs import Follow, Reach, SpaceNeed, Take
 from skillc_runtime.primitives.touch_guard import RESISTANCE_N
 from skillc_runtime.world.space.frame_tree import FrameError
@@ -74,7 +74,7 @@ class MoveJoints(ArmMotion):
         """Find the posture nearest to home that puts the tool there, another where that one is not free, and go."""
         home, now = _find_posture(self.cell.world.snapshot(), self._individual, HOME), self.arm.measured
         x, y, z = self._target.position.tolist()
-        unreachable = SkillFailure(
+        unreachable = SpaceLacking(
             "the arm cannot reach {target:.3f} in this orientation, {far:.2f} from where its tool is",
             target=LabelledVector((x, y, z), "m"),
             far=Quantity(float(np.linalg.norm(self._target.position - now.pose.position)), "m"),
@@ -126,7 +126,7 @@ class TakePosture(ArmMotion):
     def start_motion(self) -> Computing:
         """Look up the posture and start the motion."""
         q = _find_posture(self.cell.world.snapshot(), self._individual, self._posture)
-        unreachable = SkillFailure(f"the arm cannot take the posture {self._posture}")
+        unreachable = SpaceLacking(f"the arm cannot take the posture {self._posture}")
         yield from move_collision_free(self.cell, self._individual, _PostureGoal(q), self._pace, unreachable)
 
 

@@ -57,6 +57,13 @@ class SkillFailure(Exception):
         self.values = {name: make_recordable(value) for name, value in values.items()}
 
 
+class SpaceLacking(SkillFailure):
+    """An arm does not get where it should: its reach, a range of a joint, a way or room for it is missing.
+
+    The same call fails again until something stands elsewhere, or something else is held.
+    """
+
+
 class Primitive:
     """One run of a primitive skill: created with its arguments when it starts, used once.
 

@@ -18,6 +18,7 @@ FailureKind: TypeAlias = Literal[
     "lock",
     "timeout",
     "body",
+    "space",
     "plan",
     "contradiction",
     "error",
@@ -58,6 +59,11 @@ class Failure(msgspec.Struct, frozen=True, kw_only=True):
     def breaks_hold(self) -> bool:
         """Whether a hold or `verify` line was violated, here or in a cause; such a failure never becomes a success."""
         return self.kind in ("hold", "verify") or any(cause.breaks_hold for cause in self.causes)
+
+    @property
+    def lacks_space(self) -> bool:
+        """Whether only reach, a range of a joint, a way or room was missing, in all alternatives that were tried."""
+        return self.kind == "space" or (bool(self.causes) and all(cause.lacks_space for cause in self.causes))
 
     @property
     def is_unmet_need(self) -> bool:

@@ -39,6 +39,9 @@ class TaskRequest(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True,
 class RunRequest(TaskRequest, frozen=True, kw_only=True):
     """What is to be done, and how, in a cell that may go on from run to run."""
 
+    geometry: Annotated[
+        bool, documented("Look whether the arms can carry out a plan, before anything moves.", PLANNING)
+    ] = True
     approve: Annotated[bool, documented("Let each plan, also a new one, wait for approval.", EXECUTION)] = False
     ask_after_failure: Annotated[
         bool, documented("Let a failed step wait for a decision instead of another plan.", EXECUTION)

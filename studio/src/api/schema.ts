@@ -419,6 +419,11 @@ export interface components {
              */
             call?: string | null;
             /**
+             * @description Look whether the arms can carry out a plan, before anything moves.
+             * @default true
+             */
+            geometry?: boolean;
+            /**
              * @description Let each plan, also a new one, wait for approval.
              * @default false
              */
@@ -485,7 +490,7 @@ export interface components {
          */
         Failure: {
             /** @enum {unknown} */
-            kind: "body" | "contradiction" | "error" | "halted" | "hold" | "inference" | "interrupted" | "lock" | "plan" | "post" | "pre" | "timeout" | "verify";
+            kind: "body" | "contradiction" | "error" | "halted" | "hold" | "inference" | "interrupted" | "lock" | "plan" | "post" | "pre" | "space" | "timeout" | "verify";
             message: string;
             /** @default  */
             detail?: string;
@@ -1234,6 +1239,11 @@ export interface components {
              * @default null
              */
             call?: string | null;
+            /**
+             * @description Look whether the arms can carry out a plan, before anything moves.
+             * @default true
+             */
+            geometry?: boolean;
             /**
              * @description Let each plan, also a new one, wait for approval.
              * @default false
@@ -2599,6 +2609,11 @@ export interface components {
              * @default 600
              */
             deadline_s?: number;
+            /**
+             * @description Look whether the arms can carry out a plan, before anything moves.
+             * @default true
+             */
+            geometry?: boolean;
             /** @default false */
             film?: boolean;
             /** @default false */

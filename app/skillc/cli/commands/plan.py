@@ -38,7 +38,7 @@ skillc plan wiping:clean_both --minimise makespan --json
 @click.argument("task", required=False, shell_complete=complete_asked_task)
 @task_arguments(complete_asked_argument)
 @store_options
-@run_options(only=("goal", "scene", "library", "minimise", "plan_cache"))
+@run_options(only=("goal", "scene", "library", "minimise", "geometry", "plan_cache"))
 @grouped_option(PLANNING, "--prove", is_flag=True, help="Include more of a large scene until optimality is proved.")
 @grouped_option(
     PLANNING,
@@ -49,10 +49,9 @@ skillc plan wiping:clean_both --minimise makespan --json
     show_default=True,
     help="The time limit of the planner.",
 )
-@grouped_option(PLANNING, "--geometry/--no-geometry", default=True, help="Look whether the arms can do it.")
 @cell_options
 @json_option
-def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, geometry: bool, as_json: bool) -> int:
+def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, as_json: bool) -> int:
     """Plan for TASK, or for --goal in --scene, and print the steps.
 
     TASK is the name of a task of the project here or of a shipped one, or LIBRARY:NAME; `skillc tasks` lists them. In a
@@ -88,7 +87,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, geometry
             f"planning, for at most {limit_s:g} s ..", lambda: describe_progress(progress[-1]) if progress else ""
         ):
             planners, cancel = prepare_planners(wanted.plan_cache), CancelToken(limit_s)
-            if geometry:
+            if wanted.geometry:
                 answer, space = plan_goal_in_space(loaded, measure, planners, cancel, progress.append)
             else:
                 answer, space = plan_goal(loaded, measure, planners, cancel, progress.append), None

@@ -1,69 +1,75 @@
-"""Plans again without the steps that do not go in space, until all steps of a plan go or there is no plan."""
+"""Looks at plans in space: what the look at one finds, and which is the first whose steps all go."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TypeAlias
+from collections.abc import Sequence
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
+from skillc_runtime.execution.refinement.look import AnswerT, Look, PlanWithout, look_at_plans
 from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement, refine_plan
 from skillc_runtime.execution.refinement.scope import find_excluded
-from skillc_runtime.planning.plan import Excluded, GaveUp, LeftOut, PlanResult, Unsolvable
-from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.execution.refinement.situation import Situation
+from skillc_runtime.execution.refinement.space_claim import make_claim
+from skillc_runtime.planning.plan import GaveUp, Step, StepWhile
+from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.world_state import WorldState
-
-ROUNDS = 30
-"""How often is planned at most."""
-
-Answer: TypeAlias = PlanResult | Scheduled
 
 
 def plan_in_space(
-    library: SkillLibrary, state: WorldState, plan: Callable[[Sequence[Excluded]], Answer], cancel: CancelToken
-) -> tuple[Answer, PlanRefinement | None]:
+    library: SkillLibrary, state: WorldState, plan: PlanWithout[AnswerT], cancel: CancelToken
+) -> tuple[AnswerT | GaveUp, PlanRefinement | None]:
     """Return the first plan whose steps all go in space, and how; else the last answer, and what was found before it.
 
-    `plan` plans without some steps, until `cancel` ends it. A plan with a step that depends on a value which only a run
-    will know is returned as it is: nothing is known against it. What an answer without a plan says to be `needed` has
-    all been excluded because of space.
+    `plan` plans without some steps, until `cancel` ends it. The arms begin at home. A plan with a step that depends on
+    a value which only a run will know is returned as it is: nothing is known against it. What an answer without a plan
+    says to be `needed` has all been excluded because of space.
     """
-    without: list[Excluded] = []
+    found: PlanRefinement | None = None
     in_space = True
-    before: tuple[Answer, PlanRefinement] | None = None
-    for _ in range(ROUNDS):
-        answer = plan(without)
-        if isinstance(answer, Unsolvable | GaveUp):
-            if before is None or cancel.reason is not None:
-                return before or (answer, None)
-            needed = answer.needed if isinstance(answer, GaveUp) and in_space else ()
-            return _explain(before[1], state, needed), before[1]
+
+    def look(steps: Sequence[Step]) -> Look:
+        nonlocal found, in_space
         try:
             with cancelling(cancel):
-                found = refine_plan(library, state, answer.plan.steps)
-        except Cancelled:
-            return before or (answer, None)
-        if found.failed is None or found.before is None or cancel.reason is not None:
-            return answer, found
-        if found.failure is not None and found.failure.cause == "no-value":
-            return answer, found
-        why = "no way was found" if found.failure is None else found.failure.message
-        in_space = in_space and found.failure is not None and found.failure.is_in_space
-        excluded = find_excluded(library, found.before, found.failed, why)
-        if excluded in without:
-            return answer, found
-        without.append(excluded)
-        before = answer, found
-    return before if before is not None else (answer, None)
+                now = refine_plan(library, state, steps)
+        except Cancelled as why:
+            return Look(claim=SpaceClaim(checked=0, steps=len(steps), stopped=str(why)))
+        found = now
+        in_space = in_space and (now.failure is None or now.failure.is_in_space)
+        return judge(library, now, len(steps))
+
+    before: tuple[AnswerT, Look] | None = None
+    for answer, seen in look_at_plans(plan, look):
+        if seen is None and before is not None and cancel.reason is None:
+            needed = answer.needed if isinstance(answer, GaveUp) and in_space else ()
+            return before[1].explain(state, needed), found
+        if seen is None or seen.claim.stopped:
+            return (answer, None) if before is None else (before[0], found)
+        before = answer, seen
+        if cancel.reason is not None:
+            break
+    assert before is not None, "there is an answer"
+    return before[0], found
 
 
-def _explain(found: PlanRefinement, state: WorldState, needed: tuple[LeftOut, ...]) -> GaveUp:
-    """Return the answer that no plan is known all of whose steps go in space."""
-    assert found.failed is not None
-    named = ", ".join(state.vocabulary.short(each) for each in found.failed.arguments.values())
-    why = found.failure.message if found.failure is not None else "no way was found"
-    return GaveUp(
-        "the arms can carry out none, for the grasps, postures and places that were tried: "
-        f"{found.failed.skill}({named}) does not go: {why}",
-        needed=needed,
+def look_at_plan(
+    library: SkillLibrary, begin: Situation, from_home: bool, steps: Sequence[Step], cancel: CancelToken
+) -> Look:
+    """Return what a look at a plan finds that begins in a situation; Cancelled if `cancel` ends it."""
+    with cancelling(cancel):
+        return judge(library, refine_plan(library, begin.state, steps, begin), len(steps), from_home)
+
+
+def judge(library: SkillLibrary, found: PlanRefinement, steps: int, from_home: bool = True) -> Look:
+    """Return what a refinement of so many steps says, and what is in the way where it ends."""
+    claim = make_claim(found, steps, from_home)
+    if found.failed is None or found.before is None:
+        return Look(claim=claim)
+    excluded = find_excluded(library, found.before, found.failed, claim.failure or "")
+    return Look(
+        claim=claim,
+        failed=found.failed,
+        cause=None if found.failure is None else found.failure.cause,
+        condition=excluded.condition if isinstance(excluded, StepWhile) else None,
     )

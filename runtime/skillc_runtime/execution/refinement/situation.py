@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+
+import numpy as np
 
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.changes import Change
@@ -50,6 +52,13 @@ class Situation:
         """Return the situation after a motion."""
         postures = {**self.postures, motion.arm: motion.postures[-1]}
         return replace(self, postures=postures, motions=(*self.motions, motion))
+
+
+def begin_as_measured(
+    state: WorldState, postures: Mapping[str, Sequence[float]], openings: Mapping[str, float]
+) -> Situation:
+    """Return the situation in which arms have postures, each (nv,) in rad, and grippers openings in m, by IRI."""
+    return Situation(state, {arm: np.array(q) for arm, q in postures.items()}, openings)
 
 
 def begin_at_home(state: WorldState) -> Situation:

@@ -11,8 +11,8 @@ from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import describe_exception
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.undo_stack import UndoStack
-from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
-from skillc_runtime.recording.failure import Failure
+from skillc_runtime.primitives.primitive import Primitive, SkillFailure, SpaceLacking, Status
+from skillc_runtime.recording.failure import Failure, FailureKind
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS, foreign_code
 
 
@@ -151,8 +151,9 @@ class PrimitiveNode(Node):
         return self.fail(self._failure(failure))
 
     def _failure(self, failure: SkillFailure) -> Failure:
+        lacks_space: FailureKind = "space" if isinstance(failure, SpaceLacking) else "body"
         return Failure(
-            kind="body" if failure.withdrawn is None else "contradiction",
+            kind=lacks_space if failure.withdrawn is None else "contradiction",
             message=str(failure),
             detail=f"withdrawn: {', '.join(failure.withdrawn)}" if failure.withdrawn else "",
             source=self.source,

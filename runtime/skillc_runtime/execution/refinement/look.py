@@ -1,0 +1,82 @@
+"""Plans again without the steps that do not go in space, until all steps of a plan go or there is no other plan.
+
+Nothing slow is imported here: whoever remembers what was found needs no simulator.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import TypeAlias, TypeVar
+
+import msgspec
+
+from skillc_model.conditions import Condition
+from skillc_runtime.execution.refinement.failure import Cause
+from skillc_runtime.planning.plan import Excluded, GaveUp, LeftOut, PlanResult, Step, StepWhile, Unsolvable
+from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.recording.space_claim import SpaceClaim
+from skillc_runtime.world.state.world_state import WorldState
+
+ROUNDS = 30
+"""How often is planned at most."""
+
+Answer: TypeAlias = PlanResult | Scheduled
+AnswerT = TypeVar("AnswerT", bound=Answer)
+PlanWithout: TypeAlias = Callable[[Sequence[Excluded]], AnswerT]
+"""Plans without some steps."""
+
+
+class Look(msgspec.Struct, frozen=True, kw_only=True):
+    """What a look at a plan in space has found: the step that does not go, if one does not, and the cause.
+
+    `condition` is what holds of the things in its way, None if it does not go whatever stands where. Without a cause
+    nothing says why.
+    """
+
+    claim: SpaceClaim
+    failed: Step | None = None
+    cause: Cause | None = None
+    condition: Condition | None = None
+
+    @property
+    def excluded(self) -> Excluded | None:
+        """What other plans may not contain; None if all steps go, or a value has to be measured first."""
+        if self.failed is None or self.cause == "no-value":
+            return None
+        if self.condition is None:
+            return self.failed
+        return StepWhile(self.failed, self.condition, self.claim.failure or "")
+
+    def explain(self, state: WorldState, needed: tuple[LeftOut, ...] = ()) -> GaveUp:
+        """Return the answer that no plan is known all of whose steps go in space, after this look at the last one.
+
+        `needed` is as of `GaveUp`.
+        """
+        assert self.failed is not None, "all steps go"
+        named = ", ".join(state.vocabulary.short(each) for each in self.failed.arguments.values())
+        return GaveUp(
+            "the arms can carry out none, for the grasps, postures and places that were tried: "
+            f"{self.failed.skill}({named}) does not go: {self.claim.failure}",
+            needed=needed,
+        )
+
+
+def look_at_plans(
+    plan: PlanWithout[AnswerT], look: Callable[[Sequence[Step]], Look]
+) -> Iterator[tuple[AnswerT, Look | None]]:
+    """Yield plans, each without the steps of those before it that do not go in space, and the look at each.
+
+    The last is one that goes, the answer that there is no other, without a look, or one after which nothing more is
+    tried.
+    """
+    without: list[Excluded] = []
+    for _ in range(ROUNDS):
+        answer = plan(without)
+        if isinstance(answer, Unsolvable | GaveUp):
+            yield answer, None
+            return
+        seen = look(answer.plan.steps)
+        yield answer, seen
+        if seen.excluded is None or seen.excluded in without:
+            return
+        without.append(seen.excluded)
