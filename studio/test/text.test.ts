@@ -2,6 +2,7 @@ import { describe, expect, test } from "vitest";
 import type { Failure, LabelledFact } from "../src/api/types";
 import {
   describeFailure,
+  describePlan,
   describeReason,
   formatFact,
   formatNumber,
@@ -48,6 +49,21 @@ test.each<[LabelledFact, string]>([
   [{ type: "same", one: iri("A"), other: iri("B"), holds: false }, "lab:A != lab:B"],
 ])("the fact %j is %s", (fact, text) => {
   expect(formatFact(fact)).toBe(text);
+});
+
+test("a plan is described by its proof, and by how much of it was checked in space", () => {
+  const space = { checked: 4, steps: 5, unseen: [{ step: 2, what: "Own" }], chosen: [2, 3] };
+  expect([
+    describePlan({ quality: "proved optimal", space: null }),
+    describePlan({ quality: "proved optimal", space: { checked: 5, steps: 5 } }),
+    describePlan({ quality: "", space }),
+    describePlan({ space: { checked: 0, steps: 5, stopped: "it ran out of time" } }),
+  ]).toEqual([
+    "proved optimal",
+    "proved optimal, all 5 checked in space",
+    "2 of 5 checked in space",
+    "not checked in space: it ran out of time",
+  ]);
 });
 
 describe("a failure", () => {

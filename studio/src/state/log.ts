@@ -1,6 +1,6 @@
 // Events as lines of text, each with its importance and the node that it is about.
 import type { Envelope, RunEvent } from "../api/types";
-import { describeFailure, describeReason, formatChange } from "./text";
+import { describeFailure, describePlan, describeReason, formatChange } from "./text";
 
 export type Severity = "info" | "good" | "bad" | "world" | "command";
 
@@ -71,7 +71,8 @@ function describePlanning(event: Of<"plan-arrived" | "plan-made" | "replanned">)
         : null;
     case "plan-made": {
       const steps = event.steps.map((each) => each.skill).join(", then ");
-      const quality = event.quality ? `, ${event.quality}` : "";
+      const known = describePlan(event);
+      const quality = known ? `, ${known}` : "";
       return [`plan: ${steps || "nothing to do"} (about ${event.cost.toFixed(0)} s${quality})`, "info", 0];
     }
     case "replanned":

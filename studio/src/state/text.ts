@@ -7,6 +7,7 @@ import type {
   LabelledIri,
   LabelledValue,
   OperationRequest,
+  PlanMade,
 } from "../api/types";
 
 const LISTED = 3;
@@ -154,6 +155,16 @@ export function describeFailure(failure: Failure): string {
   return [
     ...new Set([...parts, ...causes.filter((each) => each.kind === "plan").map((each) => each.message)]),
   ].join("; ");
+}
+
+/** Return what is known of a plan: its proof, and how much of it was checked in space; empty for nothing. */
+export function describePlan({ quality, space }: Pick<PlanMade, "quality" | "space">): string {
+  if (!space) return quality ?? "";
+  const open = [...(space.unseen ?? []).map((each) => each.step), ...(space.chosen ?? [])];
+  const looked = space.checked - new Set(open).size;
+  const share = looked === space.steps ? `all ${space.steps}` : `${looked} of ${space.steps}`;
+  const checked = space.stopped ? `not checked in space: ${space.stopped}` : `${share} checked in space`;
+  return quality ? `${quality}, ${checked}` : checked;
 }
 
 /** Return a duration or a time of the cell's clock. */

@@ -1,6 +1,6 @@
 // What is proved of a plan, what it assumes, and what its planner left out of the search, with the reasons.
 import type { ArrivedPlan, PlanMade } from "../api/types";
-import { formatTime } from "../state/text";
+import { describePlan, formatTime } from "../state/text";
 import { Icon } from "./icons";
 
 export function LeftOutParts({ plan, arrived }: { plan: PlanMade; arrived: ArrivedPlan | null }) {
@@ -9,7 +9,7 @@ export function LeftOutParts({ plan, arrived }: { plan: PlanMade; arrived: Arriv
     <section class="stack small gantt-about" aria-label="About the plan">
       <p>
         About {formatTime(plan.cost)}
-        {plan.quality ? `, ${plan.quality}` : ""}
+        {describePlan(plan) && `, ${describePlan(plan)}`}
         {least !== null && `; every plan takes at least ${formatTime(least)}`}.{" "}
         <span class="muted">{plan.planner}</span>
       </p>

@@ -15,7 +15,7 @@ import {
 import { describeRemaining, nameOperations } from "../state/activity";
 import { bounds } from "../state/bounds";
 import { NOTHING } from "../state/selection";
-import { formatTime, formatValue } from "../state/text";
+import { describePlan, formatTime, formatValue } from "../state/text";
 import { BoundsChart } from "./BoundsChart";
 import { Choose } from "./Choose";
 import { Continue, Decisions } from "./Decisions";
@@ -134,7 +134,7 @@ function Plan() {
             {attempt.plan !== null && (
               <span class="muted small" title={attempt.plan.planner}>
                 about {formatTime(attempt.plan.cost)}
-                {attempt.plan.quality ? `, ${attempt.plan.quality}` : ""}
+                {describePlan(attempt.plan) && `, ${describePlan(attempt.plan)}`}
               </span>
             )}
           </h3>
