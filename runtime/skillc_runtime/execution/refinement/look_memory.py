@@ -1,4 +1,4 @@
-"""Keeps what looks at plans in space have found: a look takes about a second, and finds the same again."""
+"""Keeps what looks at plans in space have found, since the same look finds the same again."""
 
 from __future__ import annotations
 
