@@ -4,7 +4,7 @@ from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.computation import Computation
 from skillc_runtime.primitives.contradiction import contradict, contradict_place
 from skillc_runtime.primitives.locate import Locate
-from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.primitive import Primitive, SkillFailure, SpaceLacking, Status
 from skillc_runtime.primitives.stand_in import StandIn
 from skillc_runtime.world.state.labelled import Quantity
 
@@ -15,6 +15,7 @@ __all__ = [
     "Primitive",
     "Quantity",
     "SkillFailure",
+    "SpaceLacking",
     "StandIn",
     "Status",
     "contradict",
