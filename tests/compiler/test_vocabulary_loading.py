@@ -99,7 +99,7 @@ def test_a_broken_file_is_told_and_the_others_are_read() -> None:
 
 
 def test_an_unknown_datatype_is_told() -> None:
-    outcome = load([Source("t.ttl", HEAD + "t:when a owl:DatatypeProperty ; rdfs:range xsd:gYear .\n")])
+    outcome = load([Source("t.ttl", HEAD + "t:when a owl:DatatypeProperty ; rdfs:range xsd:gYears .\n")])
     assert [(d.name, d.severity, d.span.line) for d in outcome.diagnostics] == [("unknown-datatype", "warning", 9)]
     assert outcome.value.properties == {}
 

@@ -28,6 +28,8 @@ from skillc_runtime.world.state.terms import BASE_FRAME_ID, FRAME_ID
 ASIDE = "not-understood"
 NAMELESS = "things without a name"
 FRAMES = (FRAME_ID, BASE_FRAME_ID)
+OWN = "https://w3id.org/skillc/"
+"""What the namespaces of skillc and of libraries begin with: whoever names a term there means one that is declared."""
 SHOWN = 5
 """The most kinds of statements that are named for a file."""
 
@@ -190,7 +192,9 @@ class _Meant:
             self._used[namespace_of(iri)].add(local_name(iri))
 
     def is_meant(self, iri: str) -> bool:
-        """Whether a known term is alike, or the namespace is wrong: a known one has all that is used of it."""
+        """Whether the namespace is of skillc, a known term is alike, or another namespace has all used of it."""
+        if iri.startswith(OWN):
+            return True
         base, name = namespace_of(iri), local_name(iri)
         others = (names for namespace, names in self._there.items() if namespace != base)
         if base in self._there:
