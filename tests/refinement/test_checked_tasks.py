@@ -88,6 +88,17 @@ def lines(found: dict) -> set[str]:
     return {Path(each["path"]).read_text().splitlines()[each["line"] - 1] for each in places}
 
 
+DOOR = {"X": 0.45, "Z": 0.75}
+"""Where the door is, in m."""
+
+
+def move(place: dict[str, float], cure: str) -> dict[str, float]:
+    """Return a place with what a cure says."""
+    found = re.fullmatch(r"with lab:Desk-1 moved by 0\.\d+ m, to Position([XZ]) (0\.\d+), all steps go", cure)
+    assert found is not None, cure
+    return {**place, found[1]: float(found[2])}
+
+
 @pytest.fixture
 def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Give this test entries of its own in the cache, which nothing but what is checked invalidates."""
@@ -102,9 +113,9 @@ def test_a_door_at_which_a_joint_would_leave_its_range_is_told_at_the_task_and_t
     assert (found["name"], found["severity"], code) == ("infeasible-step", "error", 1)
     assert "Wipe(lab:Desk-1) does not go: FollowPath: lab:Panda-1: joint 4 would be at -3." in found["message"]
     assert {line.split(" a ")[0] for line in lines(found)} == {"task clean_door {", "lab:Desk-1", "lab:Panda-1"}
-    cure = re.fullmatch(r"with lab:Desk-1 moved by 0\.\d+ m, to PositionX (0\.\d+), all steps go", found["help"])
-    assert cure is not None
-    write(folder, CLEAN, tilt_desk(float(cure[1]), -20.0, 0.75))
+    moved = move(DOOR, found["help"])
+    assert moved != DOOR
+    write(folder, CLEAN, tilt_desk(moved["X"], -20.0, moved["Z"]))
     assert check(folder) == ([], 0)
 
 
@@ -189,3 +200,12 @@ def test_a_task_for_which_there_is_no_time_is_noted_and_nothing_is_remembered(tm
 @pytest.mark.parametrize("library", ["wiping", "contact", "sorting"])
 def test_shipped_tasks_go(library):
     assert check(Path(skillc_skills.__path__[0]) / library, "--no-cache") == ([], 0)
+
+
+@pytest.mark.slow
+def test_a_step_that_goes_only_with_another_posture_than_a_run_takes_is_a_warning_with_a_cure(tmp_path):
+    folder = write(tmp_path / "door", CLEAN, tilt_desk(0.5, -20.0, 0.75))
+    (found,), code = check(folder, "--no-cache")
+    assert (found["name"], found["severity"], code) == ("infeasible-step", "warning", 0)
+    assert "a run takes the posture nearest to home" in found["message"]
+    assert move(DOOR, found["help"]) != DOOR
