@@ -6,33 +6,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import isclose
 
-import numpy as np
 from msgspec import structs
 
 from skillc_model.read_write import FactPattern, facts_read
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.motion.pose import Pose, log
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, apply_step, find_startable_implementations
 from skillc_runtime.planning.world_changes import find_changed_facts
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.python_calls import EvaluationError
-from skillc_runtime.world.state.terms import (
-    ANCHOR,
-    ANGLES,
-    AT,
-    BASE_FRAME_ID,
-    BOARD,
-    CONTAIN,
-    FACE,
-    OFFSET,
-    ON,
-    OPENING,
-    ORIENTATION,
-    POSITION,
-)
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -41,15 +23,6 @@ NOISE = 1e-4
 
 Whoever wrote it: two measurements of the same thing differ by about as much.
 """
-
-MOVED_M, TURNED_RAD = 0.01, 0.02
-"""By how much something has to stand elsewhere so that a way may be there that was missing, in m and rad.
-
-Where something was is sensed again with less than that.
-"""
-
-WHERE = frozenset((*POSITION, *ORIENTATION, *ANGLES, *OFFSET, BASE_FRAME_ID, ANCHOR, FACE, BOARD, OPENING, ON))
-"""The terms of facts from which the pose of a thing follows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,7 +121,10 @@ class FailedSteps:
     def _has_changed(self, failed: FailedStep, state: WorldState) -> bool:
         found = find_changed_facts(failed.state, state)
         if failed.failure.lacks_space:
-            return any(_stands_elsewhere(each, failed.state, state) for each in found)
+            # Whoever only plans needs no numpy.
+            from skillc_runtime.execution.plans.standing import stands_elsewhere
+
+            return any(stands_elsewhere(each, failed.state, state) for each in found)
         changed = [each for each in found if not _is_noise(each, failed.state, state)]
         about = set(failed.step.arguments.values())
         return any(
@@ -172,27 +148,6 @@ def _is_noise(fact: FactPattern, before: WorldState, after: WorldState) -> bool:
     if not isinstance(one, float) or not isinstance(other, float):
         return False
     return isclose(one, other, rel_tol=NOISE, abs_tol=NOISE)
-
-
-def _stands_elsewhere(fact: FactPattern, before: WorldState, after: WorldState) -> bool:
-    """Whether something stands elsewhere, or is held by another, by a fact in which versions of the world differ."""
-    if fact.term in (AT, CONTAIN):
-        return True
-    if fact.term not in WHERE or fact.subject is None:
-        return False
-    one, other = _find_pose(before, fact.subject), _find_pose(after, fact.subject)
-    if one is None or other is None:
-        return one is not other
-    between = log(other.rotation @ one.rotation.T)
-    return bool(np.linalg.norm(other.position - one.position) > MOVED_M or np.linalg.norm(between) > TURNED_RAD)
-
-
-def _find_pose(state: WorldState, individual: str) -> Pose | None:
-    """Return where something is, None if that is not known."""
-    try:
-        return pose(state, individual)
-    except FrameError:
-        return None
 
 
 def _step_of(skill: str, arguments: Mapping[str, Value]) -> Step:

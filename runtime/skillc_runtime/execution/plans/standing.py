@@ -1,0 +1,55 @@
+"""Tells by facts whether something stands elsewhere than before, or is held by another."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from skillc_model.read_write import FactPattern
+from skillc_runtime.motion.pose import Pose, log
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.state.terms import (
+    ANCHOR,
+    ANGLES,
+    AT,
+    BASE_FRAME_ID,
+    BOARD,
+    CONTAIN,
+    FACE,
+    OFFSET,
+    ON,
+    OPENING,
+    ORIENTATION,
+    POSITION,
+)
+from skillc_runtime.world.state.world_state import WorldState
+
+MOVED_M, TURNED_RAD = 0.01, 0.02
+"""By how much something has to stand elsewhere so that a way may be there that was missing, in m and rad.
+
+Where something was is sensed again with less than that.
+"""
+
+WHERE = frozenset((*POSITION, *ORIENTATION, *ANGLES, *OFFSET, BASE_FRAME_ID, ANCHOR, FACE, BOARD, OPENING, ON))
+"""The terms of facts from which the pose of a thing follows."""
+
+
+def stands_elsewhere(fact: FactPattern, before: WorldState, after: WorldState) -> bool:
+    """Whether something stands elsewhere, or is held by another, by a fact in which versions of the world differ."""
+    if fact.term in (AT, CONTAIN):
+        return True
+    if fact.term not in WHERE or fact.subject is None:
+        return False
+    one, other = _find_pose(before, fact.subject), _find_pose(after, fact.subject)
+    if one is None or other is None:
+        return one is not other
+    between = log(other.rotation @ one.rotation.T)
+    return bool(np.linalg.norm(other.position - one.position) > MOVED_M or np.linalg.norm(between) > TURNED_RAD)
+
+
+def _find_pose(state: WorldState, individual: str) -> Pose | None:
+    """Return where something is, None if that is not known."""
+    try:
+        return pose(state, individual)
+    except FrameError:
+        return None
