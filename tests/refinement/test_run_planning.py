@@ -14,7 +14,7 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import PreparedTask, prepare_task
 from skillc_runtime.execution.refinement import run_planning
 from skillc_runtime.execution.refinement.look_memory import LookMemory
-from skillc_runtime.execution.refinement.run_planning import DevicePostures, SpaceLook
+from skillc_runtime.execution.refinement.run_planning import SpaceLook
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.changes import ClearProperty, SetProperty
@@ -42,7 +42,7 @@ def look_at(task: LoadedTask, look: SpaceLook, limit_s: float = 60.0) -> SpaceCl
 def test_a_look_that_fails_keeps_nothing_from_running() -> None:
     with loaded("clean_table") as task:
         (arm,) = task.assignment.state.instances(ARM_DEVICE)
-        claim = look_at(task, SpaceLook(DevicePostures({arm: (0.0, 0.0)}, {})))
+        claim = look_at(task, SpaceLook({arm: (0.0, 0.0)}))
     assert claim.summary.startswith("not checked in space: the look has failed: ValueError: ")
     assert (claim.checked, claim.from_home) == (0, False)
 

@@ -11,20 +11,20 @@ from skillc_dsl import cache
 from skillc_model.skills import SkillLibrary
 from skillc_ontology.catalogue import user_models
 from skillc_runtime.execution.refinement.look_memory import LookMemory
-from skillc_runtime.execution.refinement.run_planning import SpaceLook, measure_devices
+from skillc_runtime.execution.refinement.run_planning import SpaceLook, measure_postures
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
 
 
 def look_from_home(library: SkillLibrary, use_cache: bool = True) -> SpaceLook:
-    """Return how plans are looked at that begin with all devices at home."""
+    """Return how plans are looked at that begin with all arms at home."""
     return SpaceLook(None, _open_memory(library) if use_cache else None)
 
 
 def look_from(cell: Cell, library: SkillLibrary, use_cache: bool = True) -> SpaceLook:
-    """Return how plans are looked at that begin with the devices of a cell as they are now."""
-    return SpaceLook(measure_devices(cell), _open_memory(library) if use_cache else None)
+    """Return how plans are looked at that begin with the arms of a cell where they are now."""
+    return SpaceLook(measure_postures(cell), _open_memory(library) if use_cache else None)
 
 
 def _open_memory(library: SkillLibrary) -> LookMemory | None:

@@ -34,13 +34,13 @@ class LookMemory:
         self,
         library: SkillLibrary,
         state: WorldState,
-        devices: object,
+        postures: object,
         steps: Sequence[Step],
         find: Callable[[Sequence[Step]], Look],
     ) -> Look:
         """Return what a look at a plan has found before, from the same facts and postures; else what it finds now."""
         digest = hashlib.sha256()
-        for part in (self.around, library.hash, library.vocabulary, devices, tuple(steps), *_list_facts(state)):
+        for part in (self.around, library.hash, library.vocabulary, postures, tuple(steps), *_list_facts(state)):
             digest.update(_ENCODER.encode(part) + b"\n")
         key = digest.hexdigest()
         if (content := self.store.get(key)) is not None:

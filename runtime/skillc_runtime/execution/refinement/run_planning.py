@@ -1,4 +1,4 @@
-"""Plans for a run: looks at each plan in space, from where the devices are, before anything moves."""
+"""Plans for a run: looks at each plan in space, from where the arms are, before anything moves."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import Cancelled, CancelToken
@@ -15,8 +15,9 @@ from skillc_runtime.execution.refinement.look import AnswerT, Look, PlanWithout,
 from skillc_runtime.execution.refinement.look_memory import LookMemory
 from skillc_runtime.planning.plan import GaveUp, Step
 from skillc_runtime.recording.space_claim import SpaceClaim
+from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
-from skillc_runtime.world.state.terms import ARM_DEVICE, HAS_GRIPPER
+from skillc_runtime.world.state.terms import ARM_DEVICE, CONTAIN, HAS_GRIPPER
 from skillc_runtime.world.state.world_state import WorldState
 
 if TYPE_CHECKING:
@@ -28,34 +29,32 @@ LOOK_S = 5.0
 MAY_GO: frozenset[Cause] = frozenset(("nothing-fits", "no-grasp-or-place", "no-value"))
 """The causes after which a step may go nevertheless: they rest on values that a run may sense."""
 
+AT_HOME_RAD = 0.02
+"""How far each joint of an arm at home may be from there, in rad."""
 
-@dataclass(frozen=True, slots=True)
-class DevicePostures:
-    """Where devices are: the joints (nv,) of arms in rad, how far apart the fingers of grippers are in m, by IRI."""
 
-    arms: Mapping[str, tuple[float, ...]]
-    grippers: Mapping[str, float]
+Postures: TypeAlias = Mapping[str, tuple[float, ...]]
+"""The joints (nv,) of arms in rad, by IRI."""
 
 
 @dataclass(frozen=True, slots=True)
 class SpaceLook:
-    """How plans are looked at: from where the devices are, None for all at home, and where is kept what was found."""
+    """How plans are looked at: from where the arms are, None for all at home, and where is kept what was found."""
 
-    devices: DevicePostures | None = None
+    postures: Postures | None = None
     memory: LookMemory | None = None
 
 
-def measure_devices(cell: Cell) -> DevicePostures:
-    """Return where the devices of a cell are now; without those that the cell lacks."""
-    state = cell.world.snapshot()
-    arms, grippers = dict[str, tuple[float, ...]](), dict[str, float]()
-    for arm in sorted(state.instances(ARM_DEVICE)):
+def measure_postures(cell: Cell) -> Postures:
+    """Return where the arms of a cell are now, without those that the cell lacks.
+
+    Fingers are not read: a reading has noise, which is drawn, and a run that is repeated would draw the rest anew.
+    """
+    found = dict[str, tuple[float, ...]]()
+    for arm in sorted(cell.world.snapshot().instances(ARM_DEVICE)):
         with suppress(KeyError):
-            arms[arm] = tuple(cell.arm(arm).measured.q.tolist())
-        for gripper in sorted(state.objects(arm, HAS_GRIPPER)):
-            with suppress(KeyError):
-                grippers[gripper] = cell.gripper(gripper).opening_m
-    return DevicePostures(arms, grippers)
+            found[arm] = tuple(cell.arm(arm).measured.q.tolist())
+    return found
 
 
 def plan_for_run(
@@ -63,8 +62,9 @@ def plan_for_run(
 ) -> tuple[AnswerT | GaveUp, SpaceClaim | None]:
     """Return the first plan whose steps all go in space, or that none is known, and what is known of the plan.
 
-    A plan of which a step lacks only what a run may sense is better than none. If a look fails, or takes until `cancel`
-    ends it, the plan is returned unchecked. None is known if there is no plan, and where there are no arms.
+    A plan of which a step lacks only what a run may sense is better than none, and so is one that begins where arms
+    were stopped, since they may have a little more room than is known. If a look fails, or takes until `cancel` ends
+    it, the plan is returned unchecked. None is known if there is no plan, and where there are no arms.
     """
     if not state.instances(ARM_DEVICE):
         return plan(()), None
@@ -75,6 +75,7 @@ def plan_for_run(
         limit = limit or CancelToken(max(LOOK_S, cancel.remaining_s), cancel)
         return _look_safely(library, state, how, limit, steps)
 
+    is_sure = how.postures is None or _are_at_rest(state, how.postures)
     possible: tuple[AnswerT, SpaceClaim] | None = None
     before: Look | None = None
     for answer, seen in look_at_plans(plan, look):
@@ -82,7 +83,7 @@ def plan_for_run(
             break
         if seen.failed is None:
             return (answer, seen.claim) if possible is None or not seen.claim.stopped else possible
-        if possible is None and seen.cause in MAY_GO:
+        if possible is None and (seen.cause in MAY_GO or not is_sure):
             possible = answer, seen.claim
         before = seen
     if possible is not None:
@@ -90,26 +91,38 @@ def plan_for_run(
     return (answer if before is None else before.explain(state)), None
 
 
+def _are_at_rest(state: WorldState, postures: Postures) -> bool:
+    """Whether all arms are at home that have such a posture, with empty hands."""
+    for arm, q in postures.items():
+        if any(state.objects(gripper, CONTAIN) for gripper in state.objects(arm, HAS_GRIPPER)):
+            return False
+        with suppress(SheetError):
+            home = sheet_of(state, arm).posture("home")
+            if max(abs(one - other) for one, other in zip(q, home, strict=False)) > AT_HOME_RAD:
+                return False
+    return True
+
+
 def _look_safely(
     library: SkillLibrary, state: WorldState, how: SpaceLook, limit: CancelToken, steps: Sequence[Step]
 ) -> Look:
     """Return what a look at a plan finds; if it fails or ends early, that it has."""
-    find = partial(_look, library, state, how.devices, limit)
+    find = partial(_look, library, state, how.postures, limit)
     try:
-        return find(steps) if how.memory is None else how.memory.recall(library, state, how.devices, steps, find)
+        return find(steps) if how.memory is None else how.memory.recall(library, state, how.postures, steps, find)
     except Cancelled as why:
         stopped = str(why)
     except FOREIGN_ERRORS as error:  # whatever fails in it is no reason not to do what planners have proved
         stopped = f"the look has failed: {type(error).__name__}: {error}"
-    return Look(claim=SpaceClaim(checked=0, steps=len(steps), stopped=stopped, from_home=how.devices is None))
+    return Look(claim=SpaceClaim(checked=0, steps=len(steps), stopped=stopped, from_home=how.postures is None))
 
 
 def _look(
-    library: SkillLibrary, state: WorldState, devices: DevicePostures | None, limit: CancelToken, steps: Sequence[Step]
+    library: SkillLibrary, state: WorldState, postures: Postures | None, limit: CancelToken, steps: Sequence[Step]
 ) -> Look:
     # The simulator is slow to import.
     from skillc_runtime.execution.refinement.replanning import look_at_plan
-    from skillc_runtime.execution.refinement.situation import begin_as_measured, begin_at_home
+    from skillc_runtime.execution.refinement.situation import begin_at, begin_at_home
 
-    begin = begin_at_home(state) if devices is None else begin_as_measured(state, devices.arms, devices.grippers)
-    return look_at_plan(library, begin, devices is None, steps, limit)
+    begin = begin_at_home(state) if postures is None else begin_at(state, postures)
+    return look_at_plan(library, begin, postures is None, steps, limit)

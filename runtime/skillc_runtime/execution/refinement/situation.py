@@ -9,10 +9,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.state.changes import Change
+from skillc_runtime.primitives.standing_bases import leaving_changes
+from skillc_runtime.world.state.changes import AddRelation, Change
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.terms import ARM_DEVICE, HAS_GRIPPER
+from skillc_runtime.world.state.terms import ARM_DEVICE, AT, HAS_GRIPPER
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -45,8 +46,13 @@ class Situation:
     motions: tuple[RefinedMotion, ...] = ()
 
     def with_changes(self, changes: tuple[Change, ...] | list[Change]) -> Situation:
-        """Return the situation after changes of the world; WorldError if they contradict it."""
-        return replace(self, state=WorldModel(self.state).commit(changes).after) if changes else self
+        """Return the situation after changes of the world; WorldError if they contradict it.
+
+        Who is at another place then has left the pose where it stood.
+        """
+        arriving = (each.subject for each in changes if isinstance(each, AddRelation) and each.relation == AT)
+        leaving = [left for each in arriving for left in leaving_changes(self.state, each)]
+        return replace(self, state=WorldModel(self.state).commit([*leaving, *changes]).after) if changes else self
 
     def with_motion(self, motion: RefinedMotion) -> Situation:
         """Return the situation after a motion."""
@@ -54,11 +60,10 @@ class Situation:
         return replace(self, postures=postures, motions=(*self.motions, motion))
 
 
-def begin_as_measured(
-    state: WorldState, postures: Mapping[str, Sequence[float]], openings: Mapping[str, float]
-) -> Situation:
-    """Return the situation in which arms have postures, each (nv,) in rad, and grippers openings in m, by IRI."""
-    return Situation(state, {arm: np.array(q) for arm, q in postures.items()}, openings)
+def begin_at(state: WorldState, postures: Mapping[str, Sequence[float]]) -> Situation:
+    """Return the situation in which arms have postures, each (nv,) in rad, by IRI, their fingers open."""
+    home = begin_at_home(state)
+    return replace(home, postures={**home.postures, **{arm: np.array(q) for arm, q in postures.items()}})
 
 
 def begin_at_home(state: WorldState) -> Situation:
