@@ -50,8 +50,8 @@ def check_edits(library: LibraryFiles, before: Snapshot, parse: Parser) -> Snaps
     skills = dependencies.callers(changed_skills(before.outlines, now))
     checked = dependencies.concerned(skills) | edited.keys()
     described = changed_signatures(before.outlines, now)
-    told = not (skills & before.looked) and checked.isdisjoint(before.texts)
-    if TASK in skills or not told or (described and _has_calls(library)):
+    in_scenes = not checked.isdisjoint(before.texts) or not skills.isdisjoint(before.looked)
+    if TASK in skills or in_scenes or (described and _has_calls(library)):
         return None
     own = {source.path: source for source in library.sources}
     needed = dependencies.needed(checked)

@@ -18,9 +18,9 @@ from skillc_dsl.diagnostics import Diagnostic
 def check_uncached(library: LibraryFiles, scene: Path | None, memo: AnalysisMemo | None) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of a library, without any cache on disk."""
     from skillc.services.library_checks import Known, check_library
-    from skillc.services.space_checks.verdicts import SpaceLook
+    from skillc.services.space_checks.verdicts import TaskLooks
 
-    return check_library(library, scene, Known(memo=memo, look=SpaceLook(use_cache=False).judge))
+    return check_library(library, scene, Known(memo=memo, look=TaskLooks(use_cache=False).judge))
 
 
 def check_and_store(entry: CheckCacheEntry, memo: AnalysisMemo | None) -> tuple[Diagnostic, ...]:
@@ -49,10 +49,10 @@ def _check_whole(
     # After an edit of skills, this is mostly not imported.
     from skillc.services.cell_checks.verdicts import judge_cell_once
     from skillc.services.library_checks import Known, check_whole
-    from skillc.services.space_checks.verdicts import SpaceLook
+    from skillc.services.space_checks.verdicts import TaskLooks
 
     memo.checks.files = files
-    look = SpaceLook(use_cache=True)
+    look = TaskLooks(use_cache=True)
     known = Known(parse_cache.parse_cached, judge_cell_once, memo, look.judge)
     found, program, library = check_whole(entry.library, entry.scene, known)
     if program is None or library is None:

@@ -55,14 +55,15 @@ def _look_at_goal(
     answer, found = plan_in_space(library, state, plan, cancel)
     cancel.check()
     skills = frozenset(step.skill for steps in plans for step in steps)
-    if found is None:
-        return Looked(None, skills)
-    step, why = _find_problem(found)
-    if step is None:
+    problem = None if found is None else _find_problem(found)
+    if found is None or problem is None:
         return Looked(None, skills)
 
     def goes(there: WorldState) -> bool:
-        return _find_problem(refine_plan(library, there, plans[-1])) == (None, "")
+        after = refine_plan(library, there, plans[-1])
+        return after.failed is None and not any(_takes_other(each.motions) for each in after.steps)
+
+    step, why = problem
 
     needed = answer.needed if isinstance(answer, GaveUp) else ()
     seen = not found.unseen and not any(each.unseen for each in found.steps)
@@ -73,12 +74,12 @@ def _look_at_goal(
     return Looked(SpaceProblem(named, why, certain, None, cure), skills)
 
 
-def _find_problem(found: PlanRefinement) -> tuple[Step | None, str]:
+def _find_problem(found: PlanRefinement) -> tuple[Step, str] | None:
     """Return the step of a plan that does not go in space as a run does it, and why; None if nothing says so."""
     if found.failed is None:
-        return next(((each.step, OTHER_POSTURE) for each in found.steps if _takes_other(each.motions)), (None, ""))
+        return next(((each.step, OTHER_POSTURE) for each in found.steps if _takes_other(each.motions)), None)
     if found.failure is None or not found.failure.is_in_space:
-        return None, "no way was found"
+        return None
     return found.failed, found.failure.message
 
 

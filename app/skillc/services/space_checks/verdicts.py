@@ -38,7 +38,7 @@ class _Entry(msgspec.Struct, frozen=True):
     bodies: str
 
 
-class SpaceLook:
+class TaskLooks:
     """Looks at tasks in space, together for at most LIMIT_S; in the cache is what was found before.
 
     `looked` are the skills so far on whose bodies depends what was found; `in_time` is whether none was given up.

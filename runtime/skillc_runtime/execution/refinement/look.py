@@ -26,7 +26,7 @@ PlanWithout: TypeAlias = Callable[[Sequence[Excluded]], AnswerT]
 """Plans without some steps."""
 
 
-class Look(msgspec.Struct, frozen=True, kw_only=True):
+class PlanLook(msgspec.Struct, frozen=True, kw_only=True):
     """What a look at a plan in space has found: the step that does not go, if one does not, and the cause.
 
     `condition` is what holds of the things in its way, None if it does not go whatever stands where. Without a cause
@@ -62,8 +62,8 @@ class Look(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def look_at_plans(
-    plan: PlanWithout[AnswerT], look: Callable[[Sequence[Step]], Look]
-) -> Iterator[tuple[AnswerT, Look | None]]:
+    plan: PlanWithout[AnswerT], look: Callable[[Sequence[Step]], PlanLook]
+) -> Iterator[tuple[AnswerT, PlanLook | None]]:
     """Yield plans, each without the steps of those before it that do not go in space, and the look at each.
 
     The last is one that goes, the answer that there is no other, without a look, or one after which nothing more is

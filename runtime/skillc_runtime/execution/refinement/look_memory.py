@@ -11,7 +11,7 @@ from pathlib import Path
 import msgspec
 
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.execution.refinement.look import Look
+from skillc_runtime.execution.refinement.look import PlanLook
 from skillc_runtime.planning.cache import PlanCache
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.world.state.terms import MESH
@@ -36,8 +36,8 @@ class LookMemory:
         state: WorldState,
         postures: object,
         steps: Sequence[Step],
-        find: Callable[[Sequence[Step]], Look],
-    ) -> Look:
+        find: Callable[[Sequence[Step]], PlanLook],
+    ) -> PlanLook:
         """Return what a look at a plan has found before, from the same facts and postures; else what it finds now."""
         digest = hashlib.sha256()
         for part in (self.around, library.hash, library.vocabulary, postures, tuple(steps), *_list_facts(state)):
@@ -45,7 +45,7 @@ class LookMemory:
         key = digest.hexdigest()
         if (content := self.store.get(key)) is not None:
             with suppress(msgspec.MsgspecError):
-                return msgspec.msgpack.decode(content, type=Look)
+                return msgspec.msgpack.decode(content, type=PlanLook)
         found = find(steps)
         self.store.put(key, _ENCODER.encode(found))
         return found

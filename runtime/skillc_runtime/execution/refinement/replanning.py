@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
-from skillc_runtime.execution.refinement.look import AnswerT, Look, PlanWithout, look_at_plans
+from skillc_runtime.execution.refinement.look import AnswerT, PlanLook, PlanWithout, look_at_plans
 from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement, refine_plan
 from skillc_runtime.execution.refinement.scope import find_excluded
 from skillc_runtime.execution.refinement.situation import Situation
@@ -28,18 +28,18 @@ def plan_in_space(
     found: PlanRefinement | None = None
     in_space = True
 
-    def look(steps: Sequence[Step]) -> Look:
+    def look(steps: Sequence[Step]) -> PlanLook:
         nonlocal found, in_space
         try:
             with cancelling(cancel):
                 now = refine_plan(library, state, steps)
         except Cancelled as why:
-            return Look(claim=SpaceClaim(checked=0, steps=len(steps), stopped=str(why)))
+            return PlanLook(claim=SpaceClaim(checked=0, steps=len(steps), stopped=str(why)))
         found = now
         in_space = in_space and (now.failure is None or now.failure.is_in_space)
         return judge(library, now, len(steps))
 
-    before: tuple[AnswerT, Look] | None = None
+    before: tuple[AnswerT, PlanLook] | None = None
     for answer, seen in look_at_plans(plan, look):
         if seen is None and before is not None and cancel.reason is None:
             needed = answer.needed if isinstance(answer, GaveUp) and in_space else ()
@@ -55,19 +55,19 @@ def plan_in_space(
 
 def look_at_plan(
     library: SkillLibrary, begin: Situation, from_home: bool, steps: Sequence[Step], cancel: CancelToken
-) -> Look:
+) -> PlanLook:
     """Return what a look at a plan finds that begins in a situation; Cancelled if `cancel` ends it."""
     with cancelling(cancel):
         return judge(library, refine_plan(library, begin.state, steps, begin), len(steps), from_home)
 
 
-def judge(library: SkillLibrary, found: PlanRefinement, steps: int, from_home: bool = True) -> Look:
+def judge(library: SkillLibrary, found: PlanRefinement, steps: int, from_home: bool = True) -> PlanLook:
     """Return what a refinement of so many steps says, and what is in the way where it ends."""
     claim = make_claim(found, steps, from_home)
     if found.failed is None or found.before is None:
-        return Look(claim=claim)
+        return PlanLook(claim=claim)
     excluded = find_excluded(library, found.before, found.failed, claim.failure or "")
-    return Look(
+    return PlanLook(
         claim=claim,
         failed=found.failed,
         cause=None if found.failure is None else found.failure.cause,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.execution.refinement.failure import Cause
-from skillc_runtime.execution.refinement.look import AnswerT, Look, PlanWithout, look_at_plans
+from skillc_runtime.execution.refinement.look import AnswerT, PlanLook, PlanWithout, look_at_plans
 from skillc_runtime.execution.refinement.look_memory import LookMemory
 from skillc_runtime.planning.plan import GaveUp, Step
 from skillc_runtime.recording.space_claim import SpaceClaim
@@ -48,7 +48,7 @@ class SpaceLook:
 def measure_postures(cell: Cell) -> Postures:
     """Return where the arms of a cell are now, without those that the cell lacks.
 
-    Fingers are not read: a reading has noise, which is drawn, and a run that is repeated would draw the rest anew.
+    Fingers are not read: each reading draws noise, and a repeated run, which does not look, would draw other noise.
     """
     found = dict[str, tuple[float, ...]]()
     for arm in sorted(cell.world.snapshot().instances(ARM_DEVICE)):
@@ -70,14 +70,14 @@ def plan_for_run(
         return plan(()), None
     limit: CancelToken | None = None
 
-    def look(steps: Sequence[Step]) -> Look:
+    def look(steps: Sequence[Step]) -> PlanLook:
         nonlocal limit
         limit = limit or CancelToken(max(LOOK_S, cancel.remaining_s), cancel)
         return _look_safely(library, state, how, limit, steps)
 
     is_sure = how.postures is None or _are_at_rest(state, how.postures)
     possible: tuple[AnswerT, SpaceClaim] | None = None
-    before: Look | None = None
+    before: PlanLook | None = None
     for answer, seen in look_at_plans(plan, look):
         if seen is None:
             break
@@ -98,14 +98,14 @@ def _are_at_rest(state: WorldState, postures: Postures) -> bool:
             return False
         with suppress(SheetError):
             home = sheet_of(state, arm).posture("home")
-            if max(abs(one - other) for one, other in zip(q, home, strict=False)) > AT_HOME_RAD:
+            if len(q) != len(home) or any(abs(one - other) > AT_HOME_RAD for one, other in zip(q, home, strict=True)):
                 return False
     return True
 
 
 def _look_safely(
     library: SkillLibrary, state: WorldState, how: SpaceLook, limit: CancelToken, steps: Sequence[Step]
-) -> Look:
+) -> PlanLook:
     """Return what a look at a plan finds; if it fails or ends early, that it has."""
     find = partial(_look, library, state, how.postures, limit)
     try:
@@ -114,12 +114,12 @@ def _look_safely(
         stopped = str(why)
     except FOREIGN_ERRORS as error:  # whatever fails in it is no reason not to do what planners have proved
         stopped = f"the look has failed: {type(error).__name__}: {error}"
-    return Look(claim=SpaceClaim(checked=0, steps=len(steps), stopped=stopped, from_home=how.postures is None))
+    return PlanLook(claim=SpaceClaim(checked=0, steps=len(steps), stopped=stopped, from_home=how.postures is None))
 
 
 def _look(
     library: SkillLibrary, state: WorldState, postures: Postures | None, limit: CancelToken, steps: Sequence[Step]
-) -> Look:
+) -> PlanLook:
     # The simulator is slow to import.
     from skillc_runtime.execution.refinement.replanning import look_at_plan
     from skillc_runtime.execution.refinement.situation import begin_at, begin_at_home
