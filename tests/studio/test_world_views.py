@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 
 from server.running import RunningServer
 from studio.accessibility import check_axe
@@ -59,6 +59,28 @@ def test_a_fact_is_edited_by_a_click_and_the_edit_undone(page: Page, server: Run
     expect(facts.first).to_contain_text("lab:crate-4.Weight == 1.2 kg")
     page.get_by_role("button", name="Undo", exact=True).click()
     expect(page.get_by_text("No fact has")).to_be_visible()
+
+
+def test_what_was_refused_stays_told_when_a_slow_answer_comes(page: Page) -> None:
+    """What a form can state is read while somebody edits already; its answer takes no message away."""
+    late: list[Route] = []
+    page.route("**/world/terms*", lambda route: late.append(route))
+    show(page, "facts")
+    page.get_by_label("Search in the facts").fill("contain lab:crate-4")
+    page.locator(".world tbody button.link", has_text="crate-4").first.click()
+    page.get_by_role("button", name="Add", exact=True).click()
+    page.get_by_role("button", name="Several facts").click()
+    page.get_by_label("Fact 1").fill("lab:crate-4 nonsense lab:crate-5")
+    page.get_by_label("Why", exact=True).fill("it is tried")
+    page.get_by_role("button", name="Change", exact=True).click()
+    refusal = page.get_by_role("alert").filter(has_text="nonsense")
+    refusal.wait_for()
+    assert late
+    with page.expect_response("**/world/terms*"):
+        for each in late:
+            each.continue_()
+    page.wait_for_load_state("networkidle")
+    expect(refusal).to_be_visible()
 
 
 def test_what_a_skill_changed_has_no_undo(page: Page, server: RunningServer) -> None:

@@ -7,17 +7,25 @@ import type { Selection } from "./selection";
 import * as studio from "./studio";
 import { describeRequest } from "./text";
 
-/** Do something that the server may refuse; what it says is shown. Return whether it was done. */
-export async function attempt(what: () => Promise<unknown>, done = ""): Promise<boolean> {
+/** Read what the server may refuse; what it says then is shown, and what is shown stays otherwise. Return whether it was read. */
+export async function read(what: () => Promise<unknown>): Promise<boolean> {
   try {
     await what();
-    studio.message.value = done === "" ? null : { kind: "done", text: done };
     return true;
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
     studio.message.value = { kind: "error", text: error.message };
     return false;
   }
+}
+
+/** Do something that the server may refuse; what it says is shown, and what was said meanwhile stays. Return whether it was done. */
+export async function attempt(what: () => Promise<unknown>, done = ""): Promise<boolean> {
+  const before = studio.message.peek();
+  const isDone = await read(what);
+  if (isDone && done !== "") studio.message.value = { kind: "done", text: done };
+  else if (isDone && studio.message.peek() === before) studio.message.value = null;
+  return isDone;
 }
 
 export function select(selection: Selection): void {

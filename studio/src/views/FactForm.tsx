@@ -3,7 +3,7 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { api } from "../api/client";
 import type { LabelledFact, StatableFacts, StatableTerm } from "../api/types";
-import { attempt } from "../state/actions";
+import { read } from "../state/actions";
 import { changeWorld, editing } from "../state/editing";
 import { cellName, facts } from "../state/studio";
 import { individualsOf } from "../state/text";
@@ -19,7 +19,7 @@ function useTerms(subject: string): StatableFacts | null {
     let isCurrent = true;
     setKnown(null);
     if (name === null || subject === "") return;
-    void attempt(async () => {
+    void read(async () => {
       const found = await api.terms(name, subject);
       if (isCurrent) setKnown(found);
     });

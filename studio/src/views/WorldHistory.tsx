@@ -3,7 +3,7 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { api } from "../api/client";
 import type { WorldWrite } from "../api/types";
-import { attempt, select } from "../state/actions";
+import { read, select } from "../state/actions";
 import { cellName, mayCommand, refusalOf, worldSequence } from "../state/studio";
 import { formatMoment } from "../state/run_times";
 import { formatChange } from "../state/text";
@@ -16,7 +16,7 @@ function useWrites(): WorldWrite[] | null {
   const name = cellName.value;
   const sequence = worldSequence.value;
   useEffect(() => {
-    if (name !== null) void attempt(async () => setWrites(await api.writes(name, { limit: MOST })));
+    if (name !== null) void read(async () => setWrites(await api.writes(name, { limit: MOST })));
   }, [name, sequence]);
   return writes;
 }

@@ -1,7 +1,7 @@
 // What the robots of the cell can do by their hardware: each skill with what it changes, and why a robot cannot do it.
 import { useEffect, useState } from "preact/hooks";
 import { api } from "../api/client";
-import { attempt } from "../state/actions";
+import { read } from "../state/actions";
 import { CHANGES, IMPLEMENTATIONS, type RobotSkill, type SkillOfRobots, skillsOf } from "../state/skills";
 import { cellName, library } from "../state/studio";
 
@@ -12,7 +12,7 @@ function useSkills(): SkillOfRobots[] | null {
   const hash = library.value?.hash;
   useEffect(() => {
     if (name === null) return;
-    void attempt(async () => {
+    void read(async () => {
       const [changes, implementations] = [
         await api.query(name, CHANGES),
         await api.query(name, IMPLEMENTATIONS),
