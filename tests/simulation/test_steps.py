@@ -14,7 +14,7 @@ from skillc_runtime.backends.simulation.machine_code import find_counts, find_wa
 from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.devices.disturbances import Push
 from skillc_runtime.motion.numerics.compiled import COMPILES
-from skillc_runtime.motion.overlays import Circle
+from skillc_runtime.motion.overlays import Circle, Spiral
 from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.segments import MotionLimits
@@ -56,6 +56,7 @@ def keep_busy(cell: SimulatedCell, scene: str) -> str:
             goal = Pose(start.position + np.array([0.0, 0.0, 0.05]), start.rotation)
             driver.motion.move_along(path_through([start, goal], MotionLimits(speed=0.2, acceleration=0.8)))
             overlay = driver.motion.add_overlay(Circle(0.01, 0.1), np.eye(3), 0.05)
+            driver.motion.add_overlay(Spiral(0.004, 0.05, 0.01), np.eye(3), 0.05)
         if tick == 30:
             hand.move(0.02, 20.0)
             cell.disturber.disturb(Push(ARM[scene], (0.0, 20.0, 0.0), 0.033))
@@ -72,6 +73,20 @@ def test_both_ways_give_the_same_to_the_last_bit(scene: str, steps_per_command: 
     by_program, by_python = both_ways(scene, steps_per_command)
     assert keep_busy(by_program, scene) == keep_busy(by_python, scene)
     assert by_program.now == by_python.now == by_program.data.time
+
+
+def test_a_person_guides_a_tool_in_both_ways_alike() -> None:
+    found = []
+    for cell in both_ways("iiwa_guiding"):
+        arm = cell.arm(ARM["iiwa_table"])
+        for axis in np.eye(3):
+            arm.compliance.release(axis)
+        for _ in range(150):
+            cell.advance(0.01)
+        (guidance,) = cell.ground_truth.guidances()
+        found.append((digest(cell, []), guidance.times.tobytes(), guidance.forces.tobytes()))
+        assert guidance.forces.max() > 1.0
+    assert found[0] == found[1]
 
 
 @pytest.mark.slow

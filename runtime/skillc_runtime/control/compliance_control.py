@@ -9,6 +9,7 @@ import numpy as np
 
 from skillc_runtime.control import push_memory
 from skillc_runtime.control.arm_task import ArmTask
+from skillc_runtime.control.compliance_state import STIFFNESS
 from skillc_runtime.control.guarded_push import ActivePush
 from skillc_runtime.control.push_memory import FALL_SHARE, MOST_PUSHES, SIZE
 from skillc_runtime.devices.guarded_push import GuardedPush, PushProgress
@@ -35,6 +36,12 @@ class ComplianceControl:
     def commanded_stiffness(self) -> Array:
         """The commanded stiffness (6,) along the axes of the compliance frame, N/m and N m/rad."""
         return self._task.tool.compliance.wanted.stiffness.copy()
+
+    @property
+    def live_stiffness(self) -> Array:
+        """The same (6,), but that of the gains along axes that are held meanwhile; not a copy."""
+        live: Array = self._task.tool.compliance.memory.target[STIFFNESS]
+        return live
 
     @property
     def commanded_wrench(self) -> Array:

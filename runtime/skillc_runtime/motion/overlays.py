@@ -15,7 +15,7 @@ from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay
 
-CIRCLE, SINES, GIVEN = 1.0, 2.0, 3.0
+CIRCLE, SINES, GIVEN, SPIRAL = 1.0, 2.0, 3.0, 4.0
 """Kinds of overlays that `reference_plan` samples; it is given the samples of all others."""
 
 
@@ -44,6 +44,50 @@ def sines_at(motion: OutMatrix, amplitude: Vector, frequency: Vector, phase: Vec
         motion[0, i] = amplitude[i] * sin(angle)
         motion[1, i] = amplitude[i] * w * cos(angle)
         motion[2, i] = -w * w * motion[0, i]
+
+
+@inlined
+def _arc(theta: float) -> float:
+    """Return the length of the unit spiral r = theta up to `theta` rad."""
+    return (theta * sqrt(1 + theta * theta) + asinh(theta)) / 2
+
+
+@inlined
+def _angle_at(length: float) -> float:
+    """Return the angle in rad at which the unit spiral has a given length, by Newton's method from above the root."""
+    theta = min(length, sqrt(2 * length))
+    for _ in range(8):
+        theta -= (_arc(theta) - length) / sqrt(1 + theta * theta)
+    return theta
+
+
+@compiled
+def spiral_at(motion: OutMatrix, pitch: float, speed: float, radius: float, time: float) -> None:
+    """Compute offset, velocity and acceleration (3, 3) of a spiral, along the axes of the overlay: m, m/s, m/s^2.
+
+    r = b theta in the x-y plane, b = pitch / 2 pi, at constant speed; from `radius` on it is a circle.
+    pitch: m between turns; speed: m/s; radius: m; time: s.
+    """
+    b = pitch / (2 * pi)
+    widest = radius / b
+    rounded = (time - b * _arc(widest) / speed) * speed
+    if rounded > 0.0:
+        theta = widest + rounded / radius
+        c, s = cos(theta), sin(theta)
+        bend = speed * speed / radius
+        motion[0, 0], motion[0, 1] = radius * c, radius * s
+        motion[1, 0], motion[1, 1] = -speed * s, speed * c
+        motion[2, 0], motion[2, 1] = -bend * c, -bend * s
+        return
+    theta = _angle_at(max(speed * time, 0.0) / b)
+    c, s = cos(theta), sin(theta)
+    first = speed / (b * sqrt(1 + theta * theta))
+    second = -theta * first * first / (1 + theta * theta)
+    inward = b * (second - theta * first * first)
+    around = b * (second * theta + 2 * first * first)
+    motion[0, 0], motion[0, 1] = b * theta * c, b * theta * s
+    motion[1, 0], motion[1, 1] = b * first * (c - theta * s), b * first * (s + theta * c)
+    motion[2, 0], motion[2, 1] = inward * c - around * s, inward * s + around * c
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,38 +150,16 @@ class Spiral:
     speed: float
     radius: float
 
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """The kind of overlay, and what describes it, for `reference_plan`: pitch in m, speed in m/s, radius in m."""
+        return SPIRAL, self.pitch, self.speed, self.radius
+
     def at(self, time: float) -> Array:
         """Return offset, velocity and acceleration (3, 3) at `time` s: m, m/s, m/s^2."""
-        b = self.pitch / (2 * pi)
-        widest = self.radius / b
-        rounded = (time - b * _arc(widest) / self.speed) * self.speed
-        if rounded > 0:
-            return self._on_circle(widest + rounded / self.radius)
-        theta = _angle_at(max(self.speed * time, 0.0) / b)
-        first = self.speed / (b * sqrt(1 + theta * theta))
-        second = -theta * first * first / (1 + theta * theta)
-        c, s = cos(theta), sin(theta)
-        along, across = np.array([c, s, 0.0]), np.array([-s, c, 0.0])
-        velocity = b * first * (along + theta * across)
-        acceleration = b * second * (along + theta * across) + b * first * first * (2 * across - theta * along)
-        return np.array([b * theta * along, velocity, acceleration])
-
-    def _on_circle(self, theta: float) -> Array:
-        along, across = np.array([cos(theta), sin(theta), 0.0]), np.array([-sin(theta), cos(theta), 0.0])
-        return np.array([self.radius * along, self.speed * across, -(self.speed**2) / self.radius * along])
-
-
-def _arc(theta: float) -> float:
-    """Return the length of the unit spiral r = theta up to `theta` rad."""
-    return (theta * sqrt(1 + theta * theta) + asinh(theta)) / 2
-
-
-def _angle_at(length: float) -> float:
-    """Return the angle in rad at which the unit spiral has a given length, by Newton's method from above the root."""
-    theta = min(length, sqrt(2 * length))
-    for _ in range(8):
-        theta -= (_arc(theta) - length) / sqrt(1 + theta * theta)
-    return theta
+        motion = np.zeros((3, 3))
+        spiral_at(motion, self.pitch, self.speed, self.radius, time)
+        return motion
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ import numpy as np
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import copy_matrix, cross, product, rotation_by, times
-from skillc_runtime.motion.overlays import CIRCLE, SINES, circle_at, faded_at, sines_at
+from skillc_runtime.motion.overlays import CIRCLE, SINES, SPIRAL, circle_at, faded_at, sines_at, spiral_at
 from skillc_runtime.motion.path import COLUMNS_OF_PATH, path_at
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.profile import trapezoid_at
@@ -137,10 +137,12 @@ def _add_overlays(plan: ReferencePlan, now: float) -> bool:
         kind, start, parameters = overlay[OVERLAY_KIND], overlay[START], overlay[PARAMETERS:]
         if kind == 0.0:
             continue
+        for i in range(3):
+            motion[i, 2] = 0.0
         if kind == CIRCLE:
-            for i in range(3):
-                motion[i, 2] = 0.0
             circle_at(motion, parameters[0], parameters[1], time - start)
+        elif kind == SPIRAL:
+            spiral_at(motion, parameters[0], parameters[1], parameters[2], time - start)
         elif kind == SINES:
             sines_at(motion, parameters[:3], parameters[3:6], parameters[6:], time - start)
         else:

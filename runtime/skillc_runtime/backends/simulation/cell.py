@@ -115,7 +115,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self.watchdog = HeartbeatWatchdog()
         self._buttons = DeviceMap("button", make_buttons(scene.fixtures, variation.fixtures, names, self.data), names)
         self._io_points = DeviceMap("I/O point", make_points(world.snapshot()), names)
-        self.people = make_people(scene, variation, self._drivers, self.data)
+        self.people = make_people(scene, variation, self.arms, self._drivers, self.data)
         self._touches = TouchRecorder(scene, self.model, self.contacts, self._held_things)
         self.ground_truth: GroundTruth = SimulatedTruth(
             scene, variation, self._observers, self.coverage, self._buttons, self.people, self._touches, self._grippers,
@@ -323,7 +323,7 @@ class ModelledCell(ABC, Generic[A, G]):
             yield InPython(partial(self._step_gripper, gripper), partial(_is_idle, gripper))
         for arm in self.arms.values():
             yield arm.motors
-        yield InPython(self._step_people, lambda: not self.people)
+        yield from self.people
         yield ForItself(self.disturber.step, lambda: not self.disturber.acts)
 
     def _watch(self, events: int, now: float) -> bool:
@@ -337,10 +337,6 @@ class ModelledCell(ABC, Generic[A, G]):
 
     def _step_gripper(self, gripper: G, now: float) -> None:
         gripper.step(self._timestep)
-
-    def _step_people(self, now: float) -> None:
-        for person in self.people:
-            person.step(now)
 
     def _make_inspection_camera(self) -> SimulatedCamera:
         """Return the camera that inspects surfaces; its errors follow from the seed."""

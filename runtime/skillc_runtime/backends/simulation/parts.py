@@ -27,6 +27,7 @@ class ControlledArm:
         driver, arm = self._driver, self._arm
         functions = driver.functions
         if functions is None:
+            self._found = (), None
             return None
         state = (*functions, arm.braked, arm.interface)
         if state != self._found[0]:

@@ -114,7 +114,7 @@ class SimulatedTruth:
     def guidances(self) -> tuple[Guidance, ...]:
         """Return how people guided tools by hand; people who guided none are left out."""
         return tuple(
-            Guidance(each.place, np.array(each.forces), np.array(each.times), each.arm)
+            Guidance(each.place, guided[:, 1], guided[:, 0], each.arm)
             for each in self.people
-            if each.forces
+            if len(guided := each.guided)
         )
