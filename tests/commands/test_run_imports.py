@@ -13,7 +13,7 @@ from commands.test_output import lab
 __all__ = ["lab"]
 
 REPORT, DRAWING = "skillc.services.run_report", {"matplotlib"}
-UNUSED = {"skillc.services.dry_runs", "skillc_compiler.checks", "skillc_dsl.parsing.parser"}
+UNUSED = {"glfw", "skillc.services.dry_runs", "skillc_compiler.checks", "skillc_dsl.parsing.parser"}
 TASK = """
 task fill {
     scene "scene.ttl"

@@ -15,9 +15,7 @@ from functools import partial
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.frames import FrameReader, send_frame
-from skillc.cells.host import open_cell
 from skillc.cells.mailbox import Inbox, Outbox, listen_for_stops
-from skillc.cells.service import CellService
 from skillc.cells.settings import CellSettings
 from skillc.contract.messages import Preparing, StartFailed
 from skillc.errors import DiagnosticsError, ServiceError
@@ -27,6 +25,7 @@ from skillc_dsl.source import Source
 from skillc_runtime.execution.cell_loop import NotDurable
 from skillc_runtime.motion.numerics.compiled import LISTENERS
 from skillc_runtime.platforms.memory import limit_memory, physical_bytes
+from skillc_runtime.platforms.python_modules import defer_import
 from skillc_runtime.platforms.signals import ENDING
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -54,6 +53,11 @@ class _Log:
 def main(requests: socket.socket, stops: socket.socket) -> int:
     """Serve a cell until the other end is gone or asks for the end; return the exit code."""
     limit_memory(MEMORY_BYTES)
+    # MuJoCo, which a cell imports, imports what opens windows, which no cell does.
+    defer_import("glfw")
+    from skillc.cells.host import open_cell
+    from skillc.cells.service import CellService
+
     sys.setswitchinterval(SWITCH_S)
     settings = FrameReader(requests, CellSettings).read()
     if settings is None:

@@ -22,6 +22,7 @@ from skillc.cli.options import WITH_ONTOLOGY, add_ontology_option
 from skillc.cli.usage_errors import print_click_error
 from skillc.errors import OutputError
 from skillc.services import crash_reports
+from skillc_runtime.platforms.python_modules import defer_import
 
 COMMANDS = Path(__file__).parent / "commands"
 GARBAGE = 50_000
@@ -119,9 +120,10 @@ class Commands(Group):
         return sorted(file.stem for file in COMMANDS.glob("[!_]*.py"))
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """Import one command; None for an unknown name."""
+        """Import one command; None for an unknown name. MuJoCo imports what opens windows, which no command does."""
         if cmd_name not in self.list_commands(ctx):
             return None
+        defer_import("glfw")
         command: click.Command = importlib.import_module(f"skillc.cli.commands.{cmd_name}").command
         return add_ontology_option(command) if cmd_name in WITH_ONTOLOGY else command
 

@@ -62,10 +62,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     from skillc.services.running import RunOptions
     from skillc.services.stores import StoreChoice
     from skillc.services.task_loading import check_request, fill_in, load_task
-    from skillc_runtime.platforms.python_modules import defer_import
 
-    # MuJoCo imports what opens windows, which no run does.
-    defer_import("glfw")
     kept = StoreChoice(store, reset, writes=True)
     wanted = fill_in(spec, kept)
     remark_default(spec.task, wanted.task)
