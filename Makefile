@@ -36,7 +36,7 @@ OPERATIONS := 600
 # How many random mistakes `make mistakes` makes in the shipped and in other libraries: one, two and three at once.
 EDITS := 10000
 
-.PHONY: help demo test slow check reasoners sim robots arms nodes browser wheel fuzz mistakes soak peers bench editors studio docs pictures accept pin lock clean
+.PHONY: help demo test slow sim longer check reasoners robots arms nodes browser wheel fuzz mistakes soak peers bench editors studio docs pictures accept pin lock clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -49,9 +49,18 @@ demo: .venv/.runtime ## run the demo: two robots wipe two surfaces with one skil
 test: .venv/.dev .venv/.studio ## run the fast tests
 	$(BIN)/pytest -n 2 --dist worksteal
 
-# Slow tests, and simulations below, also wait: four processes of them keep two cores busy.
+# Slow tests and simulations also wait: four processes of them keep two cores busy.
+ELSEWHERE = browser or reasoner or robot or wheel
+FOUR = -n 4 --dist worksteal
 slow: .venv/.dev .venv/.studio ## run the tests that take more than a second, and those of whole cells and servers
-	$(BIN)/pytest -m "slow and not (browser or reasoner or robot or sim or wheel)" -n 4 --dist worksteal
+	$(BIN)/pytest -m "slow and not (sim or $(ELSEWHERE))" $(FOUR)
+
+sim: .venv/.dev  ## run whole tasks in simulation; those that take minutes are in make soak
+	$(BIN)/pytest -m "sim and not (long or $(ELSEWHERE))" $(FOUR)
+
+# Takes less time than one after the other: tests are collected once, and nothing waits for the last ones of one kind.
+longer: .venv/.dev .venv/.studio ## run what make slow and make sim run, at once
+	$(BIN)/pytest -m "(slow or sim) and not (sim and long or $(ELSEWHERE))" $(FOUR)
 
 check: .venv/.dev ## check style, types and import rules
 	$(BIN)/ruff check .
@@ -64,9 +73,6 @@ check: .venv/.dev ## check style, types and import rules
 
 reasoners: .venv/.dev ## check ontology, scenes, descriptions and domains with tools of other projects (some need Java)
 	$(BIN)/pytest -m reasoner -n 2
-
-sim: .venv/.dev  ## run whole tasks in simulation; those that take minutes are in make soak
-	$(BIN)/pytest -m "sim and not (long or robot)" -n 4 --dist worksteal
 
 # A machine that stands still for a second ends what has to keep time, so what fails is run once more, by itself.
 ARMS = -m "robot and not long" -o cache_dir=.pytest_cache/arms --ignore tests/robots/ros2
@@ -81,7 +87,7 @@ nodes: .tools/ros2/.made
 
 # A browser waits for a server, and both for each other, most of the time.
 browser: .venv/.dev .venv/.studio ## drive the studio in Chromium; pictures of all tests are kept in out/studio
-	$(BIN)/pytest -m browser tests/studio -n 3 --dist loadscope
+	$(BIN)/pytest -m browser tests/studio -n 3 --dist loadscope --no-loadscope-reorder
 
 wheel: .venv/.dev ## build the wheel and use it in a clean environment
 	$(BIN)/pytest -m wheel tests/distribution -n 2 --dist loadfile

@@ -40,24 +40,30 @@ def pytest_configure() -> None:
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> Generator[None, object, object]:
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> Generator[None, object, object]:
     """Mark the tests of slow folders as `slow`; of those that are selected, begin with the ones marked `early`."""
     for item in items:
         if item.nodeid.startswith(SLOW_FOLDERS):
             item.add_marker("slow")
     done = yield
-    items[:] = begin_with_early(items, int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", 1)))
+    items[:] = begin_with_early(items, count_parts(config))
     return done
 
 
-def begin_with_early(items: list[pytest.Item], processes: int) -> list[pytest.Item]:
-    """Order tests so that each process, which gets one of as many equal parts, begins with its share of early ones."""
+def count_parts(config: pytest.Config) -> int:
+    """In how many equal parts the tests are given out: one a process, but with `--dist loadscope` file by file."""
+    is_by_file = "loadscope" in getattr(config, "workerinput", {"mainargv": ()})["mainargv"]
+    return 1 if is_by_file else int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", 1))
+
+
+def begin_with_early(items: list[pytest.Item], parts: int) -> list[pytest.Item]:
+    """Order tests so that each of as many equal parts begins with its share of early ones."""
     early = [item for item in items if item.get_closest_marker("early")]
     others = [item for item in items if not item.get_closest_marker("early")]
     ordered: list[pytest.Item] = []
-    for process in range(processes):
-        share = early[process::processes]
-        size = max(0, (len(items) - len(ordered)) // (processes - process) - len(share))
+    for part in range(parts):
+        share = early[part::parts]
+        size = max(0, (len(items) - len(ordered)) // (parts - part) - len(share))
         ordered += (*share, *others[:size])
         del others[:size]
     return ordered

@@ -37,6 +37,7 @@ print(sorted(set(sys.modules) - before), [each.__name__ for each in laws if each
 """
 
 
+@pytest.mark.early
 @pytest.mark.slow
 def test_what_skills_call_is_loaded_and_compiled() -> None:
     here = Path(__file__).parent

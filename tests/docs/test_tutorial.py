@@ -18,6 +18,7 @@ def follow(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Reader:
     return reader
 
 
+@pytest.mark.early
 @pytest.mark.sim
 def test_everything_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert follow(tmp_path, monkeypatch).done >= 14

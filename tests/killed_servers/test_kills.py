@@ -10,6 +10,7 @@ from killed_servers.auditing import Faults
 from killed_servers.series import KillSeries
 
 
+@pytest.mark.early
 @pytest.mark.sim
 def test_what_is_killed_at_random_loses_nothing_and_repeats_nothing(tmp_path: Path) -> None:
     series = KillSeries(tmp_path, seed=1)

@@ -23,6 +23,7 @@ def find_schemas(part: Any) -> Iterator[Any]:
             yield from find_schemas(each)
 
 
+@pytest.mark.early
 @pytest.mark.sim
 def test_random_requests_are_answered_as_the_document_says(tmp_path: Path) -> None:
     with serving(tmp_path) as server:

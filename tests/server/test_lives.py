@@ -15,6 +15,7 @@ from contextlib import closing
 from pathlib import Path
 
 import httpx
+import pytest
 from click.testing import CliRunner, Result
 from msgspec import structs
 
@@ -249,6 +250,7 @@ STORIES: tuple[Callable[[RunningServer], Story], ...] = (
 """In this order with a server that runs, and the other way round when it has ended."""
 
 
+@pytest.mark.early
 def test_what_a_server_keeps_over_its_lives(tmp_path: Path) -> None:
     (tmp_path / "served").mkdir(mode=0o755)
     stories = list[Story]()

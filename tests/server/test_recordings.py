@@ -146,6 +146,7 @@ def test_it_has_the_signals_while_an_operation_runs(tmp_path: Path) -> None:
     assert len(signals.time_s) > 1000 and recorded.envelopes[-1].cell_time_s - signals.time_s[-1] < 0.05
 
 
+@pytest.mark.early
 @pytest.mark.sim
 def test_the_recording_of_a_cell_that_was_killed_can_be_read(tmp_path: Path) -> None:
     with serving(tmp_path, takes_ms=2000) as server:

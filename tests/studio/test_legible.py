@@ -13,6 +13,8 @@ from studio.conftest import PATIENCE
 from studio.legible import find_illegible, in_each_look
 from studio.opening import choose, open_studio, origin_of
 
+pytestmark = pytest.mark.early
+
 Look = Callable[[str], None]
 REST = 'task rest {\n    scene "yard.ttl"\n    do seq { wait 600 s }\n}\n'
 MISTAKE = "lab:crate-1.Wieght == 2 kg"

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import re
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from server.running import RunningServer
 from studio.opening import FINISHED, choose, press_start, start, wait_for_state
+
+pytestmark = pytest.mark.early
 
 APPROVE, STEP = (
     "Let each plan, also a new one, wait for approval",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
 from server.running import RunningServer
@@ -15,6 +16,8 @@ from studio.opening import (
     wait_for_last_event,
     wait_for_state,
 )
+
+pytestmark = pytest.mark.early
 
 SLOW = {"offline": False, "latency": 400, "downloadThroughput": 50_000, "uploadThroughput": 50_000}
 """Latency in ms, and bytes/s."""

@@ -11,6 +11,8 @@ from server.running import RunningServer, serving, wait_until
 from studio.accessibility import check_axe
 from studio.opening import open_studio
 
+pytestmark = pytest.mark.early
+
 
 @pytest.fixture(scope="module")
 def own_server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:

@@ -15,6 +15,8 @@ from studio.conftest import OUT, PATIENCE
 from studio.opening import make_code, origin_of, put_back
 from studio.starts import Followed, Start, collect_starts, followed, of_each_kind, write_stands
 
+pytestmark = pytest.mark.early
+
 FOLLOWED_ELSEWHERE = ("--behind-proxy", "--backend cart", "--ros2")
 """What other tests start: a server that its proxy alone asks, one with the robot of another package, one in ROS 2."""
 NOT_VALID = "The code in the address is wrong, was used before, or is older than a minute."

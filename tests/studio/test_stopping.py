@@ -17,6 +17,8 @@ from server.test_trials import wait_for as wait_for_series
 from studio.conftest import OUT, PATIENCE
 from studio.opening import choose, open_studio, put_back, wait_for_state
 
+pytestmark = pytest.mark.early
+
 KEY, KEY_EVERYWHERE = "x", "Control+Shift+X"
 WHY = "admin: stopped in the studio"
 Arrange: TypeAlias = Callable[[Page], object]

@@ -8,6 +8,8 @@ from playwright.sync_api import Page, Route, expect
 from server.running import RunningServer
 from studio.accessibility import check_axe
 
+pytestmark = pytest.mark.early
+
 
 def edit(server: RunningServer, text: str, why: str) -> None:
     assert server.client.post("/cells/yard/world/edits", json={"edits": [text], "why": why}).status_code == 204

@@ -59,6 +59,7 @@ def test_a_file_needs_a_folder_for_its_report(run: Path) -> None:
     assert result.exit_code == 2 and "--out" in result.stderr
 
 
+@pytest.mark.early
 @pytest.mark.sim
 def test_figures_are_those_of_the_run(tmp_path: Path) -> None:
     record(RunSpec(task="clean_desk"), tmp_path / "run", 26.0, "mujoco")
