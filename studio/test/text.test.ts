@@ -52,7 +52,7 @@ test.each<[LabelledFact, string]>([
 });
 
 test("a plan is described by its proof, and by how much of it was checked in space", () => {
-  const space = { checked: 4, steps: 5, unseen: [{ step: 2, what: "Own" }], chosen: [2, 3] };
+  const space = { checked: 4, steps: 5, unseen: [2, 2, 3].map((step) => ({ step, what: "Own" })) };
   expect([
     describePlan({ quality: "proved optimal", space: null }),
     describePlan({ quality: "proved optimal", space: { checked: 5, steps: 5 } }),

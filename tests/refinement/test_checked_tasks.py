@@ -203,9 +203,5 @@ def test_shipped_tasks_go(library):
 
 
 @pytest.mark.slow
-def test_a_step_that_goes_only_with_another_posture_than_a_run_takes_is_a_warning_with_a_cure(tmp_path):
-    folder = write(tmp_path / "door", CLEAN, tilt_desk(0.5, -20.0, 0.75))
-    (found,), code = check(folder, "--no-cache")
-    assert (found["name"], found["severity"], code) == ("infeasible-step", "warning", 0)
-    assert "a run takes the posture nearest to home" in found["message"]
-    assert move(DOOR, found["help"]) != DOOR
+def test_a_step_that_goes_only_with_another_posture_than_the_nearest_to_home_is_no_problem(tmp_path):
+    assert check(write(tmp_path / "door", CLEAN, tilt_desk(0.5, -20.0, 0.75)), "--no-cache") == ([], 0)

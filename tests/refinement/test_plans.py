@@ -26,11 +26,13 @@ def plan_door(tmp_path: Path, x: float, pitch_deg: float, z: float):
 @pytest.mark.parametrize("task", ["wiping:clean_table", "wiping:clean_whiteboard", "sorting:sort_parts"])
 def test_shipped_plans_are_checked_whole(task):
     answer = plan(task)
+    postures = answer["space"].pop("postures")
+    moving = [number for number, each in enumerate(answer["plan"], 1) if each["skill"] != "Drive"]
+    assert {each["step"] for each in postures} == set(moving)
     assert answer["space"] == {
         "checked": len(answer["plan"]),
         "steps": len(answer["plan"]),
         "unseen": [],
-        "chosen": [],
         "failure": None,
         "stopped": "",
         "from_home": True,

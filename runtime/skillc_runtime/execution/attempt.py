@@ -12,11 +12,12 @@ from skillc_runtime.execution.assignment import AchieveGoal, Assignment, Planned
 from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.monitor import PlanMonitor
+from skillc_runtime.execution.plans.plan_record import restore_postures
 from skillc_runtime.execution.plans.progress import measure_progress
 from skillc_runtime.execution.success_facts import Claim
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.locks import DeviceLocks
-from skillc_runtime.execution.tree.run import EarlierTrees, TreeRun
+from skillc_runtime.execution.tree.run import AttemptInputs, TreeRun
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Listener, Note, PromptsChanged
@@ -111,7 +112,10 @@ class Attempt:
     def __init__(self, prepared: PreparedTask, context: RunContext, nodes_before: int) -> None:
         """Build the tree, whose nodes are numbered from `nodes_before` + 1; nothing starts."""
         cell = context.backend.cell
-        failures = None if prepared.planned is None else context.failures
+        planned = prepared.planned
+        failures = None if planned is None else context.failures
+        space = None if planned is None else planned.space
+        postures = () if space is None else restore_postures(space)
         self.prepared, self._context = prepared, context
         self.tree = TreeRun(
             prepared.body,
@@ -119,7 +123,7 @@ class Attempt:
             cell,
             context.listeners,
             context.locks,
-            EarlierTrees(nodes_before, failures),
+            AttemptInputs(nodes_before, failures, postures),
             context.gate,
             context.spec,
         )

@@ -17,6 +17,7 @@ from skillc_runtime.planning.validation import PlanError, compute_effects
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact
+from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.recording.states import EndState
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.model import WorldError, WorldModel
@@ -141,6 +142,8 @@ def _prepare_steps(
 ) -> PreparedTask:
     """Return some steps of the plan as a body; PlanError if they are not possible."""
     assert last.prepared.planned is not None, "steps come from a plan"
-    solved = last.prepared.planned.solved
+    solved, space = last.prepared.planned.solved, last.prepared.planned.space
     rest = replace(solved, plan=Plan(steps, solved.plan.duration_s))
-    return arrange_prepared(replace(last.prepared.assignment, state=state), rest, library)
+    if space is not None:
+        space = SpaceClaim(checked=0, steps=len(steps), stopped="it goes on after a failure", postures=space.postures)
+    return arrange_prepared(replace(last.prepared.assignment, state=state), rest, library, space)

@@ -5,9 +5,9 @@ The motion is looked for beside the ticks, while the arm holds; again if the arm
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from skillc_runtime.collision.motion_search import JointGoals, Surroundings, fin
 from skillc_runtime.collision.path_planning import JointSpace, NoPath
 from skillc_runtime.collision.scenery import read_scenery
 from skillc_runtime.devices.arm_driver import Infeasible
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Trajectory
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.computation import Computation, Computing
@@ -45,10 +45,13 @@ LIMIT_S = 120.0
 """How long a search may take, in s of wall time, on a machine that does much else: it ends after so many looks."""
 
 
-def move_collision_free(cell: Cell, arm: str, goals: JointGoals, pace: float, unreachable: SpaceLacking) -> Computing:
-    """Move the joints to the first of the goals that can be reached without a collision; `unreachable` without any.
+def move_collision_free(
+    cell: Cell, arm: str, goals: JointGoals, pace: float, unreachable: SpaceLacking
+) -> Generator[Computation | None, Any, Array]:
+    """Move the joints to the first of the goals that can be reached without a collision; return it, (nv,) in rad.
 
-    `pace` is the share of the maximum joint speeds. SkillFailure, before anything moves, says what is in the way.
+    `pace` is the share of the maximum joint speeds. SkillFailure, before anything moves, says what is in the way;
+    `unreachable` if there are no goals.
     """
     driver = _come_to_rest(cell, arm)
     for _ in range(MAX_SEARCHES):
@@ -64,7 +67,7 @@ def move_collision_free(cell: Cell, arm: str, goals: JointGoals, pace: float, un
         raise_fault(driver)
         if np.abs(driver.motion.stopping_joints() - model.start).max() < SAME_RAD and seen.is_current(cell):
             driver.motion.follow_joints(found)
-            return
+            return np.asarray(found.end)
         yield from _wait_until_still(driver)
     raise _restless()
 

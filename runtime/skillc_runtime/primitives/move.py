@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from skillc_runtime.devices.arm_driver import MotionModel
+from skillc_runtime.kinematics.inverse import APART_RAD
 from skillc_runtime.motion.path import Path, join_segments, path_through
 from skillc_runtime.motion.pose import Array, Pose, exp, log
 from skillc_runtime.motion.segments import MotionLimits, segment_between
@@ -42,6 +43,8 @@ GENTLE_M_S, GENTLE_M = 0.03, CORRECTION_M + 0.01
 """The greatest speed of a tool, and from how far before the end of a line, where it may touch what is nearer than it is
 believed to be."""
 
+OTHER_POSTURE = "takes another posture than was planned, which is not free, or does not bring its tool there"
+
 ABOVE_PLACE_M = 0.02
 """A line that ends nearer than this to a placing pose was to put something there."""
 
@@ -71,27 +74,38 @@ class MoveJoints(ArmMotion):
         self._individual, self._target, self._pace = arm, target, pace
 
     def start_motion(self) -> Computing:
-        """Find the posture nearest to home that puts the tool there, another where that one is not free, and go."""
+        """Find the posture that was planned, else that nearest to home, another where that is not free, and go."""
         home, now = _find_posture(self.cell.world.snapshot(), self._individual, HOME), self.arm.measured
+        known = self.planned_postures
+        planned = None if known is None else known.find(self._individual, self._target)
         x, y, z = self._target.position.tolist()
         unreachable = SpaceLacking(
             "the arm cannot reach {target:.3f} in this orientation, {far:.2f} from where its tool is",
             target=LabelledVector((x, y, z), "m"),
             far=Quantity(float(np.linalg.norm(self._target.position - now.pose.position)), "m"),
         )
-        goals = _PoseGoal(self._target, home)
-        yield from move_collision_free(self.cell, self._individual, goals, self._pace, unreachable)
+        goals = _PoseGoal(self._target, home, planned)
+        end = yield from move_collision_free(self.cell, self._individual, goals, self._pace, unreachable)
+        if known is not None and planned is not None and np.abs(end - planned).max() > APART_RAD:
+            known.tell(self._individual, OTHER_POSTURE)
 
 
 @dataclass(frozen=True, slots=True)
 class _PoseGoal:
-    """The postures that put the tool at a target in the world, those near home (nv,), in rad, first."""
+    """The postures that put the tool at a target in the world: the one near that planned, then those near home.
+
+    home, planned (nv,): rad; the latter None if no posture was planned.
+    """
 
     target: Pose
     home: Array
+    planned: Array | None
 
     def find(self, model: MotionModel) -> Iterator[Array]:
         """Yield them, the best first."""
+        as_planned = None if self.planned is None else model.inverse_kinematics(self.target, self.planned)
+        if as_planned is not None:
+            yield as_planned
         yield from model.rank_postures(self.target, self.home)[:MOST_POSTURES]
 
 

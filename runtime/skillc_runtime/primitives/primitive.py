@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
     from skillc_runtime.devices.prompts import Prompt
     from skillc_runtime.primitives.computation import Computing
+    from skillc_runtime.primitives.planned_postures import PlannedPostures
     from skillc_runtime.primitives.space_needs import SpaceNeed
     from skillc_runtime.world.state.values import Value
     from skillc_runtime.world.state.world_state import WorldState
@@ -94,6 +95,8 @@ class Primitive:
     While `computing` is not None, it computes beside the ticks, and `tick` is not called. It is a generator that yields
     what is to be computed, and is sent the results; it is ended by `halt`. If `start` has set it, the start lasts until
     it ends: nothing may have moved if it raises SkillFailure.
+
+    `planned_postures` are those of the plan that it is part of, None where nothing was planned.
     """
 
     activity: ClassVar[Activity] = ""
@@ -102,6 +105,7 @@ class Primitive:
     moves: ClassVar[Mapping[str, str | None] | None] = None
     uses_devices: ClassVar[bool] = True
     stays_put: ClassVar[bool] = False
+    planned_postures: PlannedPostures | None = None
 
     @classmethod
     def find_problem(cls, arguments: Mapping[str, Value], state: WorldState) -> str | None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import msgspec
 
+from skillc_runtime.world.state.labelled import LabelledPose
+
 
 class UnseenCall(msgspec.Struct, frozen=True):
     """A call, by the skills around it, of which nobody says what it needs of space, in a step of a plan, from 1."""
@@ -12,18 +14,27 @@ class UnseenCall(msgspec.Struct, frozen=True):
     what: str
 
 
+class ChosenPosture(msgspec.Struct, frozen=True):
+    """The joints `q` (nv,) in rad with which an arm, by IRI, brings its tool to a pose, in a step of a plan, from 1."""
+
+    step: int
+    arm: str
+    q: tuple[float, ...]
+    tool: LabelledPose
+
+
 class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
     """How many steps of a plan go in space, of how many, and why the next does not; None if it does or is not known.
 
-    unseen: the calls in these steps that were not looked at. chosen: the steps that go only with another posture than
-    the one nearest to home. stopped: why the look ended before it was through; empty if it was. from_home: whether the
-    arms begin at home; else where they were when the plan was made.
+    unseen: the calls in these steps that were not looked at. postures: those in which arms bring their tools to poses,
+    in the order of the steps, which a run takes as well. stopped: why the look ended before it was through; empty if it
+    was. from_home: whether the arms begin at home; else where they were when the plan was made.
     """
 
     checked: int
     steps: int
     unseen: tuple[UnseenCall, ...] = ()
-    chosen: tuple[int, ...] = ()
+    postures: tuple[ChosenPosture, ...] = ()
     failure: str | None = None
     stopped: str = ""
     from_home: bool = True
@@ -33,7 +44,7 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
         """The claim as a clause, such as `all 5 checked in space`."""
         if self.stopped:
             return f"not checked in space: {self.stopped}"
-        looked = self.checked - len({each.step for each in self.unseen} | {*self.chosen})
+        looked = self.checked - len({each.step for each in self.unseen})
         return f"{f'all {self.steps}' if looked == self.steps else f'{looked} of {self.steps}'} checked in space"
 
     @property
@@ -44,9 +55,6 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
         begin = "at home" if self.from_home else "where they are"
         lines = [f"{self.summary}: reach, joints, torques, paths, room; the arms begin {begin}"]
         lines += (f"step {each.step}: nobody says what {each.what} needs of space" for each in self.unseen)
-        lines += (
-            f"step {number} goes only with another posture than the nearest one to home" for number in self.chosen
-        )
         if self.failure is not None:
             lines.append(f"step {self.checked + 1} does not go: {self.failure}")
         return "\n".join(lines)

@@ -1562,9 +1562,9 @@ export interface components {
          * SpaceClaim
          * @description How many steps of a plan go in space, of how many, and why the next does not; None if it does or is not known.
          *
-         *         unseen: the calls in these steps that were not looked at. chosen: the steps that go only with another posture than
-         *         the one nearest to home. stopped: why the look ended before it was through; empty if it was. from_home: whether the
-         *         arms begin at home; else where they were when the plan was made.
+         *         unseen: the calls in these steps that were not looked at. postures: those in which arms bring their tools to poses,
+         *         in the order of the steps, which a run takes as well. stopped: why the look ended before it was through; empty if it
+         *         was. from_home: whether the arms begin at home; else where they were when the plan was made.
          */
         SpaceClaim: {
             checked: number;
@@ -1572,7 +1572,7 @@ export interface components {
             /** @default [] */
             unseen?: components["schemas"]["UnseenCall"][];
             /** @default [] */
-            chosen?: number[];
+            postures?: components["schemas"]["ChosenPosture"][];
             /** @default null */
             failure?: string | null;
             /** @default  */
@@ -1587,6 +1587,16 @@ export interface components {
         UnseenCall: {
             step: number;
             what: string;
+        };
+        /**
+         * ChosenPosture
+         * @description The joints `q` (nv,) in rad with which an arm, by IRI, brings its tool to a pose, in a step of a plan, from 1.
+         */
+        ChosenPosture: {
+            step: number;
+            arm: string;
+            q: number[];
+            tool: components["schemas"]["LabelledPose"];
         };
         /**
          * PlanMade

@@ -160,8 +160,7 @@ export function describeFailure(failure: Failure): string {
 /** Return what is known of a plan: its proof, and how much of it was checked in space; empty for nothing. */
 export function describePlan({ quality, space }: Pick<PlanMade, "quality" | "space">): string {
   if (!space) return quality ?? "";
-  const open = [...(space.unseen ?? []).map((each) => each.step), ...(space.chosen ?? [])];
-  const looked = space.checked - new Set(open).size;
+  const looked = space.checked - new Set((space.unseen ?? []).map((each) => each.step)).size;
   const share = looked === space.steps ? `all ${space.steps}` : `${looked} of ${space.steps}`;
   const checked = space.stopped ? `not checked in space: ${space.stopped}` : `${share} checked in space`;
   return quality ? `${quality}, ${checked}` : checked;

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from skillc.services.planning import prepare_planners
@@ -14,16 +14,14 @@ from skillc_model.skills import SkillLibrary, Task
 from skillc_model.traversal import find_calls
 from skillc_model.traversal import walk as walk_parts
 from skillc_runtime.cancellation import CancelToken, cancelling
-from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement, refine_plan
+from skillc_runtime.execution.refinement.plan_refinement import refine_plan
 from skillc_runtime.execution.refinement.replanning import plan_in_space
-from skillc_runtime.execution.refinement.situation import RefinedMotion, begin_at_home
+from skillc_runtime.execution.refinement.situation import begin_at_home
 from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.planning.plan import Excluded, GaveUp, PlanResult, Solved, Step
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.world.state.world_state import WorldState
-
-OTHER_POSTURE = "a run takes the posture nearest to home, from which what follows does not go; another one would do"
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,37 +53,20 @@ def _look_at_goal(
     answer, found = plan_in_space(library, state, plan, cancel)
     cancel.check()
     skills = frozenset(step.skill for steps in plans for step in steps)
-    problem = None if found is None else _find_problem(found)
-    if found is None or problem is None:
+    failure = None if found is None else found.failure
+    if found is None or found.failed is None or failure is None or not failure.is_in_space:
         return Looked(None, skills)
 
     def goes(there: WorldState) -> bool:
-        after = refine_plan(library, there, plans[-1])
-        return after.failed is None and not any(_takes_other(each.motions) for each in after.steps)
-
-    step, why = problem
+        return refine_plan(library, there, plans[-1]).failed is None
 
     needed = answer.needed if isinstance(answer, GaveUp) else ()
     seen = not found.unseen and not any(each.unseen for each in found.steps)
     certain = seen and bool(needed) and all(each.kind == "steps" for each in needed)
-    things = _given(step, library)
-    named = f"{step.skill}({', '.join(map(state.vocabulary.short, things))})"
+    things = _given(found.failed, library)
+    named = f"{found.failed.skill}({', '.join(map(state.vocabulary.short, things))})"
     cure = find_cure(state, things, goes, cancel)
-    return Looked(SpaceProblem(named, why, certain, None, cure), skills)
-
-
-def _find_problem(found: PlanRefinement) -> tuple[Step, str] | None:
-    """Return the step of a plan that does not go in space as a run does it, and why; None if nothing says so."""
-    if found.failed is None:
-        return next(((each.step, OTHER_POSTURE) for each in found.steps if _takes_other(each.motions)), None)
-    if found.failure is None or not found.failure.is_in_space:
-        return None
-    return found.failed, found.failure.message
-
-
-def _takes_other(motions: Iterable[RefinedMotion]) -> bool:
-    """Whether one of some motions ends in another posture than a run takes."""
-    return any(each.chosen for each in motions)
+    return Looked(SpaceProblem(named, failure.message, certain, None, cure), skills)
 
 
 def _given(step: Step, library: SkillLibrary) -> list[str]:
@@ -97,7 +78,7 @@ def _given(step: Step, library: SkillLibrary) -> list[str]:
 def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node, cancel: CancelToken) -> Looked:
     def goes(there: WorldState) -> bool:
         after = next(Walk(library).go(body, begin_at_home(there), Scope({})), None)
-        return after is not None and not _takes_other(after.motions)
+        return after is not None and not any(each.chosen for each in after.motions)
 
     walk, calls = Walk(library), list(find_calls(body))
     skills = frozenset(each.skill for each in calls)

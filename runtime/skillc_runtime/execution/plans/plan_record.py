@@ -6,8 +6,11 @@ from collections.abc import Sequence
 from typing import cast
 
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.motion.arrays import np
+from skillc_runtime.motion.pose import Pose
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries
 from skillc_runtime.planning.plan import LeftOut, Optimal, Plan, Solved, Step
+from skillc_runtime.primitives.planned_postures import PlannedPosture
 from skillc_runtime.recording.events import ArrivedPlan, PartLeftOut, PlanStep, StepGroup
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.labelled import LabelledIri
@@ -31,6 +34,14 @@ def restore_steps(recorded: Sequence[PlanStep]) -> tuple[Step, ...]:
     return tuple(
         Step(each.skill, {name: value.iri for name, value in each.arguments.items() if isinstance(value, LabelledIri)})
         for each in recorded
+    )
+
+
+def restore_postures(space: SpaceClaim) -> tuple[PlannedPosture, ...]:
+    """Return the postures that arms are to take, from what is known of a plan in space."""
+    return tuple(
+        PlannedPosture(each.arm, Pose.of(each.tool.position_m, each.tool.quaternion_wxyz), np.array(each.q))
+        for each in space.postures
     )
 
 

@@ -59,7 +59,7 @@ def meet(need: SpaceNeed, here: Situation) -> Iterator[Outcome]:
         case Reach(arm=arm, tool=tool):
             yield from _reach(view_arm(here, arm), tool, here)
         case Take(arm=arm, q=q):
-            yield _take(view_arm(here, arm), q, here, chosen=False)
+            yield _take(view_arm(here, arm), q, here)
         case Follow(arm=arm, poses=poses):
             yield _follow(view_arm(here, arm), poses, here)
         case Press(arm=arm, force=force):
@@ -82,19 +82,22 @@ def _reach(view: ArmView, tool: Pose, here: Situation) -> Iterator[Outcome]:
         yield SpaceFailure("out-of-reach", f"no posture of {_name(view, here)} brings its tool to {_place(tool)}")
     chosen = False
     for q in found[:MOST_POSTURES]:
-        after = _take(view, q, here, chosen)
+        after = _take(view, q, here, tool, chosen)
         yield after
         chosen |= isinstance(after, Situation)
 
 
-def _take(view: ArmView, q: Array, here: Situation, chosen: bool) -> Outcome:
-    """Return the situation after a motion of the joints to a posture (nv,) in rad, or what is in its way."""
+def _take(view: ArmView, q: Array, here: Situation, tool: Pose | None = None, chosen: bool = False) -> Outcome:
+    """Return the situation after a motion of the joints to a posture (nv,) in rad, or what is in its way.
+
+    `tool` and `chosen` are as in `RefinedMotion`.
+    """
     try:
         way = plan_joint_path(view.checker, view.q, [q], view.space)
     except NoPath as why:
         touch = view.checker.find_collision(q)
         return SpaceFailure("no-path" if touch is None else "in-the-way", str(why))
-    return here.with_motion(RefinedMotion(view.arm, way, along=False, chosen=chosen))
+    return here.with_motion(RefinedMotion(view.arm, way, along=False, tool=tool, chosen=chosen))
 
 
 def _follow(view: ArmView, poses: tuple[Pose, ...], here: Situation) -> Outcome:

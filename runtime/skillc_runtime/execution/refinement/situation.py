@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.standing_bases import leaving_changes
 from skillc_runtime.world.state.changes import AddRelation, Change
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
@@ -21,12 +21,14 @@ from skillc_runtime.world.state.world_state import WorldState
 class RefinedMotion:
     """A motion of an arm through postures, each (nv,) in rad; `along` if its tool follows a path.
 
-    `chosen` if a run would by itself take another posture, which is free as well.
+    `tool` is the pose in the world for which the last posture was found, None if it was given. `chosen` if another
+    posture, which is free as well, is nearer to home.
     """
 
     arm: str
     postures: tuple[Array, ...]
     along: bool
+    tool: Pose | None = None
     chosen: bool = False
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from skillc_runtime.recording.space_claim import SpaceClaim, UnseenCall
+from skillc_runtime.recording.space_claim import ChosenPosture, SpaceClaim, UnseenCall
+from skillc_runtime.world.state.labelling import label_pose
 
 if TYPE_CHECKING:
     from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement
@@ -19,7 +21,15 @@ def make_claim(found: PlanRefinement, steps: int, from_home: bool = True) -> Spa
         checked=len(found.steps),
         steps=steps,
         unseen=tuple(UnseenCall(number, call) for number, each in enumerate(found.steps, 1) for call in each.unseen),
-        chosen=tuple(number for number, each in enumerate(found.steps, 1) if any(one.chosen for one in each.motions)),
+        postures=tuple(_list_postures(found)),
         failure=failure,
         from_home=from_home,
     )
+
+
+def _list_postures(found: PlanRefinement) -> Iterator[ChosenPosture]:
+    for number, step in enumerate(found.steps, 1):
+        for each in step.motions:
+            if each.tool is not None:
+                q = tuple(each.postures[-1].tolist())
+                yield ChosenPosture(number, each.arm, q, label_pose(each.tool))

@@ -14,6 +14,7 @@ from skillc_runtime.execution.tree.computations import Computations
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.run_cell import RunCell
+from skillc_runtime.primitives.planned_postures import PlannedPosture, PlannedPostures
 from skillc_runtime.recording.events import Listener, Note
 from skillc_runtime.recording.run_spec import AS_USUAL, RunSpec
 from skillc_runtime.world.state.changes import Change
@@ -33,7 +34,7 @@ class TreeContext:
     `time` is the cell's clock in s. `emit` is None without listeners; then no events are created. `gate` holds
     calls back where the run pauses; None if it never does. Primitives see the cell as `run_cell`; `active` are those
     that a pause concerns, `computations` what they compute. `spec` has the settings of the run. `broken_calls` are
-    those that did not succeed up to now.
+    those that did not succeed up to now. `planned_postures` are those of the plan that the tree runs.
     """
 
     __slots__ = (
@@ -50,6 +51,7 @@ class TreeContext:
         "library",
         "locks",
         "now",
+        "planned_postures",
         "run_cell",
         "spec",
         "state",
@@ -65,6 +67,7 @@ class TreeContext:
         ids: int = 0,
         gate: Gate | None = None,
         spec: RunSpec = AS_USUAL,
+        postures: Sequence[PlannedPosture] = (),
     ) -> None:
         self.library = library
         self.cell = cell
@@ -75,6 +78,7 @@ class TreeContext:
         self.run_cell = RunCell(cell, spec.speed)
         self.active, self.computations = ActivePrimitives(), Computations()
         self.broken_calls: list[BrokenCall] = []
+        self.planned_postures = PlannedPostures(postures, self._tell_of)
         self._stopped, self._own_offset = False, 0.0
         self.time = self.now = 0.0
         self.state: WorldState
@@ -115,6 +119,9 @@ class TreeContext:
         """Write changes as assumptions in one transaction and refresh `state`. Raises WorldError if it is refused."""
         self.cell.world.commit(changes, origin, "assumed")
         self.refresh_state()
+
+    def _tell_of(self, individual: str, what: str) -> None:
+        self.note(f"{self.state.vocabulary.short(individual)} {what}")
 
     def note(self, message: str, node: int = 0, source: Position | None = None) -> None:
         """Emit a note for users, which has no effect on the run."""

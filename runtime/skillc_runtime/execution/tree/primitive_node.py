@@ -54,6 +54,7 @@ class PrimitiveNode(Node):
     def on_start(self) -> Status:
         with foreign_code:
             self._primitive = primitive = self._make()
+            primitive.planned_postures = self.context.planned_postures
         self._tick, self._late = primitive.tick, self.context.find_step_end()
         self._running = True
         if self._undo is not None:

@@ -24,6 +24,7 @@ from skillc_runtime.execution.tree.node import FAILURE, RUNNING, Node
 from skillc_runtime.execution.tree.pause import Pause
 from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.fact_monitor import FactMonitor
+from skillc_runtime.primitives.planned_postures import PlannedPosture
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.primitives.standing_bases import place_standing_bases
 from skillc_runtime.recording.contact import Contact
@@ -38,17 +39,19 @@ from skillc_runtime.world.state.transactions import ChangeEvent
 _ALIVE = (RUNNING, Status.IDLE)
 
 
-class EarlierTrees(NamedTuple):
-    """The trees of a task that ran before: this one numbers its nodes from `nodes` + 1, so that all share a recording.
+class AttemptInputs(NamedTuple):
+    """What a tree gets of its task: it numbers its nodes from `nodes` + 1, so that all trees share a recording.
 
-    Calls skip implementations that would fail again according to `failures`, and add their own failures.
+    Calls skip implementations that would fail again according to `failures`, and add their own failures. Arms take
+    `postures`, with which the plan was looked at in space.
     """
 
     nodes: int = 0
     failures: CallFailures | None = None
+    postures: tuple[PlannedPosture, ...] = ()
 
 
-NO_EARLIER = EarlierTrees()
+ALONE = AttemptInputs()
 
 
 class TreeRun:
@@ -65,21 +68,23 @@ class TreeRun:
         cell: Cell,
         listeners: Sequence[Listener] = (),
         locks: DeviceLocks | None = None,
-        earlier: EarlierTrees = NO_EARLIER,
+        inputs: AttemptInputs = ALONE,
         gate: Gate | None = None,
         spec: RunSpec = AS_USUAL,
     ) -> None:
         """Build the tree; nothing starts.
 
-        Runs on the same devices share `locks`. `earlier` are the trees of the same task before this one. `gate` holds
+        Runs on the same devices share `locks`. `inputs` are those of the task that is attempted. `gate` holds
         calls back where the run pauses. `spec` has the settings of the run, such as its speed.
         """
         self._listeners = Listeners(listeners)
         emit = self._listeners if listeners else None
-        self._context = TreeContext(library, cell, emit, locks or DeviceLocks(), earlier.nodes, gate, spec)
+        self._context = TreeContext(
+            library, cell, emit, locks or DeviceLocks(), inputs.nodes, gate, spec, inputs.postures
+        )
         self._undo = UndoStack()
         self._stop_listening = cell.world.subscribe(self._emit_world_change) if listeners else None
-        self._root = build_node(body, self._context, LexicalScope(self._undo, failures=earlier.failures))
+        self._root = build_node(body, self._context, LexicalScope(self._undo, failures=inputs.failures))
         self._path = ActivePath(self._root)
         self._pause = Pause(self._context)
         self._devices = FactMonitor(cell)

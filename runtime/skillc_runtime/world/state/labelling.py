@@ -63,9 +63,7 @@ def label_value(value: Value, type_: ValueType | None, vocabulary: Vocabulary) -
         case str():
             return label(value, vocabulary) if isinstance(type_, ClassType) else value
         case motion.Pose():
-            x, y, z = value.position.tolist()
-            quaternion_w, *quaternion = motion.quaternion_from_rotation(value.rotation).tolist()
-            return LabelledPose((x, y, z), (quaternion_w, *quaternion))
+            return label_pose(value)
         case np.ndarray():
             return _vector(value, type_)
         case tuple() | list():
@@ -81,6 +79,13 @@ def label_bindings(
     """Return the value of each bound parameter, in the order of the parameters."""
     bound = [parameter for parameter in parameters if parameter.name in bindings]
     return {each.name: label_value(bindings[each.name], each.type, vocabulary) for each in bound}
+
+
+def label_pose(value: motion.Pose) -> LabelledPose:
+    """Return a pose in the world with a quaternion for its orientation."""
+    x, y, z = value.position.tolist()
+    quaternion_w, *quaternion = motion.quaternion_from_rotation(value.rotation).tolist()
+    return LabelledPose((x, y, z), (quaternion_w, *quaternion))
 
 
 def make_recordable(value: object) -> LabelledValue:

@@ -1,0 +1,85 @@
+"""Runs take the postures with which their plans were looked at, and say where these do not fit any more."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from msgspec import structs
+
+from refinement.scenes import write_door
+from skillc.services.reporting import SilentReporter
+from skillc.services.task_loading import load_task
+from skillc_runtime.backends.kinematic.cell import KinematicCell
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.execution.assignment import PreparedTask, prepare_task
+from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.refinement.run_planning import SpaceLook
+from skillc_runtime.recording.events import Event, Note
+from skillc_runtime.recording.run_spec import RunSpec
+from skillc_runtime.recording.space_claim import ChosenPosture
+from skillc_runtime.world.state.model import WorldModel
+
+GOAL = "lab:Desk-1.isClean == true"
+
+
+def wipe_door(
+    folder: Path,
+    change: Callable[[ChosenPosture], ChosenPosture | None] = lambda each: each,
+    physics: bool = False,
+) -> tuple[str, str, list[str]]:
+    """Wipe a door on which not all lanes go from the posture nearest to home; return how it ends, why, and the notes.
+
+    The run takes the postures of the plan after a change of each, which may drop it.
+    """
+    scene, events = write_door(folder, 0.5, -20.0, 0.75), list[Event]()
+    with load_task(RunSpec(library="wiping", goal=GOAL, scene=str(scene)), SilentReporter()) as task:
+        prepared = prepare_task(task.assignment, task.library, look=SpaceLook())
+        assert (
+            isinstance(prepared, PreparedTask) and prepared.planned is not None and prepared.planned.space is not None
+        )
+        postures = tuple(filter(None, map(change, prepared.planned.space.postures)))
+        space = structs.replace(prepared.planned.space, postures=postures)
+        prepared = replace(prepared, planned=replace(prepared.planned, space=space))
+        world = WorldModel(task.assignment.state)
+        ended = execute_task(
+            prepared, task.library, SimulatedCell(world) if physics else KinematicCell(world), [events.append]
+        )
+    notes = [each.message for each in events if isinstance(each, Note)]
+    return ended.status, "" if ended.failure is None else ended.failure.message, notes
+
+
+@pytest.mark.slow
+def test_a_surface_that_goes_only_from_another_posture_than_the_nearest_to_home_is_wiped(tmp_path: Path) -> None:
+    assert wipe_door(tmp_path) == ("succeeded", "", [])
+    status, why, notes = wipe_door(tmp_path, lambda each: None)
+    assert (status, notes) == ("failed", [])
+    assert "the joint joint4 would have to be at -3." in why
+
+
+@pytest.mark.sim
+def test_it_is_wiped_with_force(tmp_path: Path) -> None:
+    assert wipe_door(tmp_path, physics=True) == ("succeeded", "", [])
+
+
+@pytest.mark.slow
+def test_where_a_thing_is_elsewhere_the_posture_nearest_to_home_is_taken_and_that_is_told(tmp_path: Path) -> None:
+    def shift(each: ChosenPosture) -> ChosenPosture:
+        x, y, z = each.tool.position_m
+        return structs.replace(each, tool=structs.replace(each.tool, position_m=(x, y + 0.1, z)))
+
+    status, _, notes = wipe_door(tmp_path, shift)
+    assert status == "failed"
+    assert notes[0].startswith("lab:Panda-1 goes where nobody had looked, 0.10 m and 0 degrees from where")
+
+
+@pytest.mark.slow
+def test_a_posture_that_does_not_fit_any_more_is_not_taken_and_that_is_told(tmp_path: Path) -> None:
+    def turn(each: ChosenPosture) -> ChosenPosture:
+        return structs.replace(each, q=(*each.q[:6], each.q[6] + 1.0)) if each.step == 1 else each
+
+    status, _, notes = wipe_door(tmp_path, turn)
+    assert status == "succeeded"
+    assert [each.startswith("lab:Panda-1 takes another posture than was planned") for each in notes] == [True]
