@@ -1,0 +1,73 @@
+"""What a look in space says of random surfaces is so: those that go are wiped, those that do not have no way at all."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from random_cells.drawing import ArmName
+from random_surfaces.__main__ import format_table, share_that_is_so
+from random_surfaces.dense_search import RADIUS_M, STEP_M, DenseSearch, wiping_path
+from random_surfaces.drawing import ARM_NAMES, Surface, draw_surface, format_scene
+from random_surfaces.judging import Verdict, judge, load_surface, make_ideal_cell
+
+
+def search(surface: Surface, folder: Path) -> np.ndarray | None:
+    return DenseSearch(make_ideal_cell(load_surface(surface, folder / "cell.ttl")).model, surface).solves()
+
+
+def test_a_seed_draws_the_same_surface_again_and_all_are_different() -> None:
+    drawn = [draw_surface(seed, arm) for seed in range(20) for arm in ARM_NAMES]
+    assert drawn == [draw_surface(seed, arm) for seed in range(20) for arm in ARM_NAMES]
+    assert len(set(map(format_scene, drawn))) == 60
+    assert all(0.2 <= side <= 0.8 for each in drawn for side in each.size)
+    standing = [abs(each.rotation[2, 2]) < 0.7 for each in drawn]
+    assert any(standing) and not all(standing)
+
+
+def test_the_path_that_is_searched_comes_near_every_point_of_the_surface_and_has_no_gaps() -> None:
+    for surface in (draw_surface(seed, "panda") for seed in range(5)):
+        path = np.array([each.position for each in wiping_path(surface)])
+        local = (path - surface.at) @ surface.rotation
+        assert np.linalg.norm(np.diff(local, axis=0), axis=1).max() < STEP_M + 2 * RADIUS_M + 1e-9
+        x, y = np.meshgrid(*(np.linspace(-each / 2, each / 2, 7) for each in surface.size))
+        points = np.column_stack([x.ravel(), y.ravel(), np.zeros(49)])
+        assert max(np.linalg.norm(local - each, axis=1).min() for each in points) < 0.07
+
+
+def test_the_table_counts_what_is_so() -> None:
+    verdicts = [Verdict(seed, "panda", "no", seed > 0, "") for seed in range(4)]
+    assert share_that_is_so(verdicts, "no") == 0.75
+    assert share_that_is_so(verdicts, "yes") == 1.0
+    assert format_table(verdicts).splitlines()[1].split() == ["panda", "no", "4", "3"]
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize(
+    ("seed", "arm", "said"),
+    [
+        (0, "iiwa14", "no"),
+        (1, "iiwa14", "no"),
+        (0, "ur5e", "yes"),
+        (3, "ur5e", "yes"),
+        (0, "panda", "no"),
+        (1, "panda", "yes"),
+    ],
+)
+def test_what_is_said_of_wiping_a_surface_is_so(seed: int, arm: ArmName, said: str, tmp_path: Path) -> None:
+    verdict = judge(seed, arm, tmp_path)
+    assert (verdict.said, verdict.is_so) == (said, True), verdict.why
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("seed", "arm"), [(0, "ur5e"), (1, "panda")])
+def test_the_search_finds_a_way_to_wipe_what_can_be_wiped_and_none_out_of_reach(
+    seed: int, arm: ArmName, tmp_path: Path
+) -> None:
+    surface = draw_surface(seed, arm)
+    assert search(surface, tmp_path) is not None
+    x, y, z = surface.at
+    assert search(replace(surface, at=(x + 0.6, y + 0.6, z)), tmp_path) is None
