@@ -75,3 +75,19 @@ def test_a_joint_that_would_be_too_fast_slows_the_motion_down(robot: tuple[Virtu
     assert np.allclose(half.pose.position, there.pose.position)
     assert np.allclose(half.twist * slower.factor, there.twist)
     assert np.allclose(half.acceleration * slower.factor**2, there.acceleration)
+
+
+def test_a_pressed_tool_whose_motion_starts_in_the_air_follows_it_near_a_singularity() -> None:
+    """As where a wrist joint is near 0 and the reference of a pressed tool is 7 cm above the surface."""
+    model = load_virtual_model(ROBOTS / "ur5e.xml")
+    arm, many = VirtualArm(model), np.ones(6)
+    above, pressed = (
+        np.array([-1.24, -2.32, 2.59, -0.93, 0.04, -0.91]),
+        np.array([-0.86, -1.91, 2.36, -0.5, 0.41, -1.52]),
+    )
+    arm.update_kinematics(above)
+    motion = line(arm, 0.0, 0.02, 0.0)
+    limits = ArmLimits(model.jnt_range.copy(), 2.0 * many, 100.0 * many, np.inf * many)
+    _, joints = slow_to_feasible(arm, motion, pressed, limits)
+    arm.update_kinematics(joints[-1])
+    assert np.allclose(arm.tool.position, motion.at(motion.duration).pose.position, atol=0.003)

@@ -17,8 +17,11 @@ from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 SAMPLE_S, MAX_SAMPLES = 0.05, 150
 """Time between samples of a motion, and their greatest number."""
 
-STEPS = 3
-"""Steps of inverse kinematics at each sample, from the solution of the sample before."""
+STEPS, MOST_STEPS = 3, 30
+"""Steps of inverse kinematics at each sample, from the solution of the sample before: at least, and while it is far.
+
+More are needed where a tool that is pressed starts: its reference may be several cm from it, in the air.
+"""
 
 MAX_POSITION_ERROR_M, MAX_ROTATION_ERROR_RAD = 0.003, 0.03
 """With a greater error of the tool a pose counts as out of reach."""
@@ -58,8 +61,8 @@ def joints_along(arm: VirtualArm, trajectory: Trajectory, q: Array, limits: ArmL
     times, first = np.linspace(0.0, trajectory.duration, count + 1), q
     for time, step in zip(times[1:].tolist(), np.diff(times).tolist(), strict=True):
         target = trajectory.at(time).pose
-        q = _track(arm, target, q, first)
-        _check(arm, target, q, limits)
+        q, error = _track(arm, target, q, first)
+        _check(arm, target, q, error, limits)
         yield step, q
 
 
@@ -84,15 +87,28 @@ def check_overlay_feasible(arm: VirtualArm, overlay: Overlay, axes: Array, limit
         )
 
 
-def _track(arm: VirtualArm, target: Pose, q: Array, first: Array) -> Array:
-    """Return joints (nv,) in rad after a few steps from q towards a target pose of the tool."""
-    for _ in range(STEPS):
-        arm.update_kinematics(q)
-        q = q + step_towards(arm.jacobian, pose_error(arm.tool, target), PULL * (first - q))
-    return q
+def _track(arm: VirtualArm, target: Pose, q: Array, first: Array) -> tuple[Array, Array]:
+    """Return joints (nv,) in rad after steps from q towards a target pose of the tool, and its error (6,), m and rad."""
+    error = _find_error(arm, target, q)
+    for number in range(1, MOST_STEPS + 1):
+        q = q + step_towards(arm.jacobian, error, PULL * (first - q))
+        error = _find_error(arm, target, q)
+        if number >= STEPS and _is_near(error):
+            break
+    return q, error
 
 
-def _check(arm: VirtualArm, target: Pose, q: Array, limits: ArmLimits) -> None:
+def _find_error(arm: VirtualArm, target: Pose, q: Array) -> Array:
+    arm.update_kinematics(q)
+    return pose_error(arm.tool, target)
+
+
+def _is_near(error: Array) -> bool:
+    away, turned = np.linalg.norm(error[:3]), np.linalg.norm(error[3:])
+    return bool(away <= MAX_POSITION_ERROR_M and turned <= MAX_ROTATION_ERROR_RAD)
+
+
+def _check(arm: VirtualArm, target: Pose, q: Array, error: Array, limits: ArmLimits) -> None:
     outside = np.maximum(limits.range[:, 0] - q, q - limits.range[:, 1])
     if outside.max() > RANGE_TOLERANCE_RAD:
         joint = int(outside.argmax())
@@ -102,10 +118,8 @@ def _check(arm: VirtualArm, target: Pose, q: Array, limits: ArmLimits) -> None:
             f"outside its range from {low:.2f} to {high:.2f} {arm.joint_unit(joint)}",
             target.position,
         )
-    arm.update_kinematics(q)
-    error = pose_error(arm.tool, target)
-    away, turned = float(np.linalg.norm(error[:3])), float(np.linalg.norm(error[3:]))
-    if away > MAX_POSITION_ERROR_M or turned > MAX_ROTATION_ERROR_RAD:
+    if not _is_near(error):
+        away, turned = float(np.linalg.norm(error[:3])), float(np.linalg.norm(error[3:]))
         raise Infeasible(
             f"its tool would be {1000 * away:.0f} mm and {np.degrees(turned):.0f} deg away from where it shall be",
             target.position,
