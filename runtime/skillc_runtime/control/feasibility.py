@@ -88,7 +88,7 @@ def check_overlay_feasible(arm: VirtualArm, overlay: Overlay, axes: Array, limit
 
 
 def _track(arm: VirtualArm, target: Pose, q: Array, first: Array) -> tuple[Array, Array]:
-    """Return joints (nv,) in rad after steps from q towards a target pose of the tool, and its error (6,), m and rad."""
+    """Return joints (nv,) in rad after steps from q towards a target pose of the tool; and its error (6,) in m, rad."""
     error = _find_error(arm, target, q)
     for number in range(1, MOST_STEPS + 1):
         q = q + step_towards(arm.jacobian, error, PULL * (first - q))
