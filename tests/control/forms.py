@@ -132,9 +132,10 @@ def measurements(count: int) -> list[list[float]]:
         q, dq, bias, noise = chance.uniform(-1, 1, (4, 7))
         velocity = np.zeros(3)
         sensing = ArmSensing(
-            joints, hand.in_base, hand.rotation, J, wrench, velocity, q, dq, bias, hand.on_link, axes, centre,
-            Pose(position, link), Pose(origin, base), weight, *chance.uniform(-9, 9, (4, 7)),
-            chance.uniform(-1, 1, (6, 9)), readings, chance.uniform(-1, 1, 6), noise[None], np.zeros(1), np.zeros(2),
+            joints, hand.in_base, hand.rotation, J, wrench, velocity, q, dq, bias, chance.uniform(0.9, 1.1),
+            hand.on_link, axes, centre, Pose(position, link), Pose(origin, base), weight,
+            *chance.uniform(-9, 9, (4, 7)), chance.uniform(-1, 1, (6, 9)), readings, chance.uniform(-1, 1, 6),
+            noise[None], np.zeros(1), np.zeros(2),
         )  # fmt: skip
         measure(sensing, 0.0)
         dose, tool, (place, origin) = np.zeros((20, 30)), np.array([0.1, 0.05]), chance.uniform(-0.1, 0.1, (2, 3))

@@ -16,6 +16,7 @@ from skillc.services.cell_checks.starting import find_start_problem
 from skillc.services.operating import RunMonitor, operate
 from skillc.services.picture_making import Pictures, making_pictures
 from skillc.services.planning import with_minimal_makespan
+from skillc.services.real_devices import check_reality, with_reality
 from skillc.services.recorded_run import RecordingOptions, recorded_run
 from skillc.services.reporting import Reporter
 from skillc.services.run_looks import look_from, look_from_home
@@ -36,6 +37,7 @@ from skillc.services.task_loading import LoadedTask
 from skillc.services.unstarted_runs import CannotBegin, end_unstarted
 from skillc.services.watchdog.process import TICK_TIMEOUT_S
 from skillc_runtime.devices.backend import Backend
+from skillc_runtime.devices.reality import IDEAL
 from skillc_runtime.evaluation.report.summary import summarise_start
 from skillc_runtime.execution.assignment import Assignment, NotStarted
 from skillc_runtime.execution.attempt import CellOrigin
@@ -111,6 +113,8 @@ def run_task(
     spec = options.spec
     if spec.minimise == "makespan":
         task = with_minimal_makespan(task)
+    if spec.reality != IDEAL:
+        task = with_reality(task, spec.reality)
     if spec.dry:
         task = _with_own_world(task)
     gate = make_gate(spec, task.library)
@@ -131,6 +135,7 @@ def run_task(
             return end("stopped", str(interrupt) or "interrupted", reporter)
         with closing(cell):
             check_pace(cell, monitor.pace.factor)
+            check_reality(cell, spec.reality)
             destination = ReportDestination(options.out, pictures, reporter)
             return _Run(task, options, cell, make_samples(cell, film), gate, monitor, destination).carry_out(planning)
 

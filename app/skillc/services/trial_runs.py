@@ -15,6 +15,7 @@ from msgspec import structs
 from skillc.errors import RequestError, ServiceError
 from skillc.services.assignments import bind_task
 from skillc.services.files import writing_to
+from skillc.services.real_devices import require_reality
 from skillc.services.reporting import Reporter
 from skillc.services.stores import load_world
 from skillc.services.task_loading import find_task_in_scene
@@ -45,7 +46,8 @@ class TrialRequest:
     """The task of the trials, their disturbance and seeds, what makes the executor, and the folder to write.
 
     `limit_s` is the time that one trial may take, in s of wall-clock time. `arguments` are the values of the task's
-    parameters, as they are written in a call.
+    parameters, as they are written in a call. `reality` is how far devices are from what they should be, as the scene
+    says if it is None.
     """
 
     reference: str
@@ -55,6 +57,7 @@ class TrialRequest:
     out: Path | None
     limit_s: float = TRIAL_LIMIT_S
     arguments: Mapping[str, str] = field(default_factory=dict)
+    reality: str | None = None
 
 
 def run_trials(request: TrialRequest, watch: StartMonitor, reporter: Reporter) -> Series:
@@ -66,8 +69,10 @@ def run_trials(request: TrialRequest, watch: StartMonitor, reporter: Reporter) -
     library, task, scene = find_task_in_scene(request.reference)
     state = load_world(scene, library.vocabulary, reporter)
     require_effect(request.disturbance, state)
+    if request.reality is not None:
+        require_reality(request.reality, state)
     library, name = bind_trial_task(task, library, state, request.arguments)
-    experiment = _make_experiment(library, name, scene, state, request.disturbance)
+    experiment = _make_experiment(library, name, scene, state, request)
     heading = _heading(experiment, library)
     with nullcontext() if request.out is None else _journal(request.out, heading) as journal:
         known = () if journal is None else journal.trials
@@ -110,16 +115,17 @@ def write_page(result: Series, out: Path) -> None:
 
 
 def _make_experiment(
-    library: SkillLibrary, task: str, scene: Path, state: WorldState, disturbance: Disturbance
+    library: SkillLibrary, task: str, scene: Path, state: WorldState, request: TrialRequest
 ) -> Experiment:
     try:
         return Experiment(
             library=codec.dumps(library),
             task=task,
-            disturbance=disturbance,
+            disturbance=request.disturbance,
             scene_name=scene.name,
             scene=scene.read_bytes(),
             folders=read_folders(state),
+            reality=request.reality,
         )
     except OSError as error:
         raise ServiceError(f"{error.filename} cannot be read: {error.strerror}") from error
@@ -142,8 +148,12 @@ def _heading(experiment: Experiment, library: SkillLibrary) -> Heading:
         disturbance=experiment.disturbance,
         skillc=identity.identify_skillc(),
         library=f"{library.name} of {experiment.library_digest}",
-        scene=f"{experiment.scene_name} of {experiment.scene_digest}",
+        scene=f"{experiment.scene_name} of {experiment.scene_digest}{_describe_reality(experiment)}",
     )
+
+
+def _describe_reality(experiment: Experiment) -> str:
+    return "" if experiment.reality is None else f" with reality {experiment.reality}"
 
 
 def _record(trials: Iterator[Tried], journal: TrialJournal | None) -> Iterator[Tried]:

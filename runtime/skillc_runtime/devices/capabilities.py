@@ -49,7 +49,7 @@ class BackendCapabilities:
     falls is waited for. truth: for reports and trials. drawing: for films and displays. disturber: things happen to
     the cell that no skill does. checkpoints: the cell can be built again as it was. live: signals in each control
     period. observer: looks at real devices, beside what the scene says. commands: nothing
-    is sent to devices, but what would be is kept.
+    is sent to devices, but what would be is kept. imperfect: devices are as far from ideal as facts say.
     """
 
     lock_step: LockStep | None = None
@@ -61,6 +61,7 @@ class BackendCapabilities:
     live: LiveSignals | None = None
     observer: CellObserver | None = None
     commands: CommandRecord | None = None
+    imperfect: bool = False
 
 
 NO_CAPABILITIES = BackendCapabilities()

@@ -105,6 +105,15 @@ class RunSpec(RunRequest, frozen=True, kw_only=True):
         Annotated[int, msgspec.Meta(ge=0)],
         documented("The seed of what differs from the world model.", EXECUTION, metavar="N"),
     ] = 0
+    reality: Annotated[
+        str,
+        documented(
+            "How far simulated arms and tools are from what they should be: `ideal`, `typical` or `wide`, all "
+            "imperfections that their sheets state, or only some of them: `wide:jointFriction,forceBias`.",
+            EXECUTION,
+            metavar="LEVEL",
+        ),
+    ] = "ideal"
     backend: Annotated[
         str,
         documented(

@@ -24,6 +24,7 @@ EXAMPLES = """
 skillc trials clean_table -n 20
 skillc trials contact:insert_peg -n 100 --out trials
 skillc trials clean_table --disturb push --json
+skillc trials clean_whiteboard --reality typical:forceBias -n 10
 skillc trials clean_table -n 1000 --scheduler tls://cluster:8786 --out trials
 skillc trials clean_table --cell iiwa_table -n 20
 """
@@ -39,6 +40,7 @@ class AskedTrials(msgspec.Struct, frozen=True, kw_only=True):
     jobs: int | None
     scheduler: str | None
     disturb: Disturbance
+    reality: str | None
     out: Path | None
     deadline_s: float
 
@@ -72,6 +74,12 @@ COUNT, SEED = click.IntRange(min=1), click.IntRange(min=0)
     show_default=True,
     help="Disturb each trial: the object is missing, an obstacle is in the way, or a person pushes the arm, or takes "
     "what a hand holds out of it.",
+)
+@click.option(
+    "--reality",
+    metavar="LEVEL",
+    help="How far simulated arms and tools are from what they should be: `ideal`, `typical` or `wide`, all "
+    "imperfections that their sheets state, or only some of them: `wide:jointFriction,forceBias`.",
 )
 @click.option(
     "--out", type=FOLDER, help="Record the trials in this folder; trials that are recorded there are not run again."
@@ -108,7 +116,7 @@ def command(asked: AskedTrials, as_json: bool) -> int:
         return TrialProgress(name, asked.disturb, asked.number, done, quiet=as_json)
 
     if asks_cell():
-        refuse_options(jobs=asked.jobs, scheduler=asked.scheduler, out=asked.out)
+        refuse_options(jobs=asked.jobs, scheduler=asked.scheduler, out=asked.out, reality=asked.reality)
         if asked.task is None:
             raise RequestError("name a task of the cell's library")
         with progress(asked.task, 0) as shown:
@@ -126,7 +134,9 @@ def command(asked: AskedTrials, as_json: bool) -> int:
         remark_default(asked.task, chosen)
         executor = choose_executor(asked.jobs, asked.scheduler, asked.number, Terminal())
         seeds = range(asked.seed, asked.seed + asked.number)
-        request = TrialRequest(chosen, asked.disturb, seeds, executor, asked.out, asked.deadline_s, asked.arguments)
+        request = TrialRequest(
+            chosen, asked.disturb, seeds, executor, asked.out, asked.deadline_s, asked.arguments, asked.reality
+        )
         result = run_trials(request, progress, Terminal())
     if as_json:
         print_json(result)

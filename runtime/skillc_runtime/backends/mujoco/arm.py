@@ -7,9 +7,11 @@ from collections.abc import Mapping
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.wrist import Wrist
 from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
+from skillc_runtime.backends.simulation.joint_friction import make_joint_friction
 from skillc_runtime.backends.simulation.noise import make_joint_noise, make_wrist_noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.backends.simulation.whole_mass import WholeMass
+from skillc_runtime.devices.reality import NO_SIZES, Sizes
 from skillc_runtime.motion.pose import Array, Pose
 
 
@@ -24,14 +26,20 @@ class SimulatedArm(ModelledArm):
         start: Array,
         seed: int,
         steps_per_command: int = 1,
+        sizes: Sizes = NO_SIZES,
     ) -> None:
-        """Place the joints at `start` (nv,) in rad; the noise of the sensors follows from the seed."""
+        """Place the joints at `start` (nv,) in rad; the noise of the sensors follows from the seed.
+
+        `sizes` are the arm's imperfections.
+        """
         noise, model, data, self._physics = make_joint_noise(facts, seed), physics.model, physics.data, physics
         self._wrist: Wrist | None = None
-        super().__init__(facts, names, model, data, start, steps_per_command, noise)
+        super().__init__(facts, names, model, data, start, steps_per_command, noise, sizes)
+        self.friction = make_joint_friction(facts, sizes, self.motors.joints, model.opt.timestep)
         if self._feels_force and (gripper := self._gripper_name) is not None:
-            time_s, noise = facts.sheet.number("forceTorqueTime"), make_wrist_noise(facts, seed)
-            self._wrist = Wrist(model, data, gripper, time_s, self._gain, self._readings, noise)
+            time_s = facts.sheet.number("forceTorqueTime")
+            noise = make_wrist_noise(facts, seed, sizes, model.opt.timestep)
+            self._wrist = Wrist(model, data, gripper, time_s, self._gain, self._readings, noise, sizes)
             self.set_load(None)
 
     @property

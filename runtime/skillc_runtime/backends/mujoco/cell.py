@@ -67,7 +67,8 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         physics = self.physics
         for facts in self.scene.arms:
             gripper, steps = facts.gripper, self._steps_per_command
-            arm = SimulatedArm(facts, names, physics, self._start(facts), self.variation.seed, steps)
+            variation = self.variation
+            arm = SimulatedArm(facts, names, physics, self._start(facts), variation.seed, steps, variation.sizes(facts))
             arms[facts.individual] = arm
             if gripper is not None:
                 hands[facts.individual] = SimulatedGripper(gripper, names, things, arm, physics, self.variation.seed)
@@ -92,6 +93,7 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         self.physics.take_changes()
 
     def _parts(self) -> Iterator[Part]:
+        yield from (arm.friction for arm in self.arms.values() if arm.friction is not None)
         yield HalfStep(self.physics, "mj_step2")
         yield DivergenceWatch(self.physics)
         yield from (arm.wrist for arm in self.arms.values() if arm.wrist is not None)

@@ -12,6 +12,7 @@ import numpy as np
 from skillc_runtime.backends.simulation.names import part_name, wrist_sensor_name
 from skillc_runtime.backends.simulation.noise import Noise, make_no_noise
 from skillc_runtime.backends.simulation.steps import OnMemory
+from skillc_runtime.devices.reality import NO_SIZES, Sizes
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import bind, compiled
 from skillc_runtime.motion.pose import Array, Pose, skew
@@ -70,20 +71,25 @@ class Wrist(OnMemory):
         gain: OutMatrix,
         readings: OutVector,
         noise: Noise | None = None,
+        sizes: Sizes = NO_SIZES,
     ) -> None:
-        """Find the sensor of a gripper, which writes `gain` and `readings`; `noise` is that of the readings (9,)."""
+        """Find the sensor of a gripper, which writes `gain` and `readings`; `noise` is that of the readings (9,).
+
+        `sizes` are the imperfections of its arm.
+        """
         first = model.sensor(wrist_sensor_name(gripper, "force")).adr[0]
         share = 1.0 - math.exp(-model.opt.timestep / time_constant_s) if time_constant_s > 0 else 1.0
         self.gain, self.readings, self._noise = gain, readings, noise or make_no_noise(9)
         raw, rows, used = data.sensordata[first : first + 9], self._noise.rows, self._noise.used
         super().__init__(bind(filter_wrist, WristFilter(readings, raw, rows, used, share, np.zeros(1))))
+        self._coupling = make_coupling(sizes)
         self._hand_mass, self._hand_centre = _hand(model, part_name(gripper, "palm"))
 
     def configure(self, tool: Pose, payload_kg: float, payload_centre: Array) -> None:
         """Set the tool centre point and a payload with its centre of mass (3,) in m, both in the sensor's frame."""
         mass = self._hand_mass + payload_kg
         moment = skew(self._hand_mass * self._hand_centre + payload_kg * payload_centre)
-        at_sensor = np.hstack([-np.eye(6), np.vstack([mass * np.eye(3), moment])])
+        at_sensor = np.hstack([-self._coupling, np.vstack([mass * np.eye(3), moment])])
         to_tool = np.eye(6)
         to_tool[3:, :3] = -skew(tool.position)
         self.gain[:] = to_tool @ at_sensor
@@ -93,6 +99,18 @@ class Wrist(OnMemory):
         self._noise.draw()
         self.step(now)
         return False
+
+
+def make_coupling(sizes: Sizes) -> Array:
+    """Return the matrix (6, 6) by which the sensor's force N and torque N m follow from the true ones.
+
+    Each has an error of its gain; a force has shares of the other forces, a torque of the other torques.
+    """
+    coupling = np.eye(6) + np.diag(np.broadcast_to(sizes.get("forceGainError", 0.0), 6))
+    cross = np.broadcast_to(sizes.get("forceCrossTalk", 0.0), 12)
+    for half, numbers in ((slice(0, 3), cross[:6]), (slice(3, 6), cross[6:])):
+        coupling[half, half][~np.eye(3, dtype=bool)] += numbers
+    return coupling
 
 
 def _hand(model: Any, palm: str) -> tuple[float, Array]:

@@ -39,6 +39,7 @@ from skillc_runtime.backends.simulation.noise import Noise, make_no_noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.backends.simulation.whole_mass import WholeMass
 from skillc_runtime.devices.arm import Arm, ArmLoad, ArmState, Capabilities, Command, Mode, NotOffered
+from skillc_runtime.devices.reality import NO_SIZES, Sizes, make_tool_error
 from skillc_runtime.motion.numerics.compiled import bind
 from skillc_runtime.motion.numerics.program import IDLE, Rows, join, row_of
 from skillc_runtime.motion.pose import Array, Pose
@@ -77,10 +78,11 @@ class ModelledArm(Arm):
         start: Array,
         steps_per_command: int,
         noise: Noise | None = None,
+        sizes: Sizes = NO_SIZES,
     ) -> None:
         """Place the joints at `start` (nv,) in rad; `noise` is that of the measured joint speeds.
 
-        `names` are the short names of individuals.
+        `names` are the short names of individuals, `sizes` the arm's imperfections.
         """
         name = names[facts.individual]
         self._gripper_name = gripper = None if facts.gripper is None else names[facts.gripper.individual]
@@ -106,6 +108,7 @@ class ModelledArm(Arm):
         self._flange = find_site(model.site(part_name(name, "flange")))
         self._feels_force = facts.force_torque and gripper is not None
         self._gain, self._readings = np.zeros((6, 9)), np.zeros(9)
+        self._modelled, self._tool_error = _model_weight(facts, sizes), make_tool_error(sizes)
         self._damping, self._zero, self._zero_at_tool = np.zeros(count), np.zeros(6), np.zeros(6)
         self._sensing = self._make_sensing()
         self._measure, mass = bind(measure, self._sensing), self._make_mass()
@@ -253,6 +256,7 @@ class ModelledArm(Arm):
             q=self._q,
             dq=self._dq,
             bias=self._bias,
+            modelled=self._modelled,
             on_link=hand.on_link,
             motion_axes=data.cdof[self._dofs],
             centre=data.subtree_com[self._model.body_rootid[self._link]],
@@ -298,13 +302,19 @@ class ModelledArm(Arm):
     def _configure(self, payload: Payload, tool: Pose) -> None:
         self.payload, self._tool, self._times[MASS_DUE] = payload, tool, 0.0
         self._payload_kg[0] = payload.mass_kg
-        self._hand.configure(tool, self._flange.rotation, payload.centre)
+        self._hand.configure(tool @ self._tool_error, self._flange.rotation, payload.centre)
         self._move_zero()
         np.multiply(self._model.opt.gravity, -payload.mass_kg, out=self._weight)
 
     def _update_mass_matrix(self) -> None:
         self._whole.compute()
         self._take_mass(self._data.time)
+
+
+def _model_weight(facts: ArmSpec, sizes: Sizes) -> float:
+    """Return by what an arm that commands torques multiplies its true weight to know it; servos know theirs."""
+    (error,) = sizes.get("gravityError", (0.0,))
+    return 1.0 if facts.has_servos else 1.0 + error
 
 
 def _blank(joints: Array, tool: Pose) -> ArmState:

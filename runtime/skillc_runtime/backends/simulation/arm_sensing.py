@@ -82,7 +82,8 @@ class ArmSensing:
     (6,): N and N m on the tool, zeros without sensor; velocity (3,): m/s, of the tool centre point. times (2,): see
     above.
 
-    Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; on_link (8, 3): as there. In the world:
+    Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; modelled: by what the arm's model multiplies
+    the bias; on_link (8, 3): as there. In the world:
     motion_axes (nv, 6), MuJoCo's `cdof`, and centre (3,) m, where they hold; position (3,) m and rotation (3, 3) of
     last link and base; weight (3,) N of the payload. actuators, applied, passive (nv,): N m, in the last step, in which
     the servos' damping (nv,), N m s/rad, also acts on the change of the speeds. gain (6, 9) and readings (9,): of the
@@ -99,6 +100,7 @@ class ArmSensing:
     q: Vector
     dq: Vector
     bias: Vector
+    modelled: float
     on_link: Matrix
     motion_axes: Matrix
     centre: Vector
@@ -153,7 +155,8 @@ def measure(arm: ArmSensing, now: float) -> int:
     arm.times[MEASURED_AT] = now
     update_hand(arm)
     for j in range(arm.q.size):
-        joints[Q, j], joints[SPEED, j], joints[BIAS, j] = arm.q[j], arm.dq[j] + arm.noise[row, j], arm.bias[j]
+        joints[Q, j], joints[SPEED, j] = arm.q[j], arm.dq[j] + arm.noise[row, j]
+        joints[BIAS, j] = arm.modelled * arm.bias[j]
         exerted = arm.actuators[j] + arm.applied[j] + arm.passive[j]
         joints[EFFORT, j] = exerted - arm.damping[j] * (arm.dq[j] - joints[BEFORE, j])
         joints[BEFORE, j] = arm.dq[j]

@@ -127,7 +127,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self.live = make_live_signals(scene, self.period_s, self.arms, self._drivers, self.model, self.data)
         self.capabilities = BackendCapabilities(
             lock_step=self, judge=self, truth=self.ground_truth, drawing=self.drawing, disturber=self.disturber,
-            checkpoints=self, live=self.live,
+            checkpoints=self, live=self.live, imperfect=self.has_physics,
         )  # fmt: skip
         control, others = tuple(self._control_parts()), (*self._device_parts(), *self._parts())
         self.steps = Steps(control, others, steps_per_command, timestep_s)

@@ -14,6 +14,7 @@ from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec, read_fi
 from skillc_runtime.backends.simulation.friction import read_friction_range
 from skillc_runtime.backends.simulation.people import PersonSpec, read_people
 from skillc_runtime.devices.arm import Mode
+from skillc_runtime.devices.reality import IDEAL_REALITY, Reality, read_reality
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import RigidBody, read_bodies
@@ -93,7 +94,7 @@ class ArmSpec:
     """An arm: its base in the world, what it takes, home posture (nv,) rad, its compliant controller, and its sheet.
 
     Each joint may start `posture_range_rad` off home. Standard deviations of what is measured: joint speed rad/s, force
-    N and torque N m at the wrist.
+    N and torque N m at the wrist. reality: how far it is from what it should be.
     """
 
     individual: str
@@ -110,6 +111,7 @@ class ArmSpec:
     joint_speed_noise: float = 0.0
     force_noise_n: float = 0.0
     torque_noise_n_m: float = 0.0
+    reality: Reality = IDEAL_REALITY
 
     @property
     def has_servos(self) -> bool:
@@ -146,6 +148,7 @@ class ToolSpec:
     sheet: DataSheet
     stiffness_range: float = 0.0
     rigid: bool = False
+    reality: Reality = IDEAL_REALITY
 
 
 @dataclass(frozen=True, slots=True)
@@ -242,6 +245,7 @@ def _arm(state: WorldState, arm: str) -> ArmSpec:
         joint_speed_noise=number_of(state, arm, JOINT_SPEED_NOISE, default=0.0),
         force_noise_n=number_of(state, sensors[0], FORCE_NOISE, default=0.0) if sensors else 0.0,
         torque_noise_n_m=number_of(state, sensors[0], TORQUE_NOISE, default=0.0) if sensors else 0.0,
+        reality=read_reality(state, arm),
     )
 
 
@@ -284,6 +288,7 @@ def _tool(state: WorldState, tool: str) -> ToolSpec:
         sheet=sheet,
         stiffness_range=number_of(state, tool, STIFFNESS_RANGE, default=0.0),
         rigid=state.is_a(sheet.individual, RIGID_TOOL_SHEET),
+        reality=read_reality(state, tool),
     )
 
 

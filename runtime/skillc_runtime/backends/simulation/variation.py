@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import hypot
 
 import numpy as np
@@ -14,6 +14,7 @@ from skillc_runtime.backends.simulation.people import PersonVariation, draw_pers
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec, SurfaceSpec, ToolSpec
 from skillc_runtime.backends.simulation.signed import format_signed, format_tilt
 from skillc_runtime.backends.simulation.start_postures import draw_start
+from skillc_runtime.devices.reality import ARM_KINDS, TOOL_KINDS, Sizes, describe_sizes, draw_sizes
 from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Array, Pose, exp
 
@@ -64,7 +65,8 @@ class Variation:
     """All differences of one simulated run.
 
     start_rad: offsets of the joints of an arm from home at the start; pad_share: relative difference of the stiffness
-    of a tool's working face from its sheet; both by IRI. Fixtures and people are in the order of the scene.
+    of a tool's working face from its sheet; imperfections: those of arms and tools; all by IRI. Fixtures and people are
+    in the order of the scene.
     """
 
     seed: int
@@ -74,6 +76,7 @@ class Variation:
     fixtures: tuple[FixtureVariation, ...] = ()
     people: tuple[PersonVariation, ...] = ()
     displacements: tuple[Displacement, ...] = ()
+    imperfections: Mapping[str, Sizes] = field(default_factory=dict)
 
     def true_pose(self, thing: str, believed: Pose) -> Pose:
         """Return where a thing really is at the start, in the world."""
@@ -93,7 +96,17 @@ class Variation:
 
     def pad_stiffness(self, tool: ToolSpec) -> float:
         """Return the true stiffness of the working face of a tool in N/m."""
-        return tool.sheet.number("padStiffness") * (1.0 + self.pad_share[tool.individual])
+        (factor,) = self.sizes(tool).get("padStiffnessFactor", (1.0,))
+        return tool.sheet.number("padStiffness") * (1.0 + self.pad_share[tool.individual]) * factor
+
+    def mass(self, tool: ToolSpec) -> float:
+        """Return the true mass of a tool in kg, at least a tenth of what it is believed to be."""
+        (error,) = self.sizes(tool).get("massError", (0.0,))
+        return max(tool.mass_kg + error, 0.1 * tool.mass_kg)
+
+    def sizes(self, device: ArmSpec | ToolSpec) -> Sizes:
+        """Return the imperfections of a device."""
+        return self.imperfections.get(device.individual, {})
 
     def describe(self, names: Mapping[str, str]) -> str:
         """Return the differences as text; `names` are the short names of individuals."""
@@ -101,7 +114,8 @@ class Variation:
         fixtures = (f"{names[each.fixture]} {each.description}" for each in self.fixtures)
         people = (f"{names[each.person]} {each.description}" for each in self.people)
         things = (f"{names[each.individual]} {each.description}" for each in self.displacements)
-        return "; ".join((*surfaces, *fixtures, *people, *things))
+        devices = (f"{names[each]} {describe_sizes(sizes)}" for each, sizes in self.imperfections.items() if sizes)
+        return "; ".join((*surfaces, *fixtures, *people, *things, *devices))
 
 
 def draw_variation(scene: SceneSpec, seed: int) -> Variation:
@@ -115,7 +129,27 @@ def draw_variation(scene: SceneSpec, seed: int) -> Variation:
         tuple(draw_fixture(fixture, seed) for fixture in scene.fixtures),
         tuple(draw_person(person, seed) for person in scene.people),
         tuple(draw_displacement(each, seed) for each in scene.displaced),
+        _draw_imperfections(scene, seed),
     )
+
+
+def _draw_imperfections(scene: SceneSpec, seed: int) -> dict[str, Sizes]:
+    arms = {
+        each.individual: draw_sizes(
+            each.individual,
+            each.sheet,
+            each.reality,
+            [kind for kind in ARM_KINDS if each.force_torque or not kind.at_wrist],
+            each.home.size,
+            seed,
+        )
+        for each in scene.arms
+    }
+    tools = {
+        each.individual: draw_sizes(each.individual, each.sheet, each.reality, TOOL_KINDS, 0, seed)
+        for each in scene.tools
+    }
+    return {individual: sizes for individual, sizes in (arms | tools).items() if sizes}
 
 
 def exact_variation(scene: SceneSpec) -> Variation:

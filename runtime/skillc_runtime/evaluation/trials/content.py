@@ -10,6 +10,7 @@ import msgspec
 
 from skillc_model import codec
 from skillc_ontology import catalogue
+from skillc_runtime.devices.reality import set_reality
 from skillc_runtime.evaluation.trials.experiment import TrialRunner
 from skillc_runtime.evaluation.trials.identity import compute_digest
 from skillc_runtime.evaluation.trials.trial import Disturbance
@@ -21,7 +22,8 @@ from skillc_runtime.world.state.world_state import WorldState
 class Experiment(msgspec.Struct, frozen=True, kw_only=True):
     """What trials run: a compiled library as JSON, the name of its task, the disturbance, and the file of a scene.
 
-    `folders` are the ontology folders that the scene is read with: for each the contents of its files, by their paths.
+    `reality` is how far devices are from what they should be, as the facts say if it is None. `folders` are the
+    ontology folders that the scene is read with: for each the contents of its files, by their paths.
     """
 
     library: bytes
@@ -30,6 +32,7 @@ class Experiment(msgspec.Struct, frozen=True, kw_only=True):
     scene_name: str
     scene: bytes
     folders: tuple[dict[str, bytes], ...] = ()
+    reality: str | None = None
 
     @property
     def library_digest(self) -> str:
@@ -68,6 +71,8 @@ def prepare_runner(experiment: Experiment) -> TrialRunner:
     catalogue.replace_folders(folders)
     library = codec.loads(experiment.library, "the library")
     state = load_scene(place / experiment.scene_name, library.vocabulary)
+    if experiment.reality is not None:
+        state = set_reality(state, experiment.reality)
     return TrialRunner(library, state, experiment.task, experiment.disturbance)
 
 

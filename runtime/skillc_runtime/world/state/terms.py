@@ -142,6 +142,7 @@ STIFFNESS_RANGE = SKILLC + "stiffnessRange"
 FORCE_NOISE = SKILLC + "forceNoise"
 TORQUE_NOISE = SKILLC + "torqueNoise"
 JOINT_SPEED_NOISE = SKILLC + "jointSpeedNoise"
+REALITY = SKILLC + "reality"
 
 COVERAGE = WIPING + "coverage"
 IS_CLEAN = WIPING + "isClean"

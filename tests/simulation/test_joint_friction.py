@@ -1,0 +1,51 @@
+"""Friction of joints: what sticks holds still, what slips is braked, and energy is only taken."""
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from skillc_runtime.backends.simulation.joint_friction import BENDING_RAD, STICKING, VISCOUS, Friction, rub
+
+STEP_S, SLOW_N_M, INERTIA = 0.001, 5.0, 0.5
+
+
+def turn(torque_n_m: float, speed: float, seconds: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return angles and speeds of a joint on which a torque acts from a speed on, as the simulation integrates."""
+    applied, dq, angles, speeds, q = np.zeros(1), np.full(1, speed), [], [], 0.0
+    friction = Friction(applied, np.full(1, SLOW_N_M), dq, np.zeros(1), 0.0, STEP_S)
+    for _ in range(round(seconds / STEP_S)):
+        rub(friction, 0.0)
+        dq += STEP_S * (torque_n_m + applied) / INERTIA
+        q += STEP_S * float(dq[0])
+        angles.append(q)
+        speeds.append(float(dq[0]))
+    return np.array(angles), np.array(speeds)
+
+
+@given(st.floats(-1.0, 1.0))
+def test_a_joint_at_rest_bears_what_is_less_than_its_friction(share: float) -> None:
+    """A load that comes suddenly bends it by up to twice what it bends it at rest, and does not let it creep."""
+    angles, speeds = turn(0.4 * share * STICKING * SLOW_N_M, 0.0, 2.0)
+    assert np.abs(angles).max() < 2 * BENDING_RAD
+    assert abs(angles[-1] - angles[-500]) < 1e-7 and abs(speeds[-1]) < 1e-6
+
+
+def test_a_joint_that_is_pushed_harder_slips_and_reaches_the_speed_that_friction_allows() -> None:
+    _, speeds = turn(2.0 * SLOW_N_M, 0.0, 10.0)
+    final = float(speeds[-1])
+    sticking = 1.0 + (STICKING - 1.0) / (1.0 + (final / 0.05) ** 2)
+    assert abs(SLOW_N_M * (sticking + VISCOUS * final) - 2.0 * SLOW_N_M) < 0.01 * SLOW_N_M
+
+
+@given(st.floats(0.01, 3.0))
+def test_a_joint_that_moves_comes_to_rest_and_stays(speed: float) -> None:
+    _, speeds = turn(0.0, speed, 3.0)
+    energies = 0.5 * INERTIA * speeds**2
+    assert energies[-1] < 1e-9
+    assert energies.max() <= 0.5 * INERTIA * speed**2
+
+
+def test_motors_that_write_torques_in_each_step_have_it_added() -> None:
+    applied, dq = np.full(1, 7.0), np.full(1, 1.0)
+    rub(Friction(applied, np.full(1, SLOW_N_M), dq, np.full(1, BENDING_RAD), 1.0, STEP_S), 0.0)
+    assert 7.0 - 2 * SLOW_N_M < applied[0] < 7.0 - 0.9 * SLOW_N_M

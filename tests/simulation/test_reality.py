@@ -1,0 +1,137 @@
+"""Imperfect devices: what their sheets say is drawn, and has the effect that it has in real ones."""
+
+import numpy as np
+import pytest
+from cells import ARM, LAB, SCENES, world
+
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.mujoco.wrist import make_coupling
+from skillc_runtime.backends.simulation.noise import BLOCK, Noise
+from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
+from skillc_runtime.backends.simulation.variation import Variation, draw_variation
+from skillc_runtime.devices.reality import KINDS, SHARES, parse_reality, set_reality
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import REALITY, SKILLC
+
+SEEDS = 40
+ARM_OF = ARM["ur5e_whiteboard"]
+
+
+def draw(scene: str, reality: str, seed: int) -> Variation:
+    return draw_variation(read_scene_spec(set_reality(world(scene), reality)), seed)
+
+
+def imperfect(scene: str, reality: str, seed: int = 0) -> SimulatedCell:
+    return SimulatedCell(WorldModel(set_reality(world(scene), reality)), seed)
+
+
+@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("level", SHARES)
+def test_sizes_are_within_the_range_of_the_sheet(scene: str, level: str) -> None:
+    """A typical one is in the lower half; over many seeds they come near to both ends."""
+    arm = ARM[scene]
+    sheet = sheet_of(world(scene), arm)
+    low, high = sheet.numbers("jointFriction")
+    high = low + SHARES[level] * (high - low)
+    drawn = [draw(scene, level, seed).imperfections[arm]["jointFriction"] for seed in range(SEEDS)]
+    assert low <= np.min(drawn) < low + 0.1 * (high - low) < high - 0.1 * (high - low) < np.max(drawn) <= high
+
+
+def test_one_kind_alone_is_as_it_is_among_all() -> None:
+    """Each is drawn for itself, so that what one of them does can be looked at in the same run."""
+    alone, among = (draw("ur5e_whiteboard", each, 3).imperfections for each in ("wide:forceBias", "wide"))
+    assert alone == {ARM_OF: {"forceBias": among[ARM_OF]["forceBias"]}}
+    assert len(among[ARM_OF]) > 5
+    assert draw("ur5e_whiteboard", "wide", 3) == draw("ur5e_whiteboard", "wide", 3)
+    assert draw("ur5e_whiteboard", "wide", 4).imperfections != among
+
+
+def test_an_ideal_cell_is_as_if_nothing_had_been_said() -> None:
+    assert draw("iiwa_table", "ideal", 5) == draw_variation(read_scene_spec(world("iiwa_table")), 5)
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("bad", "reality is ideal, typical or wide, not 'bad'"),
+        ("wide:", "there is no imperfection ''"),
+        ("wide:jointFriction, rust", "there is no imperfection 'rust'; there are: forceBias"),
+    ],
+)
+def test_what_it_may_be_is_said(text: str, problem: str) -> None:
+    with pytest.raises(ValueError, match=problem):
+        parse_reality(text)
+
+
+def test_a_range_that_is_none_refuses_the_scene() -> None:
+    state = set_reality(world("iiwa_table"), "wide")
+    sheet = sheet_of(state, ARM["iiwa_table"]).individual
+    for wrong in ("0.1", "0.2 0.1", "-1 1"):
+        bad = state.with_changes([SetProperty(sheet, SKILLC + "jointFriction", wrong)])
+        with pytest.raises(SheetError, match="jointFriction of skillc:iiwa14-sheet must be the least and the greatest"):
+            draw_variation(read_scene_spec(bad), 0)
+    bad = state.with_changes([SetProperty(ARM["iiwa_table"], REALITY, "perfect")])
+    with pytest.raises(SheetError, match="reality of lab:Iiwa-1: reality is ideal, typical or wide"):
+        read_scene_spec(bad)
+
+
+def test_what_would_change_nothing_is_refused() -> None:
+    """The iiwa has no wrist sensor, so that its sheet says nothing of one."""
+    with pytest.raises(ValueError, match="no arm or tool of the scene has the imperfections forceBias: state their ra"):
+        set_reality(world("iiwa_table"), "wide:forceBias")
+
+
+def test_a_wrist_has_bias_and_drift() -> None:
+    """As drawn: a hand that hangs still, which an ideal sensor would show as 0."""
+    there = imperfect("ur5e_whiteboard", "wide:forceBias,forceDrift", 1)
+    sizes = there.variation.imperfections[ARM_OF]
+    readings = []
+    for _ in range(2):
+        samples = []
+        for _ in range(200):
+            there.advance(0.005)
+            arm = there.arms[ARM_OF]
+            samples.append(arm._hand.in_base[3:6] @ arm.state().wrench[:3])
+        readings.append(np.mean(samples, axis=0))
+    bias, drift = (-np.array(sizes[each]) for each in ("forceBias", "forceDrift"))
+    np.testing.assert_allclose(readings[0], bias + 0.5 * drift, atol=0.15)
+    np.testing.assert_allclose(readings[1] - readings[0], drift, atol=0.15)
+
+
+def test_drift_goes_on_from_block_to_block() -> None:
+    noise = Noise(np.zeros(2), np.random.default_rng(0), np.array([1.0, 0.0]), np.array([0.0, 0.5]))
+    samples = [noise.distort(np.zeros(2)) for _ in range(2 * BLOCK)]
+    np.testing.assert_allclose(samples, [(1.0, 0.5 * number) for number in range(2 * BLOCK)])
+
+
+def test_coupling_mixes_forces_with_forces_and_torques_with_torques() -> None:
+    coupling = make_coupling({"forceGainError": (0.1,) * 6, "forceCrossTalk": tuple(np.arange(1, 13) / 100)})
+    np.testing.assert_array_equal(np.diag(coupling), 1.1)
+    assert not coupling[:3, 3:].any() and not coupling[3:, :3].any()
+    assert coupling[0, 1] == 0.01 and coupling[5, 4] == 0.12
+    np.testing.assert_array_equal(make_coupling({}), np.eye(6))
+
+
+def test_an_eraser_is_heavier_or_lighter_and_stiffer_than_is_known() -> None:
+    eraser = LAB + "Eraser-1"
+    there = imperfect("iiwa_table", "wide:massError,padStiffnessFactor", 2)
+    tool = next(each for each in there.scene.tools if each.individual == eraser)
+    (error,), (factor,) = (there.variation.imperfections[eraser][each] for each in ("massError", "padStiffnessFactor"))
+    assert float(there.model.body_subtreemass[there.model.body("lab:Eraser-1/block").id]) == pytest.approx(
+        tool.mass_kg + error
+    )
+    assert there.variation.pad_stiffness(tool) > tool.sheet.number("padStiffness")
+    assert 1.0 <= factor <= 10.0
+
+
+def test_every_kind_has_a_property_of_a_sheet_and_a_row_in_the_docs(docs: str) -> None:
+    stated = {each for each in KINDS if SKILLC + each.name in world("iiwa_table").vocabulary.properties}
+    assert stated == set(KINDS)
+    assert [each.name for each in KINDS if f"`{each.name}`" not in docs] == []
+
+
+@pytest.fixture
+def docs(request: pytest.FixtureRequest) -> str:
+    return (request.config.rootpath / "docs" / "reality.md").read_text(encoding="utf-8")
