@@ -108,7 +108,8 @@ class TimedCell(SimulatedCell):
         driver = self.arm(next(iter(self.arms)))
         if np.isnan(np.frombuffer(driver.motion.copy_tool_reference())).any():
             return "at rest" if driver.motion.done else "joints move"
-        overlaid = bool((driver.motion.reference.rows != driver.motion.path.rows).any())
+        reference, path = driver.motion.live_rows
+        overlaid = bool((reference != path).any())
         pressing = any(push.pressed_s is not None for push in driver.compliance.active_pushes)
         if self._paused_until is not None and self.now < self._paused_until:
             return "paused"

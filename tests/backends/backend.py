@@ -79,6 +79,8 @@ class Backend(Protocol):
 class Wall:
     """A force that a spring and a damper exert on the hand of an arm, in every step of a cell."""
 
+    rows = None
+
     def __init__(self, cell: ModelledCell[Any, Any], arm: ModelledArm, palm: str, gap_m: float) -> None:
         self._period, self._arm, self._hand = cell.model.opt.timestep, arm, cell.data.body(palm)
         tool = arm.base @ arm.state().tool
@@ -97,6 +99,8 @@ class Wall:
 
 class Reader:
     """Reads something in every step of a cell."""
+
+    rows = None
 
     def __init__(self, read: Callable[[], Any]) -> None:
         self._read, self.found = read, list[Any]()

@@ -65,6 +65,8 @@ def sorted_parts(changes: list[Change], seed: int) -> tuple[Execution, Simulated
 class Thief:
     """Takes a part out of its bin, once, as soon as the hand is empty, and puts it on the table at `y` m."""
 
+    rows = None
+
     def __init__(self, cell: SimulatedCell, y: float) -> None:
         self._cell, self._y, self.acted = cell, y, False
 

@@ -41,24 +41,29 @@ class MotionControl:
 
     @property
     def live_rows(self) -> tuple[Array, Array]:
-        """The rows (8, 3) of the tool's reference in base while it `moves_tool`, and those of its path; not copies."""
-        plan = self._task.tool.reference_generator.plan
-        return plan.rows, plan.path
+        """The rows (8, 3) of the tool's reference in base, and of its path; not copies.
 
-    @property
-    def moves_tool(self) -> bool:
-        """Whether the tool is controlled, and not the joints."""
-        return self._task.joints is None
+        NaN while the joints are controlled.
+        """
+        plan = self._task.tool.reference_generator.plan
+        return (plan.rows, plan.path) if self._task.joints is None else (NO_REFERENCE, NO_REFERENCE)
 
     def copy_tool_reference(self) -> bytes:
         """Return a copy of `live_reference` as float64."""
         return self.live_reference.tobytes()
 
     @property
-    def path(self) -> Reference:
-        """The same without overlays."""
+    def path_velocity(self) -> Array:
+        """The velocity (3,) in m/s of the tool in the world, of its reference without overlays.
+
+        While joints are controlled it is that of their reference in the posture that was measured last.
+        """
         task = self._task
-        return task.tool.reference_generator.path.transform(task.base()) if task.joints is None else self.reference
+        if task.joints is None:
+            velocity = task.tool.reference_generator.path.twist[:3]
+        else:
+            velocity = task.measured.state.jacobian[:3] @ task.joints.sample(task.now).dq
+        return task.base().rotation @ velocity
 
     @property
     def done(self) -> bool:

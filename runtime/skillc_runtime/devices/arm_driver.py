@@ -137,8 +137,8 @@ class MotionInterface(Protocol):
         ...
 
     @property
-    def path(self) -> Reference:
-        """The same without overlays."""
+    def path_velocity(self) -> Array:
+        """The velocity (3,) in m/s of the tool in the world, of its reference without overlays."""
         ...
 
     @property

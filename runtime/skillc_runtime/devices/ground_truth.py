@@ -18,8 +18,8 @@ class Recording:
 
     force (n,): N, normal force of all contacts of the tool's working face. position (n, 3), quaternion (n, 4),
     velocity (n, 3): of the centre of that face, z out of the tool. reference, reference_velocity (n, 3): of the arm's
-    controller; path, path_velocity (n, 3): the same without overlays. on_surface (n,): N, the part of the force that
-    presses on a surface itself, and not on an object on it. rows (n, 25): all columns.
+    controller, NaN while it controls joints; path, path_velocity (n, 3): the same without overlays. on_surface (n,): N,
+    the part of the force that presses on a surface itself, and not on an object on it. rows (n, 25): all columns.
     """
 
     rows: Array

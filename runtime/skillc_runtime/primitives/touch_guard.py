@@ -52,7 +52,7 @@ class TouchGuard:
         """Stop the arm if something resists, and return what is touched; else None."""
         if self._arm.compliance.released:
             return None
-        velocity = self._arm.motion.path.twist[:3]
+        velocity = self._arm.motion.path_velocity
         speed = float(np.linalg.norm(velocity))
         if speed > MOVING_M_S:
             self._way = velocity / speed

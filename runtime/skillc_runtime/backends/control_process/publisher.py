@@ -64,7 +64,7 @@ class Publisher:
         at["felt"][:] = np.nan if felt is None else felt
         at["contact"][:] = driver.measured.contact_wrench
         at["reference"][:] = driver.motion.reference.rows.ravel()
-        at["path"][:] = driver.motion.path.rows.ravel()
+        at["path_velocity"][:] = driver.motion.path_velocity
         at["done"][0], at["stationary"][0] = driver.motion.done, driver.motion.stationary
         at["at_rest"][0], at["released"][0] = driver.at_rest, driver.compliance.released
         at["stiffness"][:] = driver.compliance.commanded_stiffness

@@ -33,12 +33,12 @@ class RemoteMotion:
     @property
     def reference(self) -> Reference:
         """The reference of the tool in the world, of the last time when it was published."""
-        return self._process.read().reference("reference").transform(self._base())
+        return self._process.read().reference.transform(self._base())
 
     @property
-    def path(self) -> Reference:
-        """The same without overlays."""
-        return self._process.read().reference("path").transform(self._base())
+    def path_velocity(self) -> Array:
+        """The velocity (3,) in m/s of the tool in the world, of its reference without overlays."""
+        return self._base().rotation @ self._process.read().field("path_velocity")
 
     @property
     def done(self) -> bool:

@@ -21,7 +21,7 @@ FIELDS: Final = {
     "time_s": "1", "stamp_s": "1", "phase": "1", "stopped": "1", "faulted": "1", "lost": "1", "late_s": "1",
     "busy_until_s": "1", "speed_share": "1", "done": "1", "stationary": "1", "at_rest": "1", "released": "1",
     "q": "n", "dq": "n", "bias": "n", "effort": "n", "position": "3", "rotation": "9", "jacobian": "6n", "mass": "nn",
-    "wrench": "6", "felt": "6", "contact": "6", "reference": "24", "path": "24", "stiffness": "6", "force": "3",
+    "wrench": "6", "felt": "6", "contact": "6", "reference": "24", "path_velocity": "3", "stiffness": "6", "force": "3",
     "push": "1", "pressed_s": "1",
 }  # fmt: skip
 """The sizes of the fields of a snapshot in order, n being the number of joints.
@@ -98,6 +98,7 @@ class Snapshot:
         felt = self.field("felt")
         return None if np.isnan(felt[0]) else felt
 
-    def reference(self, name: Literal["reference", "path"]) -> Reference:
-        """Return the reference of the tool in base, with overlays or without."""
-        return Reference(self.field(name).reshape(8, 3))
+    @property
+    def reference(self) -> Reference:
+        """The reference of the tool in base."""
+        return Reference(self.field("reference").reshape(8, 3))

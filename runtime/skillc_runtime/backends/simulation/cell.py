@@ -323,7 +323,7 @@ class ModelledCell(ABC, Generic[A, G]):
             yield InPython(partial(self._step_gripper, gripper), partial(_is_idle, gripper))
         for arm in self.arms.values():
             yield arm.motors
-        yield from self.people
+        yield Listening(lambda: self.people)
         yield ForItself(self.disturber.step, lambda: not self.disturber.acts)
 
     def _watch(self, events: int, now: float) -> bool:

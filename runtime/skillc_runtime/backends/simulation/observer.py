@@ -30,8 +30,8 @@ STEPS_PER_UPDATE = 10
 """Number of steps between samples of coverage and reference: 100 Hz with steps of 1 ms."""
 
 
-IS_FULL, IS_DUE = 1, 2
-"""Bits of what an observer asks for: room for further steps; a sample of coverage and reference."""
+IS_FULL = 1
+"""What an observer asks for: room for further steps."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,16 +119,10 @@ def cover(surface: PressedSurface, now: float) -> int:
 
 @compiled
 def sample_tool_reference(sampled: SampledReference, now: float) -> int:
-    """Sample the reference of a controlled tool if it is due."""
+    """Sample the reference if it is due."""
     if is_due(sampled.steps):
         put_reference(sampled, now)
     return 0
-
-
-@compiled
-def ask_for_reference(tool: ObservedTool, now: float) -> int:
-    """Return `IS_DUE` if the reference is to be sampled."""
-    return IS_DUE if is_due(tool.steps) else 0
 
 
 class ToolObserver:
@@ -152,13 +146,13 @@ class ToolObserver:
             of_map = each.normal, each.least_n, each.world, each.dose, each.x, each.y
             self._cover.append(bind(cover, PressedSurface(force, *of_map, *rest)))
         self._carrier: Carrier | None = None
+        self._followed: Array | None = None
         self._bind()
 
     def rows(self, carrier: Carrier) -> Rows | None:
-        """The functions that observe a step; with a driver that controls joints Python samples the reference."""
+        """The functions that observe a step."""
         self._follow(carrier)
-        last = self._sample_reference if carrier.driver.motion.moves_tool else self._ask
-        return join(*map(row_of, (self._observe, *self._cover, last)))
+        return join(*map(row_of, (self._observe, *self._cover, self._sample_reference)))
 
     def sample(self, time: float, carrier: Carrier) -> None:
         """Sample one step that began at `time` s."""
@@ -168,26 +162,16 @@ class ToolObserver:
             self._observe(time)
         for each in self._cover:
             each(time)
-        if carrier.driver.motion.moves_tool:
-            self._sample_reference(time)
-        elif self._ask(time):
-            self._sample_joints(time, carrier)
+        self._sample_reference(time)
 
-    def act(self, events: int, time: float, carrier: Carrier) -> bool:
-        """Do what is left of a step; tell whether it goes on with another memory."""
-        if events == IS_FULL:
-            self._bind()
-            self.sample(time, carrier)
-            return True
-        self._sample_joints(time, carrier)
-        return False
-
-    def _sample_joints(self, time: float, carrier: Carrier) -> None:
-        reference = carrier.driver.motion.reference  # which is its own path while joints move
-        self.recorder.sample_reference(time, reference, reference, self._greatest)
+    def act(self, time: float, carrier: Carrier) -> bool:
+        """Make room, and observe the step; it goes on with another memory."""
+        self._bind()
+        self.sample(time, carrier)
+        return True
 
     def _follow(self, carrier: Carrier) -> None:
-        if carrier is not self._carrier:
+        if carrier is not self._carrier or carrier.driver.motion.live_rows[0] is not self._followed:
             self._carrier = carrier
             self._bind()
 
@@ -195,10 +179,11 @@ class ToolObserver:
         """Bind the functions to memory with room for further steps."""
         recorded, peak = self.recorder.make_memory(), self.peak_force
         tool = ObservedTool(recorded, peak.force, peak.square, self._steps)
-        self._observe, self._ask = bind(observe, tool), bind(ask_for_reference, tool)
+        self._observe = bind(observe, tool)
         if self._carrier is not None:
-            (rows, path), base = self._carrier.driver.motion.live_rows, self._carrier.base
-            sampled = self.recorder.make_references(rows, path, base, self._greatest, self._steps)
+            self._followed, path = self._carrier.driver.motion.live_rows
+            of_steps = self._carrier.base, self._greatest, self._steps
+            sampled = self.recorder.make_references(self._followed, path, *of_steps)
             self._sample_reference = bind(sample_tool_reference, sampled)
 
 

@@ -52,7 +52,7 @@ class ControlledArm:
 
 
 class Listening:
-    """All that takes part in each control period beside the cell itself."""
+    """Others that take part in a cell for a while: who records it, or people in it."""
 
     def __init__(self, find: Callable[[], Sequence[Part]]) -> None:
         self._find = find
@@ -93,9 +93,9 @@ class HeldTool:
         return True
 
     def act(self, events: int, now: float) -> bool:
-        """Do what observing asks for."""
+        """Make room for more."""
         observer = self._observer
-        return observer is not None and observer.act(events, now, self._carrier)
+        return observer is not None and observer.act(now, self._carrier)
 
     @property
     def _observer(self) -> ToolObserver | None:

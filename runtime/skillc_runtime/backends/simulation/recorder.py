@@ -11,7 +11,6 @@ from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import inlined
 from skillc_runtime.motion.numerics.linear import copy_vector, times
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.reference import Reference
 
 MEASURED = 12
 """time; normal force; face position 3, quaternion 4, velocity 3."""
@@ -19,9 +18,6 @@ MEASURED = 12
 COLUMNS = 25
 """Those, then position 3 and velocity 3 of the reference, and the same of the path: the reference without overlays; the
 normal force on a surface."""
-
-
-WORLD = Pose(np.zeros(3), np.eye(3))
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,10 +96,6 @@ class Recorder:
     def make_references(self, rows: Array, path: Array, base: Pose, greatest: Array, steps: Array) -> SampledReference:
         """Return what `put_reference` works on, at most once for each step that there is room for."""
         return SampledReference(rows, path, base, greatest, steps, self._asked, self._asked_count)
-
-    def sample_reference(self, time: float, reference: Reference, path: Reference, greatest_n: Array) -> None:
-        """Do what `put_reference` does with a reference in the world."""
-        put_reference(self.make_references(reference.rows, path.rows, WORLD, greatest_n, self._count), time)
 
     @property
     def _steps(self) -> int:
