@@ -48,6 +48,9 @@ class Physics:
     _mirror: Mirror | None = None
     _pulls: dict[str, Pull] = field(default_factory=dict)
     _is_due: bool = False
+    _rows: dict[Half, Rows | None] = field(default_factory=dict)
+    """What computes each half of a step of the model that is stepped."""
+
     monitor: DivergenceMonitor = field(init=False)
     """Watches the model that is stepped."""
     far: FarBodies | None = field(init=False)
@@ -109,13 +112,16 @@ class Physics:
         """Return what computes half a step as things are now; None if only Python can."""
         if self._is_due:
             return None
-        if self._mirror is None:
-            rows = row_calling(half, self.model, self.data) if has_room(self.data) else None
-        else:
-            rows = row_of(self._mirror.halves[half]) if has_room(self._mirror.tight) else None
-        if half == "mj_step2" or self.far is None:
+        if half not in self._rows:
+            self._rows[half] = self._make_rows(half)
+        return self._rows[half] if has_room(self.data if self._mirror is None else self._mirror.tight) else None
+
+    def _make_rows(self, half: Half) -> Rows | None:
+        mirror, far = self._mirror, self.far
+        rows = row_calling(half, self.model, self.data) if mirror is None else row_of(mirror.halves[half])
+        if half == "mj_step2" or far is None:
             return rows
-        return join(row_of(self.far.leave_out), rows, row_of(self.far.take_in))
+        return join(row_of(far.leave_out), rows, row_of(far.take_in))
 
     def _run(self, half: Half) -> None:
         far = self.far if half == "mj_step1" else None
@@ -182,7 +188,7 @@ class Physics:
         """Watch what steps use from now on; `geoms` are the numbers (ngeom,) in the cell's model of the geoms there."""
         if far is not None:
             far.renew()
-        self.far = far
+        self.far, self._rows = far, {}
         self.monitor = DivergenceMonitor(model, data)
         self.contacts.read_from(model, data, geoms)
         self.mass.let_be_stepped(model is self.model)

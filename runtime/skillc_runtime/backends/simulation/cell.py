@@ -320,7 +320,7 @@ class ModelledCell(ABC, Generic[A, G]):
     def _device_parts(self) -> Iterator[Part]:
         """Yield what acts in each step: grippers, motors, people."""
         for gripper in self._grippers.values():
-            yield InPython(partial(self._step_gripper, gripper), partial(_is_idle, gripper))
+            yield ForItself(partial(self._step_gripper, gripper), partial(_is_idle, gripper))
         for arm in self.arms.values():
             yield arm.motors
         yield Listening(lambda: self.people)

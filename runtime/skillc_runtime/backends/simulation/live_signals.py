@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from operator import is_not
 from typing import Any
 
 from skillc_runtime.backends.simulation.arm import ModelledArm
@@ -23,8 +24,6 @@ def make_live_signals(
 ) -> LiveSignals:
     """Return the live signals of a cell; its arrays stay where they are."""
     sensors, positions, quaternions = data.sensordata, data.xpos, data.xquat
-    found = tuple(_places_of(arms[each], drivers[each]) for each in sorted(arms))
-    of_sensors = _place_of(sensors)
     faces = ((each.individual, face_sensor_name(scene.names[each.individual], "touch")) for each in scene.tools)
     return LiveSignals(
         period_s=period_s,
@@ -36,24 +35,38 @@ def make_live_signals(
             tuple(sorted((tool, int(model.sensor(sensor).adr[0])) for tool, sensor in faces)),
         ),
         bodies=LiveBodies(positions.tobytes, quaternions.tobytes),
-        places=lambda: (*(place for places in found for place in places()), of_sensors),
+        places=_places_of([(arms[each], drivers[each]) for each in sorted(arms)], sensors),
     )
 
 
-def _places_of(arm: ModelledArm, driver: CompliantArmDriver) -> Callable[[], Places]:
-    """Return a function that returns where the arrays of an arm are, in the order of a recording."""
-    wrench, motion = arm.live_wrench, driver.motion
-    first, others = _place_of(arm.live_joints), [arm.live_velocity, driver.compliance.live_force]
-    last = tuple(map(_place_of, others if wrench is None else (wrench, *others)))
-    reference, place = motion.live_reference, _place_of(motion.live_reference)
+def _places_of(arms: Sequence[tuple[ModelledArm, CompliantArmDriver]], sensors: Array) -> Callable[[], Places]:
+    """Return a function that returns where the arrays of a cell are, in the order of a recording.
+
+    It is the same tuple until an arm follows a reference elsewhere.
+    """
+    motions = [driver.motion for _, driver in arms]
+    known: list[Array] = []
+    places: Places = ()
 
     def find() -> Places:
-        nonlocal reference, place
-        if motion.live_reference is not reference:
-            reference, place = motion.live_reference, _place_of(motion.live_reference)
-        return (first, place, *last)
+        nonlocal known, places
+        references = [motion.live_reference for motion in motions]
+        if not known or any(map(is_not, references, known)):
+            known = references
+            of_arms = (array for pair in arms for array in _arrays_of(*pair))
+            places = tuple(map(_place_of, (*of_arms, sensors)))
+        return places
 
     return find
+
+
+def _arrays_of(arm: ModelledArm, driver: CompliantArmDriver) -> Iterator[Array]:
+    yield arm.live_joints
+    yield driver.motion.live_reference
+    if (wrench := arm.live_wrench) is not None:
+        yield wrench
+    yield arm.live_velocity
+    yield driver.compliance.live_force
 
 
 def _place_of(array: Array) -> Place:

@@ -152,7 +152,7 @@ class ToolObserver:
     def rows(self, carrier: Carrier) -> Rows | None:
         """The functions that observe a step."""
         self._follow(carrier)
-        return join(*map(row_of, (self._observe, *self._cover, self._sample_reference)))
+        return self._rows
 
     def sample(self, time: float, carrier: Carrier) -> None:
         """Sample one step that began at `time` s."""
@@ -185,6 +185,7 @@ class ToolObserver:
             of_steps = self._carrier.base, self._greatest, self._steps
             sampled = self.recorder.make_references(self._followed, path, *of_steps)
             self._sample_reference = bind(sample_tool_reference, sampled)
+            self._rows = join(*map(row_of, (self._observe, *self._cover, self._sample_reference)))
 
 
 class PeakForce:

@@ -89,7 +89,7 @@ class InPython:
 
 
 class ForItself(InPython):
-    """As `InPython`, but what it does changes the rows of no other part."""
+    """As `InPython`, but what it does changes the rows of no other part before it has nothing more to do."""
 
     def step(self, now: float) -> bool:
         """Do it; tell whether it has nothing to do now."""

@@ -58,11 +58,17 @@ class Bound(Protocol[Parameters, Returned]):
         """
         ...
 
+    @property
+    def rows(self) -> tuple[tuple[int, int, int], ...] | None:
+        """The entry as the row of a `program`, always the same object; None without one."""
+        ...
+
 
 class _BoundFunction(partial[Any]):
     """As `Bound`; keeps the memory."""
 
     entry: tuple[int, int] | None = None
+    rows: tuple[tuple[int, int, int], ...] | None = None
     kept: object = None
 
 
@@ -142,7 +148,9 @@ def bind(function: Callable[Concatenate[First, Parameters], Result], first: Firs
     assert code.bound is not None
     bound = _BoundFunction(code.bound, table.ctypes.data)
     bound.kept = first, arrays, table
-    bound.entry = None if code.entry is None else (code.entry, table.ctypes.data)
+    if code.entry is not None:
+        bound.entry = (code.entry, table.ctypes.data)
+        bound.rows = ((*bound.entry, 0),)
     return bound
 
 

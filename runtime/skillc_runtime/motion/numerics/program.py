@@ -46,8 +46,7 @@ class Part(Protocol):
 
 def row_of(compute: Bound[[float], int]) -> Rows | None:
     """Return the row of a function with its memory; None without machine code."""
-    entry = compute.entry
-    return None if entry is None else ((*entry, 0),)
+    return compute.rows
 
 
 def join(*found: Rows | None) -> Rows | None:

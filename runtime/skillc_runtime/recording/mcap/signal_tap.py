@@ -173,7 +173,7 @@ class SignalTap:
 
     def _find_places(self) -> None:
         assert self._memory is not None and self._live.places is not None
-        if (places := self._live.places()) != self._places:
+        if (places := self._live.places()) is not self._places:
             self._places, self._memory.places[:] = places, places
 
     def _sample(self) -> None:
