@@ -22,7 +22,8 @@ async def publish(late_s: float) -> list[Any]:
     published: list[Any] = []
     tree = StartedNodes("7", lambda text: published.append(json.loads(text)))
     tree.take(started(1))
-    await asyncio.sleep(0.01)
+    while not published:
+        await asyncio.sleep(0.0)
     for node in (2, 3):
         tree.take(started(node))
     tree.take(NodeEnded(time=0.0, node=3, name="Skill3", status="success", source=PLACE))

@@ -47,7 +47,7 @@ def test_a_planner_that_hangs_is_ended_and_holds_up_no_other_operation(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     planners, pid = hanging_planners(tmp_path)
-    job = partial(PlanningJob, planners=planners, deadline_s=2.0)
+    job = partial(PlanningJob, planners=planners, deadline_s=8.0)
     monkeypatch.setattr("skillc.cells.host.PlanningJob", job)
     with open_cell(write_yard(tmp_path, takes_ms=10), SilentReporter()) as host:
         host.submit("hangs", OperationRequest(task="carry_all"))
@@ -77,8 +77,8 @@ def test_nobody_waits_for_ever_for_a_person(tmp_path: Path, monkeypatch: pytest.
 
 def test_an_approval_that_never_comes_ends_with_the_deadline(tmp_path: Path) -> None:
     with open_cell(write_yard(tmp_path, takes_ms=10), SilentReporter()) as host:
-        host.submit("waits", OperationRequest(task="carry_all", approve=True, deadline_s=5.0))
+        host.submit("waits", OperationRequest(task="carry_all", approve=True, deadline_s=8.0))
         host.submit("goes", LOAD)
         assert run_until_ended(host, "goes").state == "succeeded"
         (ended,) = run_all(host)
-    assert ended.state == "failed" and "5 s" in ended.reason
+    assert ended.state == "failed" and "8 s" in ended.reason

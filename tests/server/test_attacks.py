@@ -41,8 +41,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
 @pytest.mark.parametrize("attack", ATTACKS, ids=lambda attack: attack.__name__)
 def test_an_attack_is_refused_and_a_stop_meanwhile_takes_effect(server: RunningServer, attack: Attack) -> None:
     for _ in range(ROUNDS):
-        server.put_back()
-        server.client.put("/cells/yard/pace", json={"factor": 0.02})
+        server.put_back(pace=0.02)
         answers, statuses = stop_during(attack, server), ATTACKS[attack]
         assert answers <= statuses | {429} and bool(answers & statuses) == bool(statuses), answers
         server.client.put("/cells/yard/pace", json={"factor": None})

@@ -39,7 +39,7 @@ def type_in(*words: str) -> Result:
 
 
 def test_a_task_is_planned_approved_paused_stepped_and_stopped(here: RunningServer) -> None:
-    here.put_back()
+    here.put_back(pace=0.1)
     started = type_in("start", "carry_all", "--approve", "--priority", "2")
     name = started.stdout.strip()
     here.wait_for(name, "planned")

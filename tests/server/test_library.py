@@ -79,7 +79,7 @@ def test_devices_have_what_their_data_sheets_state() -> None:
 
 
 def test_a_device_is_held_by_the_operation_that_runs(server: RunningServer) -> None:
-    server.put_back()
+    server.put_back(pace=0.1)
     operation = server.submit(task="carry_all")["id"]
     assert server.wait_for(operation, "running")["devices"] is None, "a call that names no robot needs the whole cell"
     server.client.post(f"/operations/{operation}/stop", json={})

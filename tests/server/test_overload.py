@@ -31,7 +31,7 @@ FLOOD = 12
 
 
 def test_a_stop_takes_effect_while_costly_requests_still_wait(server: RunningServer) -> None:
-    server.put_back()
+    server.put_back(pace=0.05)
     operation = server.submit(task="carry_all")["id"]
     server.wait_for(operation, "running")
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import signal
-import time
 from contextlib import closing
 from pathlib import Path
 
@@ -153,7 +152,8 @@ def test_the_recording_of_a_cell_that_was_killed_can_be_read(tmp_path: Path) -> 
         server.client.put("/cells/yard/pace", json={"factor": 1.0})
         operation = server.submit(task="carry_all")["id"]
         server.wait_for(operation, "running")
-        time.sleep(2.5)
+        (written,) = (tmp_path / "served").rglob(f"{operation}.mcap")
+        wait_until(lambda: len(read_recording(written).envelopes), lambda count: count > 3)
         for process in children_of(server.process.pid):
             os.kill(process, signal.SIGKILL)
         shown = f"/operations/{operation}"

@@ -43,7 +43,7 @@ def test_a_sample_has_what_moves(tmp_path: Path) -> None:
 
 
 def test_samples_go_on_while_a_cell_works(server: RunningServer) -> None:
-    server.put_back()
+    server.put_back(pace=0.2)
     operation = server.submit(task="carry_all")["id"]
     server.wait_for(operation, "running")
     with skillc.connect(f"http://127.0.0.1:{server.port}", state=server.folder / "served") as connected:
@@ -58,8 +58,7 @@ def test_samples_go_on_while_a_cell_works(server: RunningServer) -> None:
 
 
 def test_the_clock_of_a_display_goes_on_between_events(server: RunningServer) -> None:
-    server.put_back()
-    server.client.put("/cells/yard/pace", json={"factor": 0.05})
+    server.put_back(pace=0.05)
     operation = server.submit(task="carry_all")["id"]
     events = server.wait_for(operation, "running")["events"]
     with skillc.connect(f"http://127.0.0.1:{server.port}", state=server.folder / "served") as connected:

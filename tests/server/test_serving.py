@@ -30,7 +30,7 @@ from skillc.server.openapi import make_openapi
 
 
 def test_an_operation_is_paused_resumed_and_stopped(server: RunningServer) -> None:
-    server.client.put("/cells/yard/pace", json={"factor": 1.0})
+    server.client.put("/cells/yard/pace", json={"factor": 0.1})
     operation = server.submit(task="carry_all")["id"]
     server.wait_for(operation, "running")
     assert server.client.post(f"/operations/{operation}/commands", json={"type": "pause"}).status_code == 200
@@ -133,7 +133,7 @@ def test_the_events_of_an_operation_arrive_without_a_gap(server: RunningServer) 
 @pytest.mark.sim
 def test_a_cell_that_dies_is_started_again_and_its_operation_was_interrupted(tmp_path: Path) -> None:
     with serving(tmp_path) as server:
-        server.client.put("/cells/yard/pace", json={"factor": 1.0})
+        server.client.put("/cells/yard/pace", json={"factor": 0.1})
         operation = server.submit(task="carry_all")["id"]
         server.wait_for(operation, "running")
         os.kill(find_cell_process(server), signal.SIGKILL)
@@ -143,6 +143,7 @@ def test_a_cell_that_dies_is_started_again_and_its_operation_was_interrupted(tmp
         server.wait_ready()
         left = server.client.get(f"/operations/{operation}").json()
         assert left["state"] == "interrupted" and left["decisions"][:2] == ["replan", "retry"]
+        server.client.put("/cells/yard/pace", json={"factor": None})
         again = server.submit(continues=operation, decision="retry")["id"]
         server.wait_for(again, "succeeded")
         assert server.client.get(f"/operations/{operation}").json()["continued_by"] == again
@@ -153,7 +154,7 @@ def test_a_cell_that_dies_is_started_again_and_its_operation_was_interrupted(tmp
 @pytest.mark.sim
 def test_a_killed_server_leaves_a_cell_at_rest_and_a_history(tmp_path: Path) -> None:
     with serving(tmp_path) as server:
-        server.client.put("/cells/yard/pace", json={"factor": 1.0})
+        server.client.put("/cells/yard/pace", json={"factor": 0.1})
         operation = server.submit(task="carry_all")["id"]
         server.wait_for(operation, "running")
         cell = find_cell_process(server)

@@ -15,7 +15,7 @@ PATH = "/cells/yard"
 
 
 def test_after_an_emergency_stop_nothing_runs_until_it_is_acknowledged(server: RunningServer) -> None:
-    server.put_back()
+    server.put_back(pace=0.1)
     running, waiting = server.submit(task="carry_all")["id"], server.submit(task="carry_all", approve=True)["id"]
     server.wait_for(running, "running")
     pressed = server.client.post(f"{PATH}/disturbances", json={"type": "emergency-stop", "pressed": True})
@@ -39,6 +39,7 @@ def test_after_an_emergency_stop_nothing_runs_until_it_is_acknowledged(server: R
     entries = server.client.get("/audit", params={"limit": 10_000}).json()
     wanted = [each["status"] for each in entries if each["who"] == "ada" and each["action"].endswith("/acknowledge")]
     assert wanted == [409, 409, 200]
+    server.client.put(f"{PATH}/pace", json={"factor": None})
     server.wait_for(server.submit(goal="lab:Goal contain lab:crate-0")["id"], "succeeded")
 
 

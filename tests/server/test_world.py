@@ -72,7 +72,7 @@ def test_an_edit_that_is_wrong_changes_nothing(server: RunningServer, wrong: str
 
 
 def test_an_operation_sees_what_a_person_states_while_it_runs(server: RunningServer) -> None:
-    server.put_back()
+    server.put_back(pace=0.1)
     operation = server.submit(task="carry_all")["id"]
     server.wait_for(operation, "running")
     assert edit(server, "lab:Goal skiros:contain lab:crate-5").status_code == 204
