@@ -14,6 +14,7 @@ from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Assert, Assign, Compare, Effect, Expression, HasProperty, Holds, Literal, Retract
+from skillc_model.foresight import CLAIMED
 from skillc_model.rewriting import substitute
 from skillc_rdf.vocabulary.types import PropertyTerm, RelationTerm, Vocabulary, local_name
 
@@ -121,7 +122,7 @@ def _check_computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -
         term = vocabulary.properties.get(effect.property)
     else:
         term = vocabulary.relations.get(effect.relation)
-    if term is not None and term.computed_by is not None:
+    if term is not None and term.computed_by is not None and term.iri not in CLAIMED:
         yield Diagnostic(
             "computed-property",
             post.condition.span,

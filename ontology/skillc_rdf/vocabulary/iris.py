@@ -8,6 +8,7 @@ OWL = "http://www.w3.org/2002/07/owl#"
 XSD = "http://www.w3.org/2001/XMLSchema#"
 VANN = "http://purl.org/vocab/vann/"
 SKILLC = "https://w3id.org/skillc/core#"
+SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"
 
 TYPE = f"{RDF}type"
 CLASS, RELATION, PROPERTY = f"{OWL}Class", f"{OWL}ObjectProperty", f"{OWL}DatatypeProperty"

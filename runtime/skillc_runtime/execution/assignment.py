@@ -15,6 +15,7 @@ from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.refinement.run_planning import SpaceLook, plan_for_run
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.planning.arrangement import Arrangement, arrange_plan, step_numbers
+from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.plan import Excluded, GaveUp, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
@@ -149,7 +150,8 @@ def arrange_prepared(
 
     `space` is what is known of the plan in space.
     """
-    arrangement = arrange_plan(solved.plan, library, assignment.state)
+    goal = assignment.objective.goal if isinstance(assignment.objective, AchieveGoal) else None
+    arrangement = arrange_plan(solved.plan, *foresee(library, assignment.state, goal))
     steps = tuple(solved.plan.steps[number] for number in step_numbers(arrangement))
     body = build_plan_body(solved.plan, arrangement, library)
     return PreparedTask(assignment, body, PlannedSteps(solved, arrangement, steps, space))

@@ -22,6 +22,7 @@ from skillc_runtime.execution.refinement.run_planning import LOOK_S, SpaceLook
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.execution.worker_process import ReportingFunction, Returned, WorkerProcess, WorkerResult
 from skillc_runtime.planning.arrangement import arrange_plan
+from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.progress import PlanningProgress, ReportProgress
 from skillc_runtime.planning.solve import DEADLINE_S
@@ -127,7 +128,7 @@ def find_arrival_problem(prepared: PreparedTask, library: SkillLibrary, now: Wor
         plan = planned.solved.plan
         try:
             validate(plan, library, now, objective.goal)
-            arrangement = arrange_plan(plan, library, now)
+            arrangement = arrange_plan(plan, *foresee(library, now, objective.goal))
         except PlanError as reason:
             return str(reason)
         if build_plan_body(plan, arrangement, library) != prepared.body:

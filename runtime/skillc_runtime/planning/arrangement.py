@@ -10,6 +10,7 @@ from skillc_model.conditions import Condition
 from skillc_model.pddl.devices import locked_parameters
 from skillc_model.read_write import ReadWriteSet, facts_read
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.validation import apply_step, compute_effects
 from skillc_runtime.planning.world_changes import find_changed_facts, find_settled_facts
@@ -47,7 +48,7 @@ def arrange_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> Arrang
 
 def find_predecessors(plan: Plan, library: SkillLibrary, state: WorldState) -> tuple[frozenset[int], ...]:
     """Return for each step the earlier ones that must end first; PlanError if the plan does not work from `state`."""
-    sets = _read_write_sets(plan.steps, library, state)
+    sets = _read_write_sets(plan.steps, *foresee(library, state))
     predecessors: list[frozenset[int]] = []
     for late in range(len(sets)):
         direct = [early for early in range(late) if sets[early].conflicts(sets[late])]

@@ -10,6 +10,7 @@ from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import Cancelled, cancelling, limit_current
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
+from skillc_runtime.planning.foresight import explain_unsupported, foresee
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
 from skillc_runtime.planning.problem.pose import GoalError, already_holds, pose_problem
@@ -52,6 +53,10 @@ def explain_unreachable(library: SkillLibrary, state: WorldState, goal: Conditio
 def _explain(library: SkillLibrary, state: WorldState, goal: Condition) -> UnreachableGoal | None:
     if already_holds(goal, state):
         return None
+    unsupported = explain_unsupported(goal, state)
+    if unsupported is not None:
+        return UnreachableGoal(unsupported)
+    library, state = foresee(library, state, goal)
     posed = pose_problem(library, state, goal, (), AT_ONCE)
     problem = relax_scene(posed, state) if posed.narrowed else posed.problem
     if problem is None or _is_reachable(problem):

@@ -12,6 +12,7 @@ from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.planning.abstraction.stages import PlanningStages, plan_in_stages
+from skillc_runtime.planning.foresight import explain_unsupported, foresee
 from skillc_runtime.planning.plan import (
     Excluded,
     GaveUp,
@@ -75,6 +76,10 @@ def solve(
         with cancelling(cancel):
             if already_holds(goal, state):
                 return Solved(Plan((), 0.0), "proven", "the world as it is")
+            unsupported = explain_unsupported(goal, state)
+            if unsupported is not None:
+                return GaveUp(unsupported, searched=False)
+            library, state = foresee(library, state, goal)
         with cancelling(cancel):
             return plan_in_stages(PlanningStages(pose, answer, search, explain, cancel), state, size)
     except GoalError as reason:

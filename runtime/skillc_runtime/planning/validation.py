@@ -9,6 +9,7 @@ from skillc_model.conditions import Condition
 from skillc_model.pddl.costs import ASSUMED_SECONDS, find_duration
 from skillc_model.skills import Implementation, Parameter, Requirement, SkillLibrary
 from skillc_rdf.vocabulary.types import ClassType
+from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.problem.initial_state import evaluate_duration_s
 from skillc_runtime.world.eval.conditions import evaluate
@@ -33,6 +34,7 @@ def validate(plan: Plan, library: SkillLibrary, state: WorldState, goal: Conditi
     implementations can start, if its effects violate an axiom, if a postcondition does not hold after it, or if the
     goal does not hold at the end.
     """
+    library, state = foresee(library, state, goal)
     for number, step in enumerate(plan.steps, start=1):
         try:
             state = apply_step(step, library, state)

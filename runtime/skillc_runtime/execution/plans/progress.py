@@ -8,6 +8,7 @@ from typing import TypeAlias
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.plans.plan_body import achieved_condition
+from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, apply_effects, apply_step, check_goal_reached
 from skillc_runtime.recording.node_outcome import NodeOutcome
@@ -44,6 +45,7 @@ def invalidation_reason(
 
     Steps that have begun are expected to have their effects; those that are left must then be able to start in order.
     """
+    library, state = foresee(library, state, goal)
     try:
         for step in begun:
             state = apply_effects(step, library, state)

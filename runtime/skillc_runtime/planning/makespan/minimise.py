@@ -9,6 +9,7 @@ from typing import TypeAlias
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
+from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.makespan.lower_bound import TOLERANCE_S, makespan_lower_bound_s
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
@@ -59,6 +60,7 @@ def minimise_makespan(
     for a shorter one; without a scheduler, or if it fails, the note of the answer has the reason.
     """
     cancel = cancel or CancelToken(DEADLINE_S)
+    library, state = foresee(library, state, goal)
     problem = MakespanProblem(library, state, goal, tuple(without), cancel, report)
     first_part = cancel.share(LEAST_WORK_SHARE)
     least_work = solve(library, state, goal, planners.for_work, first_part, without, report=report)

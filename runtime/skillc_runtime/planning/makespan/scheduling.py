@@ -8,6 +8,7 @@ from typing import assert_never
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries, arrange_plan
+from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.plan import Plan
 from skillc_runtime.planning.schedule import Schedule, TimedStep
 from skillc_runtime.planning.validation import apply_step, compute_step_duration_s
@@ -30,6 +31,7 @@ def schedule_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> Sched
 
 def step_durations_s(plan: Plan, library: SkillLibrary, state: WorldState) -> tuple[Fraction, ...]:
     """Return the expected durations of the steps of a plan in s; PlanError if it does not work from `state`."""
+    library, state = foresee(library, state)
     before, found = state, []
     for step in plan.steps:
         found.append(compute_step_duration_s(step, library, state, before))

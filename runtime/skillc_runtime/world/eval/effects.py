@@ -13,8 +13,13 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 def changes_of(effects: Iterable[Effect], state: WorldState, bindings: Bindings) -> tuple[Change, ...]:
-    """Return the changes of effects; removals come first, so that all assertions hold afterwards."""
-    changes = [change for effect in effects for change in _changes(effect, state, bindings)]
+    """Return the changes of effects; removals come first, so that all assertions hold afterwards.
+
+    Relations that the world computes are not changed: they follow from what is.
+    """
+    computed = state.axioms.computed
+    written = (each for each in effects if isinstance(each, Assign) or each.relation not in computed)
+    changes = [change for effect in written for change in _changes(effect, state, bindings)]
     return tuple(sorted(changes, key=lambda change: not isinstance(change, RemoveRelation)))
 
 

@@ -6,6 +6,7 @@ A hand points along z of its frame, and its fingers close along y. The tool cent
 from __future__ import annotations
 
 from contextlib import suppress
+from dataclasses import replace
 from functools import lru_cache
 from typing import Final, Literal, TypeAlias
 
@@ -15,6 +16,7 @@ from skillc_runtime.world.space.bodies import RigidBody, read_body
 from skillc_runtime.world.space.frame_tree import Unplaced
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.grasp_geometry import (
+    APPROACH_M,
     LEAST_CLEARANCE_M,
     OPENING_CLEARANCES_M,
     UP,
@@ -87,6 +89,25 @@ def grasp_problem(state: WorldState, gripper: str, thing: str) -> GraspError | N
     except GraspError as error:
         return error
     return None
+
+
+def leaves_room(state: WorldState, gripper: str, thing: str, other: str) -> bool | None:
+    """Return whether a gripper that can grasp a thing beside all that is fixed can, too, with another thing there.
+
+    None if it cannot grasp it anyway. FrameError, MissingFact or SheetError if facts are missing.
+    """
+    occupant = tuple(each for each in read_occupants(state) if each.individual == other)
+    try:
+        found = find_grasps(state, gripper, thing)
+        if stated_pose(state, thing, GRASPING_POSE) is not None:
+            hand = read_hand_shape(state, gripper)
+            return any(hand.find_in_the_way(each.tool, each.opening_m, APPROACH_M, occupant) is None for each in found)
+    except GraspError:
+        return None
+    scene = _read_scene(state, gripper, thing, with_movable=False)
+    with suppress(GraspError):
+        return bool(_derive_any(replace(scene, others=(*scene.others, *occupant))))
+    return False
 
 
 def width_between(state: WorldState, gripper: str, thing: str, tool: Pose) -> float | None:
