@@ -93,7 +93,7 @@ WAYS = {
     "part under the table": Way(PLACE, "skillc:on lab:Cell ; skillc:atX 0.5 .", "lab:Part-1 is 60 mm inside lab:Table"),
     "part beside the table": Way("atY -0.3", "atY -0.6", "lab:Part-1 hangs 600 mm over the floor"),
     "part far away": Way(
-        PLACE, "skillc:on lab:Cell ; skillc:atX 3 .", "lab:Part-1 is out of reach of lab:Arm-1 by 2.32 m"
+        PLACE, "skillc:on lab:Cell ; skillc:atX 3 .", "lab:Part-1 is out of reach of lab:Arm-1 by 2.17 m"
     ),
     "part too heavy": Way(WEIGHT, "skiros:Weight 20 ;", "lab:Part-1 weighs 20 kg, and with 80 N and a friction of 0.6"),
     "part slippery": Way(

@@ -1,5 +1,6 @@
 """The shipped arm models have the kinematics and inertia that pinocchio reads from the same files."""
 
+import re
 from itertools import product
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 import skillc_ontology
 
 ROBOTS = Path(skillc_ontology.__file__).parent / "robots"
+GRIPPERS = ROBOTS.parent / "grippers"
 TOTAL_MASS_KG = {"ur5e": 21.7, "iiwa14": 30.61, "panda": 16.691901, "fr3": 17.891401}
 POSTURES = 200
 REACH_AT_ZERO_M = {
@@ -89,3 +91,12 @@ def test_each_link_touches_the_one_that_it_turns_on(robot: str) -> None:
             pairs = product(shapes[body], shapes[above])
             nearest = min(mujoco.mj_geomDistance(model, data, one, other, 1.0, None) for one, other in pairs)
             assert nearest < 0, f"{model.body(body).name} is {1000 * nearest:.0f} mm from {model.body(above).name}"
+
+
+@pytest.mark.parametrize("gripper", sorted(each.stem for each in GRIPPERS.glob("*.xml")))
+def test_the_sheets_of_hands_state_how_far_their_tool_centre_points_are_from_the_flange(gripper: str) -> None:
+    model = mujoco.MjModel.from_xml_path(str(GRIPPERS / f"{gripper}.xml"))
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    (stated,) = re.findall(r"skillc:handLength ([0-9.]+)", (GRIPPERS / f"{gripper}.ttl").read_text())
+    assert data.site("tcp").xpos[2] == pytest.approx(float(stated))

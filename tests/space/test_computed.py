@@ -166,7 +166,7 @@ def test_plans_read_what_no_skill_changes_and_say_by_how_much_it_fails() -> None
     far = BOARD.with_changes(placement_changes(lab("Whiteboard-1"), at(5, 5, 1)))
     result = planned(far, CLEAN)
     assert isinstance(result, Unsolvable)
-    assert "Polish needs arm canReach surface" in result.why and "lab:Ur5e-1 reaches 0.85 m" in result.why
+    assert "Polish needs arm canReach surface" in result.why and "lab:Ur5e-1 reaches 1.00 m" in result.why
 
 
 def test_what_reads_a_relation_that_skills_move_is_left_out_of_planning_with_the_reason() -> None:

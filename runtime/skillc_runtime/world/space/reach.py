@@ -1,4 +1,4 @@
-"""Compares the reach of an arm with the distance of an object from its shoulder."""
+"""Compares the reach of an arm and its hand with the distance of an object from its shoulder."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bounding_boxes import solid_box
 from skillc_runtime.world.space.frame_tree import frame_tree_of
 from skillc_runtime.world.space.oriented_box import CORNERS
-from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
+from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
 from skillc_runtime.world.state.python_calls import InsufficientFacts
-from skillc_runtime.world.state.terms import SURFACE
+from skillc_runtime.world.state.terms import HAND_LENGTH, HAS_GRIPPER, HAS_SHEET, SURFACE
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reach:
-    """How far an arm reaches from its shoulder: in m, and (3,) in m in the world."""
+    """How far an arm reaches from its shoulder with its hand: in m, and (3,) in m in the world."""
 
     arm: str
     reach_m: float
@@ -42,7 +42,13 @@ def read_reach(state: WorldState, arm: str, base: Pose) -> Reach:
         reach_m, height_m = sheet.number("reach"), sheet.number("shoulderHeight")
     except SheetError as error:
         raise InsufficientFacts(str(error)) from error
-    return Reach(arm, reach_m, base.apply(np.array([0.0, 0.0, height_m])))
+    return Reach(arm, reach_m + _hand_length_m(state, arm), base.apply(np.array([0.0, 0.0, height_m])))
+
+
+def _hand_length_m(state: WorldState, arm: str) -> float:
+    """Return how far the tool centre point of the longest hand of an arm is from the flange, in m; 0 if unknown."""
+    sheets = (sheet for hand in state.objects(arm, HAS_GRIPPER) for sheet in state.objects(hand, HAS_SHEET))
+    return max((number_of(state, each, HAND_LENGTH, default=0.0) for each in sheets), default=0.0)
 
 
 def reach_obstacle(state: WorldState, arm: str, base: Pose, thing: str) -> str | None:
@@ -57,8 +63,8 @@ def reach_obstacle(state: WorldState, arm: str, base: Pose, thing: str) -> str |
         return None
     short = state.vocabulary.short
     return (
-        f"{short(arm)} reaches {reach.reach_m:.2f} m from its shoulder, and {short(thing)} is up to {distance_m:.2f} m "
-        "away"
+        f"{short(arm)} reaches {reach.reach_m:.2f} m from its shoulder with its hand, and {short(thing)} is up to "
+        f"{distance_m:.2f} m away"
     )
 
 
