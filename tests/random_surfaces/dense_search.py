@@ -43,7 +43,10 @@ class Frame:
 
 
 def wiping_path(surface: Surface) -> list[Frame]:
-    """Return poses of the tool, STEP_M apart: above the middle, down, along all lanes with circles, and up again."""
+    """Return poses of the tool, STEP_M apart: above the middle, down, along all lanes, and up again.
+
+    Where on its circle the tool is at a point of a lane nobody knows, so it is everywhere on it.
+    """
     first = 0 if surface.size[0] >= surface.size[1] else 1
     along, across = np.eye(3)[first], np.eye(3)[1 - first]
     axes = surface.rotation @ np.column_stack([along, np.cross([0, 0, -1], along), [0, 0, -1]])
@@ -59,9 +62,8 @@ def wiping_path(surface: Surface) -> list[Frame]:
         corners += [aside * across + way * along, aside * across - way * along]
     above = np.array([0.0, 0.0, ABOVE_M])
     points = [above, *_between([above, corners[0], corners[1]])]
-    for number, point in enumerate(_between(corners[1:])):
-        turn = number * pi / 2
-        points.append(point + RADIUS_M * np.array([cos(turn), sin(turn), 0.0]))
+    circle = [RADIUS_M * np.array([cos(turn), sin(turn), 0.0]) for turn in (0.0, pi / 2, pi, 3 * pi / 2)]
+    points += [point + offset for point in _between(corners[1:]) for offset in circle]
     points += _between([corners[-1], above])
     return [Frame(surface.rotation @ each + surface.at, axes) for each in points]
 

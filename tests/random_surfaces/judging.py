@@ -60,7 +60,7 @@ def judge(seed: int, arm: ArmName, folder: Path) -> Verdict:
     problem = find_start_problem(task, SilentReporter())
     if problem is not None:
         return Verdict(seed, arm, "refused", None, problem)
-    said, why = _look(task)
+    said, why = look(task)
     cell = make_ideal_cell(task)
     match said:
         case "yes" | "from another posture":
@@ -86,7 +86,8 @@ def load_surface(surface: Surface, scene: Path) -> LoadedTask:
     return LoadedTask(library, assignment, WorldModel(state), str(scene))
 
 
-def _look(task: LoadedTask) -> tuple[Said, str]:
+def look(task: LoadedTask) -> tuple[Said, str]:
+    """Return what a look says of a task, and why."""
     cancel, planners = CancelToken(LIMIT_S), prepare_planners(False)
     state = task.assignment.state
     answer, found = plan_in_space(

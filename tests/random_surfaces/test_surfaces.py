@@ -12,7 +12,7 @@ from random_cells.drawing import ArmName
 from random_surfaces.__main__ import format_table, share_that_is_so
 from random_surfaces.dense_search import RADIUS_M, STEP_M, DenseSearch, wiping_path
 from random_surfaces.drawing import ARM_NAMES, Surface, draw_surface, format_scene
-from random_surfaces.judging import Verdict, judge, load_surface, make_ideal_cell
+from random_surfaces.judging import Verdict, judge, load_surface, look, make_ideal_cell
 
 
 def search(surface: Surface, folder: Path) -> np.ndarray | None:
@@ -60,6 +60,19 @@ def test_the_table_counts_what_is_so() -> None:
 def test_what_is_said_of_wiping_a_surface_is_so(seed: int, arm: ArmName, said: str, tmp_path: Path) -> None:
     verdict = judge(seed, arm, tmp_path)
     assert (verdict.said, verdict.is_so) == (said, True), verdict.why
+
+
+@pytest.mark.slow
+def test_postures_are_looked_at_that_a_run_does_not_try(tmp_path: Path) -> None:
+    """The ninth is the first from which this surface can be wiped."""
+    task = load_surface(draw_surface(46, "panda"), tmp_path / "cell.ttl")
+    assert look(task) == ("from another posture", "")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("seed", "arm"), [(6, "ur5e"), (30, "ur5e")])
+def test_the_hand_counts_in_what_an_arm_reaches(seed: int, arm: ArmName, tmp_path: Path) -> None:
+    assert look(load_surface(draw_surface(seed, arm), tmp_path / "cell.ttl")) == ("yes", "")
 
 
 @pytest.mark.slow

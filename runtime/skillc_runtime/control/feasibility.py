@@ -18,7 +18,8 @@ SAMPLE_S, MAX_SAMPLES = 0.05, 150
 """Time between samples of a motion, and their greatest number."""
 
 STEPS, MOST_STEPS = 3, 30
-"""Steps of inverse kinematics at each sample, from the solution of the sample before: at least, and while it is far.
+"""Steps of inverse kinematics at each sample, from the solution of the sample before; the greater number if few do not
+bring the tool near.
 
 More are needed where a tool that is pressed starts: its reference may be several cm from it, in the air.
 """
@@ -89,13 +90,17 @@ def check_overlay_feasible(arm: VirtualArm, overlay: Overlay, axes: Array, limit
 
 def _track(arm: VirtualArm, target: Pose, q: Array, first: Array) -> tuple[Array, Array]:
     """Return joints (nv,) in rad after steps from q towards a target pose of the tool; and its error (6,) in m, rad."""
+    few: tuple[Array, Array] | None = None
     error = _find_error(arm, target, q)
     for number in range(1, MOST_STEPS + 1):
         q = q + step_towards(arm.jacobian, error, PULL * (first - q))
         error = _find_error(arm, target, q)
         if number >= STEPS and _is_near(error):
-            break
-    return q, error
+            return q, error
+        if number == STEPS:
+            few = q, error
+    assert few is not None, "there are more steps than STEPS"
+    return few
 
 
 def _find_error(arm: VirtualArm, target: Pose, q: Array) -> Array:

@@ -44,6 +44,9 @@ Outcome: TypeAlias = Situation | SpaceFailure
 SAMPLE_M = 0.02
 """The distance of poses along a path of the tool that are looked at."""
 
+LOOKED_AT = 24
+"""How many postures of a pose are looked at; a run tries the first MOST_POSTURES."""
+
 LOWERED_M = 0.03
 """How far a thing is lowered at most until it stands on something."""
 
@@ -81,8 +84,8 @@ def _reach(view: ArmView, tool: Pose, here: Situation) -> Iterator[Outcome]:
     if not len(found):
         yield SpaceFailure("out-of-reach", f"no posture of {_name(view, here)} brings its tool to {_place(tool)}")
     chosen = False
-    for q in found[:MOST_POSTURES]:
-        after = _take(view, q, here, tool, chosen)
+    for number, q in enumerate(found[:LOOKED_AT]):
+        after = _take(view, q, here, tool, chosen or number >= MOST_POSTURES)
         yield after
         chosen |= isinstance(after, Situation)
 
