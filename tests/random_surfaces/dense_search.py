@@ -15,6 +15,7 @@ import mujoco
 import numpy as np
 
 from random_surfaces.drawing import GRASP_M, TOOL_M, Surface
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.motion.pose import Array, log
 
 STARTS = 200
@@ -76,10 +77,11 @@ def _between(corners: list[Array]) -> Iterator[Array]:
 
 
 class DenseSearch:
-    """A search in a simulated model with one arm, whose hand holds the eraser at the grasping pose of the scene."""
+    """A search in the model of a cell with one arm at home, whose hand is to hold the eraser at its grasping pose."""
 
-    def __init__(self, model: Any, surface: Surface) -> None:
-        self.model, self.data, self.surface = model, mujoco.MjData(model), surface
+    def __init__(self, cell: SimulatedCell, surface: Surface) -> None:
+        self.model = model = cell.model
+        self.data, self.surface = mujoco.MjData(model), surface
         named = [model.joint(each) for each in range(model.njnt)]
         arm = [each for each in named if each.name.startswith("lab:Arm-1/")]
         self.q_at = np.array([each.qposadr[0] for each in arm])
@@ -92,10 +94,13 @@ class DenseSearch:
         self.tool_m = GRASP_M + TOOL_M[2] / 2
         held = radians(surface.held_deg)
         self.held = np.array([[cos(held), -sin(held), 0.0], [sin(held), cos(held), 0.0], [0.0, 0.0, 1.0]])
+        self.home = cell.data.qpos[self.q_at].copy()
         self.rng = np.random.default_rng(0)
 
     def solves(self, starts: int = STARTS) -> Array | None:
         """Return a posture (nv,) in rad above the surface from which all of it can be wiped; None if none is found."""
+        if not self._carries_home():
+            return None
         path, tried = wiping_path(self.surface), list[Array]()
         low, high = self._start_range()
         for _ in range(starts):
@@ -108,6 +113,26 @@ class DenseSearch:
             if self._is_free(q, fingers=True) and self._follows(q, path):
                 return q
         return None
+
+    def _carries_home(self) -> bool:
+        """Whether the arm can hold the eraser at home, where it begins, and whereto it takes it."""
+        model, data = self.model, self.data
+        data.qpos[self.q_at] = self.home
+        mujoco.mj_kinematics(model, data)
+        axes = data.site_xmat[self.site].reshape(3, 3)
+        data.qpos[self.eraser : self.eraser + 3] = data.site_xpos[self.site] + GRASP_M * axes[:, 2]
+        turned = (axes @ self.held @ np.diag([1.0, -1.0, -1.0])).ravel()
+        mujoco.mju_mat2Quat(data.qpos[self.eraser + 3 : self.eraser + 7], turned)
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_collision(model, data)
+        return not any(self._is_of_eraser(contact) for contact in data.contact[: data.ncon])
+
+    def _is_of_eraser(self, contact: Any) -> bool:
+        """Whether a contact is of the eraser with something else than a hand, and deep."""
+        bodies = [self.model.body(self.model.geom_bodyid[each]).name for each in contact.geom]
+        of_eraser = [each.startswith("lab:Eraser-1/") for each in bodies]
+        of_hand = any(each.startswith("lab:Hand-1/") for each in bodies)
+        return contact.dist < -DEEP_M and any(of_eraser) and not all(of_eraser) and not of_hand
 
     def _start_range(self) -> tuple[Array, Array]:
         room = np.minimum(ROOM_RAD, 0.1 * (self.range[:, 1] - self.range[:, 0]))

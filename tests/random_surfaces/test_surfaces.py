@@ -8,15 +8,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from judged_looks.looking import look, make_ideal_cell
+from judged_looks.verdict import Verdict, format_table, share_that_is_so
 from random_cells.drawing import ArmName
-from random_surfaces.__main__ import format_table, share_that_is_so
 from random_surfaces.dense_search import RADIUS_M, STEP_M, DenseSearch, wiping_path
 from random_surfaces.drawing import ARM_NAMES, Surface, draw_surface, format_scene
-from random_surfaces.judging import Verdict, judge, load_surface, look, make_ideal_cell
+from random_surfaces.judging import judge, load_surface
 
 
 def search(surface: Surface, folder: Path) -> np.ndarray | None:
-    return DenseSearch(make_ideal_cell(load_surface(surface, folder / "cell.ttl")).model, surface).solves()
+    return DenseSearch(make_ideal_cell(load_surface(surface, folder / "cell.ttl")), surface).solves()
 
 
 def test_a_seed_draws_the_same_surface_again_and_all_are_different() -> None:
