@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from random import Random
 
@@ -9,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plans.depot import goal, library, world
+from plans.depot import goal, iri, library, world
 from skillc_runtime.planning.arrangement import (
     Arrangement,
     InParallel,
@@ -18,9 +19,13 @@ from skillc_runtime.planning.arrangement import (
     arrange_plan,
     step_numbers,
 )
-from skillc_runtime.planning.plan import Plan, Solved
+from skillc_runtime.planning.makespan.scheduling import schedule_plan
+from skillc_runtime.planning.plan import Plan, Solved, Step
+from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.separation import keep_apart
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import validate
+from skillc_runtime.world.state.world_state import WorldState
 
 PAIRS = st.integers(2, 9).flatmap(
     lambda count: st.tuples(st.just(count), st.sets(st.sampled_from([(a, b) for b in range(count) for a in range(b)])))
@@ -73,6 +78,44 @@ def a_sequence(arrangement: Arrangement, random: Random) -> list[int]:
     while any(parts):
         merged.append(random.choice([part for part in parts if part]).pop(0))
     return merged
+
+
+def side_by_side() -> tuple[Plan, WorldState]:
+    """Two robots, each of which loads and unloads a crate, and the world in which they can."""
+    state = world({"carl": "a", "dora": "b"}, {"crate": "a", "box": "b"})
+    steps = [
+        Step(skill, {"robot": iri(robot), "crate": iri(crate), key: iri(place)})
+        for robot, crate, place in (("carl", "crate", "a"), ("dora", "box", "b"))
+        for skill, key in (("Load", "from"), ("Unload", "to"))
+    ]
+    return Plan(tuple(steps), 8.0), state
+
+
+def test_steps_that_a_plan_keeps_apart_are_in_series() -> None:
+    plan, state = side_by_side()
+    assert in_order(arrange_plan(plan, library(), state)) == {(0, 1), (2, 3)}
+    apart = replace(plan, apart=frozenset({(1, 2)}))
+    assert in_order(arrange_plan(apart, library(), state)) >= {(0, 1), (1, 2), (2, 3), (0, 3)}
+
+
+def test_what_is_left_of_a_plan_is_kept_apart_as_before() -> None:
+    plan, _ = side_by_side()
+    plan = replace(plan, apart=frozenset({(0, 2), (1, 2), (1, 3)}))
+    first, second, third, fourth = plan.steps
+    assert plan.keep(plan.steps) == plan
+    assert plan.keep((second, third, fourth)).apart == {(0, 1), (0, 2)}
+    assert plan.keep((third, first)).apart == {(0, 1)}
+    assert plan.keep((first, fourth)).apart == frozenset()
+
+
+def test_a_schedule_that_gets_longer_by_it_is_not_proved_any_more() -> None:
+    plan, state = side_by_side()
+    schedule = schedule_plan(plan, library(), state)
+    answer = Scheduled(schedule, plan, "proven", "somebody", "they follow")
+    assert keep_apart(answer, (), library(), state) is answer
+    later = keep_apart(answer, {(1, 2)}, library(), state)
+    assert (later.schedule.makespan_s, later.optimal, later.at_least_s) == (8.0, "best found", 4.0)
+    assert later.as_solved().plan.apart == {(1, 2)}
 
 
 @pytest.mark.slow

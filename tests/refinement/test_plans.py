@@ -33,6 +33,7 @@ def test_shipped_plans_are_checked_whole(task):
         "checked": len(answer["plan"]),
         "steps": len(answer["plan"]),
         "unseen": [],
+        "apart": [],
         "failure": None,
         "stopped": "",
         "from_home": True,

@@ -11,6 +11,7 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.plan import Excluded, GaveUp, Unsolvable
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.progress import ReportProgress
+from skillc_runtime.planning.separation import keep_apart
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.terms import ARM_DEVICE
 
@@ -35,4 +36,5 @@ def plan_goal_in_space(
     answer, found = plan_in_space(loaded.library, loaded.assignment.state, plan, cancel)
     if found is None or isinstance(answer, Unsolvable | GaveUp):
         return answer, None
-    return answer, make_claim(found, len(answer.plan.steps))
+    claim = make_claim(found, len(answer.plan.steps))
+    return keep_apart(answer, claim.apart_pairs, loaded.library, loaded.assignment.state), claim

@@ -53,7 +53,7 @@ class CollisionModel:
         return self.margin + SEEN_BEYOND_M
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)
 def build_collision_model(assembly: ArmAssembly, scenery: Scenery) -> CollisionModel:
     """Return the model; ValueError if the model of an arm has no site `flange`, or that of a gripper no site `tcp`."""
     spec, arm = mujoco.MjSpec(), _moving_model(assembly.model)

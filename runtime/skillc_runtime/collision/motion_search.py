@@ -28,11 +28,12 @@ BLEND_SHARES = (1.0, 0.5, 0.25)
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
-    """An arm with what it holds, the scenery, and the arm's posture (nv,) `home` in rad."""
+    """An arm with what it holds, the scenery, the arm's posture (nv,) `home` in rad, and the parts of other arms."""
 
     assembly: ArmAssembly
     scenery: Scenery
     home: Numbers
+    arms: tuple[SolidObstacle, ...] = ()
 
     @property
     def obstacles(self) -> tuple[Scenery, tuple[SolidObstacle, ...]]:
@@ -41,7 +42,9 @@ class Surroundings:
 
     def make_checker(self) -> CollisionChecker:
         """Return a checker; the model of equal surroundings is built once in a process."""
-        return CollisionChecker(build_collision_model(self.assembly, self.scenery), np.array(self.home))
+        return CollisionChecker(
+            build_collision_model(self.assembly, self.scenery.with_blocks(self.arms)), np.array(self.home)
+        )
 
 
 class JointGoals(Protocol):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -70,6 +70,10 @@ class Scenery:
     floor: PoseKey
     blocks: tuple[SolidObstacle, ...]
     modelled: tuple[ModelObstacle, ...]
+
+    def with_blocks(self, more: tuple[SolidObstacle, ...]) -> Scenery:
+        """Return the scenery with more obstacles."""
+        return replace(self, blocks=(*self.blocks, *more)) if more else self
 
 
 def pose_key(pose: Pose) -> PoseKey:

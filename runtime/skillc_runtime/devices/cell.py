@@ -11,6 +11,7 @@ from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.sensors import Button, Camera, IoPoint
 
 if TYPE_CHECKING:
+    from skillc_runtime.motion.pose import Array
     from skillc_runtime.world.state.model import WorldModel
 
 
@@ -50,6 +51,13 @@ class Cell(Protocol):
 
     def arm(self, individual: str) -> ArmDriver:
         """Return an arm's driver; KeyError if the cell has no such arm."""
+        ...
+
+    def find_standing_joints(self, individual: str) -> Array | None:
+        """Return at which joints (nv,) in rad an arm stands, whoever controls it; None while it moves.
+
+        KeyError if the cell has no such arm.
+        """
         ...
 
     def gripper(self, individual: str) -> Gripper:

@@ -20,6 +20,7 @@ from skillc_runtime.planning.plan import Excluded, GaveUp, PlanResult, Solved, S
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.separation import keep_apart
 from skillc_runtime.planning.solve import DEADLINE_S, solve
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.world_state import WorldState
@@ -168,16 +169,18 @@ class _Search:
 def _prepare_plan(
     assignment: Assignment, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Step], search: _Search
 ) -> PreparedTask | NotStarted:
-    def plan(more: Sequence[Excluded]) -> PlanResult:
+    def plan(more: Sequence[Excluded]) -> PlanResult | Scheduled:
         return _plan(assignment.state, objective, library, (*without, *more), search)
 
     if search.look is None:
         result, space = plan(()), None
     else:
         result, space = plan_for_run(library, assignment.state, plan, search.look, search.cancel)
-    if not isinstance(result, Solved):
+    if isinstance(result, Unsolvable | GaveUp):
         return _refuse(result)
-    return arrange_prepared(assignment, result, library, space)
+    apart = keep_apart(result, space.apart_pairs if space is not None else (), library, assignment.state)
+    solved = apart.as_solved() if isinstance(apart, Scheduled) else apart
+    return arrange_prepared(assignment, solved, library, space)
 
 
 def _refuse(answer: Unsolvable | GaveUp) -> NotStarted:
@@ -190,7 +193,7 @@ def _refuse(answer: Unsolvable | GaveUp) -> NotStarted:
 
 def _plan(
     state: WorldState, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Excluded], search: _Search
-) -> PlanResult:
+) -> PlanResult | Scheduled:
     planners, cancel, report = search.planners, search.cancel, search.report
     match objective.minimise:
         case "work":
@@ -199,7 +202,6 @@ def _plan(
             # It is slow to import, and few goals minimise the makespan.
             from skillc_runtime.planning.makespan.minimise import minimise_makespan
 
-            result = minimise_makespan(library, state, objective.goal, planners, cancel, without, report)
-            return result.as_solved() if isinstance(result, Scheduled) else result
+            return minimise_makespan(library, state, objective.goal, planners, cancel, without, report)
         case _:
             assert_never(objective.minimise)

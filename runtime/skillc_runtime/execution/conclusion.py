@@ -12,7 +12,7 @@ from skillc_runtime.execution.attempt import AttemptResult
 from skillc_runtime.execution.plans.doubts import find_doubt
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.success_facts import collect_success_facts
-from skillc_runtime.planning.plan import Plan, Step
+from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, compute_effects
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
@@ -143,7 +143,7 @@ def _prepare_steps(
     """Return some steps of the plan as a body; PlanError if they are not possible."""
     assert last.prepared.planned is not None, "steps come from a plan"
     solved, space = last.prepared.planned.solved, last.prepared.planned.space
-    rest = replace(solved, plan=Plan(steps, solved.plan.duration_s))
+    rest = replace(solved, plan=solved.plan.keep(steps))
     if space is not None:
         space = SpaceClaim(checked=0, steps=len(steps), stopped="it goes on after a failure", postures=space.postures)
     return arrange_prepared(replace(last.prepared.assignment, state=state), rest, library, space)

@@ -10,7 +10,7 @@ from skillc_runtime.execution.assignment import Assignment, ExecuteBody, Prepare
 from skillc_runtime.execution.plans.plan_body import achieved_condition
 from skillc_runtime.execution.remainder import BodyRemainder, PlanRemainder
 from skillc_runtime.execution.selection.preflight import preflight
-from skillc_runtime.planning.plan import Plan, Step
+from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, apply_step, compute_effects
 from skillc_runtime.recording.states import Decision
 from skillc_runtime.world.eval.conditions import evaluate
@@ -81,7 +81,7 @@ def _arrange(
 ) -> PreparedTask:
     """Return the steps that would not be skipped as a task that can start; PlanError if it cannot."""
     kept = _drop_achieved(steps, library, assignment.state)
-    solved = replace(left.solved, plan=Plan(kept, left.solved.plan.duration_s))
+    solved = replace(left.solved, plan=left.solved.plan.keep(kept))
     return _check(arrange_prepared(assignment, solved, library), library)
 
 

@@ -60,7 +60,8 @@ def _read_plan(events: Sequence[Event]) -> PlanRemainder:
         else:
             left[begun[_name(step)] > 0].append(step)
             begun[_name(step)] -= 1
-    solved = Solved(Plan(steps, made.cost), cast(Optimal, made.optimal), made.planner)
+    apart = made.space.apart_pairs if made.space is not None else frozenset[tuple[int, int]]()
+    solved = Solved(Plan(steps, made.cost, apart), cast(Optimal, made.optimal), made.planner)
     return PlanRemainder(solved, tuple(left[True]), tuple(left[False]))
 
 

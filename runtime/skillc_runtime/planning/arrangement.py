@@ -40,7 +40,8 @@ def arrange_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> Arrang
 
     A step waits for an earlier one that changes what it reads, reads what it changes, settles the same facts or locks
     the same device: a partial order in which every sequence of the steps has the same effect (Bäckström 1998, block
-    deordering without blocks). PlanError if the plan does not work from `state`.
+    deordering without blocks). Steps that the plan keeps apart are in series, too. PlanError if the plan does not work
+    from `state`.
     """
     predecessors = find_predecessors(plan, library, state)
     return arrange_partial_order(range(len(predecessors)), lambda one, other: one in predecessors[other])
@@ -51,7 +52,7 @@ def find_predecessors(plan: Plan, library: SkillLibrary, state: WorldState) -> t
     sets = _read_write_sets(plan.steps, *foresee(library, state))
     predecessors: list[frozenset[int]] = []
     for late in range(len(sets)):
-        direct = [early for early in range(late) if sets[early].conflicts(sets[late])]
+        direct = [each for each in range(late) if (each, late) in plan.apart or sets[each].conflicts(sets[late])]
         predecessors.append(frozenset(direct).union(*(predecessors[each] for each in direct)))
     return tuple(predecessors)
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Literal, Protocol, TypeAlias, assert_never
 
 from skillc_model.conditions import Condition
@@ -35,10 +36,26 @@ Excluded: TypeAlias = Step | StepWhile
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Steps in order, and their expected duration in seconds."""
+    """Steps in order, and their expected duration in seconds.
+
+    `apart` are pairs of steps, by index, the earlier one first, that may not run at the same time, whatever the facts
+    say.
+    """
 
     steps: tuple[Step, ...]
     duration_s: float
+    apart: frozenset[tuple[int, int]] = frozenset()
+
+    def keep(self, steps: Iterable[Step]) -> Plan:
+        """Return a plan of some of these steps, in any order, of which the same may not run at the same time."""
+        left, kept = list(enumerate(self.steps)), list[tuple[int, Step]]()
+        for step in steps:
+            place = next(each for each in left if each[1] == step)
+            left.remove(place)
+            kept.append(place)
+        pairs = combinations(range(len(kept)), 2)
+        apart = (pair for pair in pairs if tuple(sorted(kept[each][0] for each in pair)) in self.apart)
+        return Plan(tuple(step for _, step in kept), self.duration_s, frozenset(apart))
 
 
 Optimal: TypeAlias = Literal[

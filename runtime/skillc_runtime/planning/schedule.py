@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, Protocol
 
 from skillc_model.pddl.problem import Problem
@@ -59,7 +59,7 @@ class Scheduled:
 
     def as_solved(self) -> Solved:
         """Return it as a plan whose duration is the makespan of the schedule."""
-        plan = Plan(self.plan.steps, self.schedule.makespan_s)
+        plan = replace(self.plan, duration_s=self.schedule.makespan_s)
         return Solved(plan, self.optimal, self.planner, self.left_out, self.at_least_s, self.assumptions)
 
 

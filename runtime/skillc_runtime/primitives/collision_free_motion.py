@@ -1,11 +1,13 @@
 """Moves an arm around the obstacles in the world model, or its tool along a path on which only the tool may touch any.
 
-The motion is looked for beside the ticks, while the arm holds; again if the arm, or what is around it, was moved.
+Other arms that stand still are obstacles, too; plans keep those apart that move at the same time. The motion is looked
+for beside the ticks, while the arm holds; again if the arm, or what is around it, was moved.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +16,7 @@ import numpy as np
 from skillc_runtime.collision.arm_assembly import read_arm_assembly
 from skillc_runtime.collision.collision_checker import Collision
 from skillc_runtime.collision.motion_search import JointGoals, Surroundings, find_joint_motion, find_tool_motion
+from skillc_runtime.collision.other_arms import read_other_arms
 from skillc_runtime.collision.path_planning import JointSpace, NoPath
 from skillc_runtime.collision.scenery import read_scenery
 from skillc_runtime.devices.arm_driver import Infeasible
@@ -25,7 +28,7 @@ from skillc_runtime.primitives.primitive import SkillFailure, SpaceLacking
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
-from skillc_runtime.world.state.terms import HAS_GRIPPER, MANIPULATABLE
+from skillc_runtime.world.state.terms import ARM_DEVICE, HAS_GRIPPER, MANIPULATABLE
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.arm_driver import ArmDriver
@@ -40,6 +43,9 @@ SETTLING_TICKS = 150
 
 SAME_M, SAME_RAD = 5e-4, 5e-4
 """How far from where a motion was to start an arm may be and still follow it."""
+
+STANDING_RAD = 0.01
+"""An arm whose joints are all nearer than this to where they were stands where it stood."""
 
 LIMIT_S = 120.0
 """How long a search may take, in s of wall time, on a machine that does much else: it ends after so many looks."""
@@ -97,11 +103,15 @@ def move_tool_along(cell: Cell, arm: str, make: Callable[[], Trajectory]) -> Com
 
 @dataclass(frozen=True, slots=True)
 class _Seen:
-    """What was around an arm in a version of the world; `around` is None if a model or a pose is missing."""
+    """What was around an arm in a version of the world; `around` is None if a model or a pose is missing.
+
+    standing: the joints (nv,) in rad of other arms that stood still.
+    """
 
     state: WorldState
     arm: str
     around: Surroundings | None
+    standing: Mapping[str, tuple[float, ...]]
 
     @property
     def movable(self) -> frozenset[str]:
@@ -117,6 +127,8 @@ class _Seen:
 
     def is_current(self, cell: Cell) -> bool:
         """Whether nothing around the arm, or in its hand, has changed since; fingers may have moved."""
+        if not self._knows(_find_standing(cell, self.state, self.arm)):
+            return False
         if cell.world.snapshot() is self.state:
             return True
         now = _look_around(cell, self.arm).around
@@ -124,17 +136,36 @@ class _Seen:
             return now is self.around
         return now.obstacles == self.around.obstacles
 
+    def _knows(self, standing: Mapping[str, tuple[float, ...]]) -> bool:
+        """Whether arms stand where they stood, as far as they stand now."""
+        return all(
+            other in self.standing and np.abs(np.subtract(self.standing[other], q)).max() < STANDING_RAD
+            for other, q in standing.items()
+        )
+
 
 def _look_around(cell: Cell, arm: str) -> _Seen:
     """Return what an arm can collide with."""
     state = cell.world.snapshot()
     openings = {each: cell.gripper(each).opening_m for each in state.objects(arm, HAS_GRIPPER)}
+    standing = _find_standing(cell, state, arm)
     try:
-        home = tuple(sheet_of(state, arm).posture("home").tolist())
-        scenery = read_scenery(state, pose(state, arm))
-        return _Seen(state, arm, Surroundings(read_arm_assembly(state, arm, openings), scenery, home))
+        home, base = tuple(sheet_of(state, arm).posture("home").tolist()), pose(state, arm)
+        assembly, scenery = read_arm_assembly(state, arm, openings), read_scenery(state, base)
+        others = read_other_arms(state, arm, base, {each: np.array(q) for each, q in standing.items()}, {})
+        return _Seen(state, arm, Surroundings(assembly, scenery, home, others), standing)
     except (SheetError, FrameError):
-        return _Seen(state, arm, None)
+        return _Seen(state, arm, None, standing)
+
+
+def _find_standing(cell: Cell, state: WorldState, arm: str) -> dict[str, tuple[float, ...]]:
+    """Return the joints (nv,) in rad, rounded, of all other arms of the cell that stand still."""
+    found = dict[str, tuple[float, ...]]()
+    for other in sorted(state.instances(ARM_DEVICE) - {arm}):
+        with suppress(KeyError):
+            if (q := cell.find_standing_joints(other)) is not None:
+                found[other] = tuple(np.round(q, 3).tolist())
+    return found
 
 
 def _come_to_rest(cell: Cell, arm: str) -> ArmDriver:

@@ -23,21 +23,36 @@ class ChosenPosture(msgspec.Struct, frozen=True):
     tool: LabelledPose
 
 
+class StepsApart(msgspec.Struct, frozen=True):
+    """Two steps of a plan, from 1, that do not run at the same time: these arms of theirs would come into one place."""
+
+    one: int
+    other: int
+    arms: tuple[str, str]
+
+
 class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
     """How many steps of a plan go in space, of how many, and why the next does not; None if it does or is not known.
 
     unseen: the calls in these steps that were not looked at. postures: those in which arms bring their tools to poses,
-    in the order of the steps, which a run takes as well. stopped: why the look ended before it was through; empty if it
-    was. from_home: whether the arms begin at home; else where they were when the plan was made.
+    in the order of the steps, which a run takes as well. apart: the steps that do not run at the same time, since arms
+    would meet. stopped: why the look ended before it was through; empty if it was. from_home: whether the arms begin at
+    home; else where they were when the plan was made.
     """
 
     checked: int
     steps: int
     unseen: tuple[UnseenCall, ...] = ()
     postures: tuple[ChosenPosture, ...] = ()
+    apart: tuple[StepsApart, ...] = ()
     failure: str | None = None
     stopped: str = ""
     from_home: bool = True
+
+    @property
+    def apart_pairs(self) -> frozenset[tuple[int, int]]:
+        """The steps that do not run at the same time, by index, the earlier one first."""
+        return frozenset((each.one - 1, each.other - 1) for each in self.apart)
 
     @property
     def summary(self) -> str:
@@ -55,6 +70,10 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
         begin = "at home" if self.from_home else "where they are"
         lines = [f"{self.summary}: reach, joints, torques, paths, room; the arms begin {begin}"]
         lines += (f"step {each.step}: nobody says what {each.what} needs of space" for each in self.unseen)
+        lines += (
+            f"steps {each.one} and {each.other} do not run at the same time: {' and '.join(each.arms)} would meet"
+            for each in self.apart
+        )
         if self.failure is not None:
             lines.append(f"step {self.checked + 1} does not go: {self.failure}")
         return "\n".join(lines)

@@ -23,6 +23,7 @@ from skillc_runtime.devices.capabilities import BackendCapabilities, LockStep
 from skillc_runtime.devices.cell import Cell, Watchdog
 from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.sensors import Button, Camera, IoPoint
+from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.model import WorldModel
 
 CATCH_UP_S = 0.1
@@ -112,6 +113,11 @@ class RealTimeCell:
     def arm(self, individual: str) -> ArmDriver:
         """Return an arm's driver; KeyError if the cell has no such arm."""
         return locked(self._simulated.arm(individual), self._turn, DRIVER_PARTS)
+
+    def find_standing_joints(self, individual: str) -> Array | None:
+        """Return at which joints (nv,) in rad an arm stands; None while it moves."""
+        with self._turn:
+            return self._simulated.find_standing_joints(individual)
 
     def gripper(self, individual: str) -> Gripper:
         """Return a gripper; KeyError if the cell has no such gripper."""

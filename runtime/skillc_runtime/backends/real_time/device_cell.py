@@ -23,6 +23,7 @@ from skillc_runtime.devices.gripper import Gripper
 from skillc_runtime.devices.live import LiveSignals
 from skillc_runtime.devices.observed import CellObserver
 from skillc_runtime.devices.sensors import Button, Camera, IoPoint
+from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.model import WorldModel
 
 LOOK_S = 0.02
@@ -153,6 +154,12 @@ class DeviceCell(Backend, Cell):
     def arm(self, individual: str) -> ArmDriver:
         """Return an arm's driver; KeyError if the cell has no such arm."""
         return locked(self._arms[individual], self._turn, DRIVER_PARTS)
+
+    def find_standing_joints(self, individual: str) -> Array | None:
+        """Return at which joints (nv,) in rad an arm stands; None while it moves."""
+        with self._turn:
+            motion = self._arms[individual].motion
+            return motion.stopping_joints() if motion.done else None
 
     def gripper(self, individual: str) -> Gripper:
         """Return a gripper; KeyError if the cell has no such gripper."""

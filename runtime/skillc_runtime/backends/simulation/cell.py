@@ -178,6 +178,11 @@ class ModelledCell(ABC, Generic[A, G]):
         """Return an arm's driver; KeyError if the cell has no such arm."""
         return self._drivers[individual]
 
+    def find_standing_joints(self, individual: str) -> Array | None:
+        """Return at which joints (nv,) in rad an arm stands; None while it moves."""
+        motion = self._drivers[individual].motion
+        return motion.stopping_joints() if motion.done else None
+
     def gripper(self, individual: str) -> G:
         """Return a gripper; KeyError if the cell has no such gripper."""
         return self._grippers[individual]

@@ -83,8 +83,9 @@ def record_plan(
 
 def restore_plan(recorded: ArrivedPlan) -> Solved:
     """Return a plan from a recording; it describes itself as before, but names no members of what was left out."""
+    apart = recorded.space.apart_pairs if recorded.space is not None else frozenset[tuple[int, int]]()
     return Solved(
-        plan=Plan(restore_steps(recorded.steps), recorded.duration_s),
+        plan=Plan(restore_steps(recorded.steps), recorded.duration_s, apart),
         optimal=cast(Optimal, recorded.optimal),
         planner=recorded.planner,
         left_out=tuple(LeftOut((), each.why, each.harmless, each.kind) for each in recorded.left_out),

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 import mujoco
 import numpy as np
 
-from skillc_runtime.collision.arm_assembly import read_arm_assembly
+from skillc_runtime.collision.arm_assembly import ArmAssembly, read_arm_assembly
 from skillc_runtime.collision.collision_checker import CollisionChecker
 from skillc_runtime.collision.collision_model import ARM, HAND, build_collision_model
+from skillc_runtime.collision.other_arms import read_other_arms
 from skillc_runtime.collision.path_planning import JointSpace
 from skillc_runtime.collision.scenery import read_scenery
-from skillc_runtime.execution.refinement.situation import Situation
+from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation
 from skillc_runtime.kinematics.chain import Chain, read_chain
 from skillc_runtime.kinematics.sweep import JointLoad
 from skillc_runtime.motion.pose import Array, Pose
@@ -47,11 +49,18 @@ class ArmView:
     q: Array
     checker: CollisionChecker
     movable: frozenset[str]
+    assembly: ArmAssembly
 
     @property
     def tool(self) -> Pose:
         """Where its tool is in the world."""
         return self.base @ self.chain.place_tool(self.q)
+
+    def move(
+        self, postures: Sequence[Array], along: bool, tool: Pose | None = None, chosen: bool = False
+    ) -> RefinedMotion:
+        """Return its motion from where it is through postures (nv,) in rad; `tool`, `chosen`: as in `RefinedMotion`."""
+        return RefinedMotion(self.arm, self.q, tuple(postures), self.base, self.assembly, along, tool, chosen)
 
     def load(self, force: Array) -> JointLoad:
         """Return what its joints bear while the tool exerts a force (3,) in N in the world."""
@@ -65,7 +74,8 @@ def view_arm(here: Situation, arm: str) -> ArmView:
     if arm not in here.postures:
         raise SheetError(f"{state.vocabulary.short(arm)} has no posture `home`")
     assembly = read_arm_assembly(state, arm, dict(here.openings))
-    model = build_collision_model(assembly, read_scenery(state, base))
+    others = read_other_arms(state, arm, base, here.postures, here.openings)
+    model = build_collision_model(assembly, read_scenery(state, base).with_blocks(others))
     sheet = sheet_of(state, arm)
     chain = read_chain(model.compiled, f"{ARM}flange" if assembly.hand is None else f"{HAND}tcp")
     held = _held_tool(state, arm)
@@ -84,6 +94,7 @@ def view_arm(here: Situation, arm: str) -> ArmView:
         home=home,
         q=np.asarray(here.postures[arm], dtype=float),
         checker=CollisionChecker(model, home),
+        assembly=assembly,
         movable=frozenset(map(state.vocabulary.short, state.instances(MANIPULATABLE))),
     )
 

@@ -12,7 +12,7 @@ from skillc_runtime.collision.collision_checker import Collision
 from skillc_runtime.collision.path_planning import NoPath, plan_joint_path
 from skillc_runtime.execution.refinement.arm_view import ArmView, view_arm
 from skillc_runtime.execution.refinement.failure import SpaceFailure
-from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation
+from skillc_runtime.execution.refinement.situation import Situation
 from skillc_runtime.kinematics.inverse import rank_postures
 from skillc_runtime.kinematics.sweep import (
     ERROR_M,
@@ -100,7 +100,7 @@ def _take(view: ArmView, q: Array, here: Situation, tool: Pose | None = None, ch
     except NoPath as why:
         touch = view.checker.find_collision(q)
         return SpaceFailure("no-path" if touch is None else "in-the-way", str(why))
-    return here.with_motion(RefinedMotion(view.arm, way, along=False, tool=tool, chosen=chosen))
+    return here.with_motion(view.move(way, along=False, tool=tool, chosen=chosen))
 
 
 def _follow(view: ArmView, poses: tuple[Pose, ...], here: Situation) -> Outcome:
@@ -117,7 +117,7 @@ def _follow(view: ArmView, poses: tuple[Pose, ...], here: Situation) -> Outcome:
     touch = view.checker.find_overlap(view.q, sweep.postures, view.movable)
     if touch is not None:
         return _overlap(touch)
-    return here.with_motion(RefinedMotion(view.arm, tuple(sweep.postures), along=True))
+    return here.with_motion(view.move(tuple(sweep.postures), along=True))
 
 
 def _explain(view: ArmView, sweep: Sweep, sampled: Array, here: Situation) -> SpaceFailure:

@@ -7,11 +7,13 @@ from dataclasses import dataclass
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.refinement.failure import SpaceFailure
+from skillc_runtime.execution.refinement.meetings import find_steps_apart
 from skillc_runtime.execution.refinement.scope import call_of
 from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation, begin_at_home
 from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import apply_effects
+from skillc_runtime.recording.space_claim import StepsApart
 from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
@@ -33,7 +35,8 @@ class RefinedStep:
 class PlanRefinement:
     """The steps that go in space, in order, and why the next one, which begins in a situation, does not.
 
-    None if all go, or nothing says why. `unseen` are calls in the next one that nobody could look at.
+    None if all go, or nothing says why. `unseen` are calls in the next one that nobody could look at, `apart` the steps
+    that may not run at the same time, if all go.
     """
 
     steps: tuple[RefinedStep, ...]
@@ -41,6 +44,7 @@ class PlanRefinement:
     failure: SpaceFailure | None = None
     before: Situation | None = None
     unseen: tuple[str, ...] = ()
+    apart: tuple[StepsApart, ...] = ()
 
 
 def refine_plan(
@@ -61,7 +65,10 @@ class _Refiner:
 
     def refine(self, steps: tuple[Step, ...], here: Situation) -> PlanRefinement:
         found = next(self._go(steps, here, ()), None)
-        return self._furthest if found is None else PlanRefinement(found)
+        if found is None:
+            return self._furthest
+        apart = find_steps_apart(self._library, here.state, steps, [each.motions for each in found])
+        return PlanRefinement(found, apart=apart)
 
     def _go(
         self, left: tuple[Step, ...], here: Situation, done: tuple[RefinedStep, ...]

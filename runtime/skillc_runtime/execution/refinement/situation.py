@@ -8,6 +8,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from skillc_runtime.collision.arm_assembly import ArmAssembly
+from skillc_runtime.collision.swept_space import SweptSpace, sweep_space
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.standing_bases import leaving_changes
 from skillc_runtime.world.state.changes import AddRelation, Change
@@ -21,15 +23,23 @@ from skillc_runtime.world.state.world_state import WorldState
 class RefinedMotion:
     """A motion of an arm through postures, each (nv,) in rad; `along` if its tool follows a path.
 
+    start (nv,): rad, where it begins; base: of the arm in the world; assembly: the arm with what it holds meanwhile.
     `tool` is the pose in the world for which the last posture was found, None if it was given. `chosen` if another
     posture, which is free as well, is nearer to home.
     """
 
     arm: str
+    start: Array
     postures: tuple[Array, ...]
+    base: Pose
+    assembly: ArmAssembly
     along: bool
     tool: Pose | None = None
     chosen: bool = False
+
+    def sweep(self) -> SweptSpace:
+        """Return the space that the arm sweeps."""
+        return sweep_space(self.assembly, self.base, (self.start, *self.postures))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

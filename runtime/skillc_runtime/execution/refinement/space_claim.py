@@ -22,6 +22,7 @@ def make_claim(found: PlanRefinement, steps: int, from_home: bool = True) -> Spa
         steps=steps,
         unseen=tuple(UnseenCall(number, call) for number, each in enumerate(found.steps, 1) for call in each.unseen),
         postures=tuple(_list_postures(found)),
+        apart=found.apart,
         failure=failure,
         from_home=from_home,
     )

@@ -16,8 +16,9 @@ from skillc_model.skills import Compound, Implementation, Primitive, SkillLibrar
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.cancellation import check_current
 from skillc_runtime.execution.refinement.failure import SpaceFailure
+from skillc_runtime.execution.refinement.meetings import find_meeting_arms
 from skillc_runtime.execution.refinement.needs import meet
-from skillc_runtime.execution.refinement.situation import Situation
+from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
 from skillc_runtime.execution.selection.select import ranked_implementations
@@ -73,7 +74,7 @@ class Walk:
                 yield from self._in_order(children, here, scope)
             case tree.Parallel(children=children):
                 together = sorted(children, key=lambda child: not self._only_spreads(child, here, scope))
-                yield from (replace(end, spreads=here.spreads) for end in self._in_order(together, here, scope))
+                yield from (replace(end, spreads=here.spreads) for end in self._at_once(together, here, scope))
             case tree.Selector(children=children):
                 for child in children:
                     yield from self.go(child, here, scope)
@@ -112,6 +113,22 @@ class Walk:
             return
         for after in self.go(nodes[0], here, scope):
             yield from self._in_order(nodes[1:], after, scope)
+
+    def _at_once(
+        self, nodes: Sequence[tree.Node], here: Situation, scope: Scope, done: tuple[Sequence[RefinedMotion], ...] = ()
+    ) -> Iterator[Situation]:
+        """Go through nodes that run at the same time: none may bring an arm to where another arm is meanwhile."""
+        if not nodes:
+            arms = find_meeting_arms(done)
+            if arms is None:
+                yield here
+            else:
+                one, other = map(here.state.vocabulary.short, arms)
+                why = f"{one} and {other} would come into one place at the same time"
+                self._fail(SpaceFailure("in-the-way", why), here, replace(scope, within=(*scope.within, "par")))
+            return
+        for after in self.go(nodes[0], here, scope):
+            yield from self._at_once(nodes[1:], after, scope, (*done, after.motions[len(here.motions) :]))
 
     def _branch(self, node: tree.If, here: Situation, scope: Scope) -> Iterator[Situation]:
         holds = self._holds(node.condition, here, scope)

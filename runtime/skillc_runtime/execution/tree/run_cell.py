@@ -14,6 +14,7 @@ from skillc_runtime.devices.sensors import Button, Camera, IoPoint
 from skillc_runtime.primitives.primitive import SkillFailure
 
 if TYPE_CHECKING:
+    from skillc_runtime.motion.pose import Array
     from skillc_runtime.world.state.model import WorldModel
 
 
@@ -61,6 +62,10 @@ class RunCell:
             self.arms[individual] = arm = self._cell.arm(individual)
             arm.set_speed(self._speed)
         return self.arms[individual]
+
+    def find_standing_joints(self, individual: str) -> Array | None:
+        """Return at which joints (nv,) in rad an arm stands, whoever controls it; None while it moves."""
+        return self._cell.find_standing_joints(individual)
 
     def gripper(self, individual: str) -> Gripper:
         """Return a gripper; KeyError if the cell has no such gripper."""

@@ -1,0 +1,74 @@
+"""The parts of an arm, its hand and what that holds as convex solids: obstacles for other arms."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import mujoco
+import numpy as np
+
+from skillc_runtime.collision.arm_assembly import ArmAssembly
+from skillc_runtime.collision.collision_model import MOVES, CollisionModel, build_collision_model
+from skillc_runtime.collision.scenery import PoseKey, Scenery, SolidObstacle, pose_key
+from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.space.solids import Kind
+
+NOTHING = Scenery(PoseKey((0.0, 0.0, -10.0), (1.0, 0.0, 0.0, 0.0)), (), ())
+
+
+class ArmParts:
+    """Where the geoms of an arm, its hand and what that holds are, in the frame of its base, at any joints.
+
+    halves (geoms, 3): m, half the size of each along its own axes. levers (nv,): m, as of the collision model.
+    """
+
+    def __init__(self, assembly: ArmAssembly) -> None:
+        """ValueError as of `build_collision_model`."""
+        self._body: CollisionModel = build_collision_model(assembly, NOTHING)
+        model = self._body.compiled
+        self._data = mujoco.MjData(model)
+        self._data.qpos[self._body.joints :] = self._body.fingers
+        self._geoms = np.flatnonzero(model.geom_contype == MOVES)
+        self._middles = model.geom_aabb[self._geoms, :3]
+        self.halves: Array = model.geom_aabb[self._geoms, 3:]
+        self.levers = self._body.levers
+
+    def place(self, q: Array) -> tuple[Array, Array]:
+        """Return the middles (geoms, 3) in m and the rotations (geoms, 3, 3) of all geoms at joints q (nv,) in rad."""
+        self._move(q)
+        rotations = self._data.geom_xmat[self._geoms].reshape(-1, 3, 3)
+        middles = self._data.geom_xpos[self._geoms] + np.einsum("gij,gj->gi", rotations, self._middles)
+        return middles, rotations.copy()
+
+    def list_obstacles(self, q: Array, base: Pose) -> Iterator[SolidObstacle]:
+        """Yield the geoms at joints q (nv,) in rad as solids, with the base at a pose."""
+        self._move(q)
+        for geom in self._geoms.tolist():
+            at = Pose(self._data.geom_xpos[geom], self._data.geom_xmat[geom].reshape(3, 3))
+            kind, half, middle, points = self._read_solid(geom)
+            there = base @ at @ Pose(middle, np.eye(3))
+            yield SolidObstacle(self._body.names[geom], pose_key(there), tuple(half.tolist()), kind, points)
+
+    def _move(self, q: Array) -> None:
+        self._data.qpos[: self._body.joints] = q
+        mujoco.mj_kinematics(self._body.compiled, self._data)
+
+    def _read_solid(self, geom: int) -> tuple[Kind, Array, Array, bytes]:
+        """Return the kind of a geom, half its size (3,) and its middle (3,) in its frame in m, the points of a hull."""
+        model = self._body.compiled
+        size, middle = model.geom_size[geom], np.zeros(3)
+        radius, length = float(size[0]), float(size[1])
+        match mujoco.mjtGeom(model.geom_type[geom]):
+            case mujoco.mjtGeom.mjGEOM_CYLINDER:
+                return "cylinder", np.array([radius, radius, length]), middle, b""
+            case mujoco.mjtGeom.mjGEOM_CAPSULE:
+                return "capsule", np.array([radius, radius, length + radius]), middle, b""
+            case mujoco.mjtGeom.mjGEOM_SPHERE:
+                return "sphere", np.full(3, radius), middle, b""
+            case mujoco.mjtGeom.mjGEOM_MESH:
+                mesh = model.geom_dataid[geom]
+                first = model.mesh_vertadr[mesh]
+                points = model.mesh_vert[first : first + model.mesh_vertnum[mesh]].astype(float)
+                return "hull", np.abs(points).max(axis=0), middle, points.tobytes()
+            case _:
+                return "box", model.geom_aabb[geom, 3:].copy(), model.geom_aabb[geom, :3].copy(), b""
