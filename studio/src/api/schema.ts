@@ -1316,6 +1316,11 @@ export interface components {
              */
             seed?: number;
             /**
+             * @description How far simulated arms and tools are from what they should be: `ideal`, `typical` or `wide`, all imperfections that their sheets state, or only some of them: `wide:jointFriction,forceBias`.
+             * @default ideal
+             */
+            reality?: string;
+            /**
              * @description Simulate with physics (`mujoco`), or with ideal motion and contact (`kinematic`): faster, but contact is not verified then. Others run on robots.
              * @default mujoco
              */
@@ -1563,8 +1568,9 @@ export interface components {
          * @description How many steps of a plan go in space, of how many, and why the next does not; None if it does or is not known.
          *
          *         unseen: the calls in these steps that were not looked at. postures: those in which arms bring their tools to poses,
-         *         in the order of the steps, which a run takes as well. stopped: why the look ended before it was through; empty if it
-         *         was. from_home: whether the arms begin at home; else where they were when the plan was made.
+         *         in the order of the steps, which a run takes as well. apart: the steps that do not run at the same time, since arms
+         *         would meet. stopped: why the look ended before it was through; empty if it was. from_home: whether the arms begin at
+         *         home; else where they were when the plan was made.
          */
         SpaceClaim: {
             checked: number;
@@ -1573,6 +1579,8 @@ export interface components {
             unseen?: components["schemas"]["UnseenCall"][];
             /** @default [] */
             postures?: components["schemas"]["ChosenPosture"][];
+            /** @default [] */
+            apart?: components["schemas"]["StepsApart"][];
             /** @default null */
             failure?: string | null;
             /** @default  */
@@ -1597,6 +1605,18 @@ export interface components {
             arm: string;
             q: number[];
             tool: components["schemas"]["LabelledPose"];
+        };
+        /**
+         * StepsApart
+         * @description Two steps of a plan, from 1, that do not run at the same time: these arms of theirs would come into one place.
+         */
+        StepsApart: {
+            one: number;
+            other: number;
+            arms: [
+                string,
+                string
+            ];
         };
         /**
          * PlanMade
