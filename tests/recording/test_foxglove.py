@@ -42,7 +42,7 @@ def test_frames_are_the_poses_of_the_bodies_and_messages_fit_their_schemas(tmp_p
     assert file.problem is None
     topics = read_messages(tmp_path / "a.mcap")
     (fixed,), frames = topics["/fixed_frames"], topics["/frames"]
-    assert len(frames) == len(topics["/forces"]) == 50
+    assert len(frames) == len(topics["/forces"]) == 25
     assert {each["child_frame_id"] for _, message in (fixed, frames[0]) for each in message["transforms"]} == {
         *names
     } - {"world"}

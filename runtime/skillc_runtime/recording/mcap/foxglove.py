@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import sqrt
 from typing import Any
 
 import mujoco
@@ -21,7 +22,7 @@ SHOWN_GROUPS = 3
 M_PER_N, SHAFT_M, HEAD_M, FEWEST_N = 0.005, 0.006, 0.015, 0.05
 """Arrows of forces: length, thickness, size of the head; weaker forces have none."""
 
-_RED, _DIGITS = fox.Color(0.85, 0.15, 0.1, 1.0), 5
+_RED, _DIGITS, _HALF = fox.Color(0.85, 0.15, 0.1, 1.0), 5, sqrt(0.5)
 _Geom = mujoco.mjtGeom
 
 
@@ -47,11 +48,28 @@ class ScenePicture:
 
     def fixed_frames(self, time_s: float, positions: Array, quaternions: Array) -> fox.FrameTransforms:
         """Return where the bodies are that never move; positions (n, 3) m, quaternions (n, 4)."""
-        return _frames(self._names, self._fixed, time_s, positions, quaternions)
+        (frames,) = self._frames(self._fixed, (time_s,), positions[None], quaternions[None])
+        return frames
 
-    def moving_frames(self, time_s: float, positions: Array, quaternions: Array) -> fox.FrameTransforms:
-        """Return where the other bodies are."""
-        return _frames(self._names, self._moving, time_s, positions, quaternions)
+    def moving_frames(
+        self, times_s: Sequence[float], positions: Array, quaternions: Array
+    ) -> Iterator[fox.FrameTransforms]:
+        """Yield where the other bodies are at some times; positions (k, n, 3) m, quaternions (k, n, 4)."""
+        return self._frames(self._moving, times_s, positions, quaternions)
+
+    def _frames(
+        self, bodies: Sequence[int], times_s: Sequence[float], positions: Array, quaternions: Array
+    ) -> Iterator[fox.FrameTransforms]:
+        chosen, names = list(bodies), [self._names[body] for body in bodies]
+        translations, rotations = (each[:, chosen].round(_DIGITS).tolist() for each in (positions, quaternions))
+        for time_s, places, turns in zip(times_s, translations, rotations, strict=True):
+            timestamp = _time(time_s)
+            yield fox.FrameTransforms(
+                [
+                    fox.FrameTransform(timestamp, WORLD, name, fox.Vector3(*at), fox.Quaternion(x, y, z, w))
+                    for name, at, (w, x, y, z) in zip(names, places, turns, strict=True)
+                ]
+            )
 
     def _is_shown(self, geom: int, body: int) -> bool:
         model = self._model
@@ -63,22 +81,22 @@ class ScenePicture:
         model = self._model
         cubes, spheres, cylinders = list(entity.cubes), list(entity.spheres), list(entity.cylinders)
         for geom in geoms:
-            size, color = model.geom_size[geom], fox.Color(*_round(model.geom_rgba[geom]))
+            size, color = model.geom_size[geom], fox.Color(*_round(model.geom_rgba[geom].tolist()))
             pose = _pose(model.geom_pos[geom], model.geom_quat[geom])
             match model.geom_type[geom]:
                 case _Geom.mjGEOM_BOX:
-                    cubes.append(fox.CubePrimitive(pose, _vector(2 * size), color))
+                    cubes.append(fox.CubePrimitive(pose, _vector((2 * size).tolist()), color))
                 case _Geom.mjGEOM_SPHERE | _Geom.mjGEOM_ELLIPSOID:
                     radii = size if model.geom_type[geom] == _Geom.mjGEOM_ELLIPSOID else np.full(3, size[0])
-                    spheres.append(fox.SpherePrimitive(pose, _vector(2 * radii), color))
+                    spheres.append(fox.SpherePrimitive(pose, _vector((2 * radii).tolist()), color))
                 case _Geom.mjGEOM_CYLINDER | _Geom.mjGEOM_CAPSULE:
                     extent = 2 * np.array([size[0], size[0], size[1]])
-                    cylinders.append(fox.CylinderPrimitive(pose, _vector(extent), 1.0, 1.0, color))
+                    cylinders.append(fox.CylinderPrimitive(pose, _vector(extent.tolist()), 1.0, 1.0, color))
                 case _:
                     centre, half = model.geom_aabb[geom, :3], model.geom_aabb[geom, 3:]
                     rotation = _rotate(model.geom_quat[geom], centre)
                     pose = _pose(model.geom_pos[geom] + rotation, model.geom_quat[geom])
-                    cubes.append(fox.CubePrimitive(pose, _vector(2 * half), color))
+                    cubes.append(fox.CubePrimitive(pose, _vector((2 * half).tolist()), color))
         return fox.SceneEntity(
             timestamp=entity.timestamp,
             frame_id=entity.frame_id,
@@ -105,30 +123,12 @@ def describe_forces(time_s: float, faces: Sequence[tuple[str, Array]]) -> fox.Sc
 
 
 def _arrows(face: Array) -> Iterator[fox.ArrowPrimitive]:
-    force = abs(float(face[0]))
-    if force >= FEWEST_N:
-        inward = np.zeros(4)
-        mujoco.mju_mulQuat(inward, face[4:8], _X_TO_MINUS_Z)
-        yield fox.ArrowPrimitive(
-            _pose(face[1:4], inward), round(force * M_PER_N, _DIGITS), SHAFT_M, HEAD_M, HEAD_M, _RED
-        )
-
-
-_X_TO_MINUS_Z = np.array([np.sqrt(0.5), 0.0, np.sqrt(0.5), 0.0])
-"""The rotation by 90 degrees about y, which turns x to -z."""
-
-
-def _frames(
-    names: Sequence[str], bodies: Sequence[int], time_s: float, positions: Array, quaternions: Array
-) -> fox.FrameTransforms:
-    timestamp, chosen = _time(time_s), list(bodies)
-    translations, rotations = (values[chosen].round(_DIGITS).tolist() for values in (positions, quaternions))
-    return fox.FrameTransforms(
-        [
-            fox.FrameTransform(timestamp, WORLD, names[body], fox.Vector3(*at), fox.Quaternion(x, y, z, w))
-            for body, at, (w, x, y, z) in zip(bodies, translations, rotations, strict=True)
-        ]
-    )
+    force, *place = face.tolist()
+    if abs(force) >= FEWEST_N:
+        w, x, y, z = place[3:]
+        turned = [_HALF * each for each in (w - y, x - z, w + y, x + z)]  # by 90 degrees about y, which turns x to -z
+        pose = fox.Pose(_vector(place[:3]), _quaternion(turned))
+        yield fox.ArrowPrimitive(pose, round(abs(force) * M_PER_N, _DIGITS), SHAFT_M, HEAD_M, HEAD_M, _RED)
 
 
 def _time(time_s: float) -> fox.Time:
@@ -143,17 +143,17 @@ def _rotate(quaternion: Array, vector: Array) -> Array:
 
 
 def _pose(position: Array, quaternion: Array) -> fox.Pose:
-    return fox.Pose(_vector(position), _quaternion(quaternion))
+    return fox.Pose(_vector(position.tolist()), _quaternion(quaternion.tolist()))
 
 
-def _vector(values: Array) -> fox.Vector3:
+def _vector(values: Sequence[float]) -> fox.Vector3:
     return fox.Vector3(*_round(values))
 
 
-def _quaternion(values: Array) -> fox.Quaternion:
+def _quaternion(values: Sequence[float]) -> fox.Quaternion:
     w, x, y, z = _round(values)
     return fox.Quaternion(x, y, z, w)
 
 
-def _round(values: Array) -> list[float]:
-    return [round(float(each), _DIGITS) for each in values]
+def _round(values: Sequence[float]) -> list[float]:
+    return [round(each, _DIGITS) for each in values]

@@ -1,4 +1,8 @@
-"""The messages of Foxglove that recordings have, as its documentation describes them, and their JSON Schemas."""
+"""The messages of Foxglove that recordings have, as its documentation describes them, and their JSON Schemas.
+
+Recordings make thousands of the small ones in a second. They cannot refer to themselves, so no garbage is looked for in
+them.
+"""
 
 from __future__ import annotations
 
@@ -8,35 +12,35 @@ from typing import Any
 import msgspec
 
 
-class Time(msgspec.Struct, frozen=True):
+class Time(msgspec.Struct, frozen=True, gc=False):
     sec: int
     nsec: int
 
 
-class Duration(msgspec.Struct, frozen=True):
+class Duration(msgspec.Struct, frozen=True, gc=False):
     sec: int
     nsec: int
 
 
-class Vector3(msgspec.Struct, frozen=True):
+class Vector3(msgspec.Struct, frozen=True, gc=False):
     x: float
     y: float
     z: float
 
 
-class Quaternion(msgspec.Struct, frozen=True):
+class Quaternion(msgspec.Struct, frozen=True, gc=False):
     x: float
     y: float
     z: float
     w: float
 
 
-class Pose(msgspec.Struct, frozen=True):
+class Pose(msgspec.Struct, frozen=True, gc=False):
     position: Vector3
     orientation: Quaternion
 
 
-class Color(msgspec.Struct, frozen=True):
+class Color(msgspec.Struct, frozen=True, gc=False):
     """Each from 0 to 1."""
 
     r: float
@@ -45,7 +49,7 @@ class Color(msgspec.Struct, frozen=True):
     a: float
 
 
-class FrameTransform(msgspec.Struct, frozen=True):
+class FrameTransform(msgspec.Struct, frozen=True, gc=False):
     timestamp: Time
     parent_frame_id: str
     child_frame_id: str
@@ -57,7 +61,7 @@ class FrameTransforms(msgspec.Struct, frozen=True):
     transforms: list[FrameTransform]
 
 
-class ArrowPrimitive(msgspec.Struct, frozen=True):
+class ArrowPrimitive(msgspec.Struct, frozen=True, gc=False):
     """It points along the x axis of its pose; lengths are in m."""
 
     pose: Pose
@@ -68,19 +72,19 @@ class ArrowPrimitive(msgspec.Struct, frozen=True):
     color: Color
 
 
-class CubePrimitive(msgspec.Struct, frozen=True):
+class CubePrimitive(msgspec.Struct, frozen=True, gc=False):
     pose: Pose
     size: Vector3
     color: Color
 
 
-class SpherePrimitive(msgspec.Struct, frozen=True):
+class SpherePrimitive(msgspec.Struct, frozen=True, gc=False):
     pose: Pose
     size: Vector3
     color: Color
 
 
-class CylinderPrimitive(msgspec.Struct, frozen=True):
+class CylinderPrimitive(msgspec.Struct, frozen=True, gc=False):
     """Its axis is the z axis of its pose; the scales are those of its ends, from 0 to 1."""
 
     pose: Pose

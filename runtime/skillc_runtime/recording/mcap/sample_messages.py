@@ -41,13 +41,18 @@ class SampleMessages:
         faces = tuple(self._layout.faces_of(block))
         if self._picture is None:
             return
-        for time_s, positions, quaternions in block.poses:
+        if not block.poses:
+            return
+        times_s, *places = zip(*block.poses, strict=True)
+        positions, quaternions = (np.frombuffer(b"".join(each)) for each in places)
+        count = len(times_s)
+        where = positions.reshape(count, -1, 3), quaternions.reshape(count, -1, 4)
+        if not self._is_shown:
+            self._is_shown, moment = True, round(times_s[0] * 1e9)
+            yield SCENE, moment, self._picture.shapes(times_s[0])
+            yield FIXED, moment, self._picture.fixed_frames(times_s[0], where[0][0], where[1][0])
+        for time_s, frames in zip(times_s, self._picture.moving_frames(times_s, *where), strict=True):
             moment = round(time_s * 1e9)
-            where = np.frombuffer(positions).reshape(-1, 3), np.frombuffer(quaternions).reshape(-1, 4)
-            if not self._is_shown:
-                self._is_shown = True
-                yield SCENE, moment, self._picture.shapes(time_s)
-                yield FIXED, moment, self._picture.fixed_frames(time_s, *where)
-            yield MOVING, moment, self._picture.moving_frames(time_s, *where)
+            yield MOVING, moment, frames
             row = min((moment - first_ns) // self._layout.period_ns, block.rows - 1)
             yield FORCES, moment, describe_forces(time_s, [(local_name(tool), face[row]) for tool, face in faces])

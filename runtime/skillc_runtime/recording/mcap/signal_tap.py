@@ -25,8 +25,8 @@ from skillc_runtime.recording.signals.signal import Signal
 BLOCK_ROWS = 400
 """How many samples are handed over at once."""
 
-POSES_S = 0.02
-"""The time between two samples of the poses of all bodies, in s of the cell."""
+POSES_S = 0.04
+"""The time between two samples of the poses of all bodies, in s of the cell: that of the pictures of a film."""
 
 
 @dataclass(frozen=True, slots=True)
