@@ -21,13 +21,14 @@ from numpy.typing import NDArray
 
 from skillc_runtime.backends.mujoco.contact_pairs import find_pairs
 from skillc_runtime.backends.mujoco.levers import KNOWN_JOINTS, MOVES_FREELY, SLIDES, find_joints, find_mocap_levers
+from skillc_runtime.backends.mujoco.round_shapes import ANGULAR, SHAPE, find_shapes, gap_between_axes
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import COMPILES, bind, compiled, inlined
 from skillc_runtime.motion.numerics.copying import Copies, copy_pieces
 from skillc_runtime.motion.numerics.linear import copy_vector
 from skillc_runtime.motion.numerics.places import call_entry
 
-FAR_M: Final = 0.015
+FAR_M: Final = 0.012
 """A body with this clearance is left out."""
 
 LOOK_M: Final = 0.2
@@ -64,10 +65,10 @@ class Clearances:
     """What may touch, and what is left out.
 
     pairs (n, 6): two geoms, their bodies, their contact margin in m, and 1 if the first one is a plane. boxes (ngeom,
-    7): centre and half sides in m of the box around a geom, in its frame, and the radius of its sphere. centres (ngeom,
-    3): of boxes, m, in the world. clear (nbody,): m. fewer, every: what gives the model its contact bits without bodies
-    that are left out, and with all. bits (nbody, 6): for kind and partners of a body the address in the former, in the
-    latter, and of a zero.
+    8): centre and half sides in m of the box around a geom, in its frame, the radius of its sphere, and its shape.
+    centres (ngeom, 3): of boxes, m, in the world. clear (nbody,): m. fewer, every: what gives the model its contact
+    bits without bodies that are left out, and with all. bits (nbody, 6): for kind and partners of a body the address in
+    the former, in the latter, and of a zero.
     """
 
     ways: Ways
@@ -152,7 +153,10 @@ def height_over(near: Clearances, plane: int, other: int) -> float:
 
 @inlined
 def find_gap(near: Clearances, one: int, other: int) -> float:
-    """Return a lower bound of the distance of two boxes in m, along their axes; LOOK_M if their spheres are so far."""
+    """Return a lower bound of the distance of two geoms in m; LOOK_M if their spheres are so far.
+
+    It is that of their boxes along the axes of these, or, if both are round, along the way between theirs.
+    """
     square = 0.0
     for k in range(3):
         square += (near.centres[other, k] - near.centres[one, k]) * (near.centres[other, k] - near.centres[one, k])
@@ -162,7 +166,9 @@ def find_gap(near: Clearances, one: int, other: int) -> float:
     gap = -1.0
     for axis in range(3):
         gap = max(gap, gap_along(near, one, other, axis), gap_along(near, other, one, axis))
-    return gap
+    if near.boxes[one, SHAPE] == ANGULAR or near.boxes[other, SHAPE] == ANGULAR:
+        return gap
+    return max(gap, gap_between_axes(near.boxes, near.centres, near.xmat, one, other))
 
 
 @inlined
@@ -220,7 +226,7 @@ class FarBodies:
     def __init__(self, model: Any, data: Any) -> None:
         self._model, self._allowed = model, np.zeros(1)
         self._joints, self._mocap_levers = np.zeros((model.njnt, 5)), np.zeros(model.nmocap)
-        self._boxes, self._pairs = np.zeros((model.ngeom, 7)), find_pairs(model)
+        self._boxes, self._pairs = np.zeros((model.ngeom, SHAPE + 1)), find_pairs(model)
         ways = Ways(
             self._joints, self._mocap_levers, data.qpos, data.mocap_pos.ravel(), data.mocap_quat.ravel(),
             np.zeros(model.nq), np.zeros(3 * model.nmocap), np.zeros(4 * model.nmocap), self._allowed,
@@ -246,6 +252,7 @@ class FarBodies:
         self._joints[:] = np.array([*find_joints(model)]).reshape(-1, 5)
         self._mocap_levers[:] = find_mocap_levers(model)
         self._boxes[:, :6], self._boxes[:, 6] = model.geom_aabb, np.linalg.norm(model.geom_aabb[:, 3:], axis=1)
+        self._boxes[:, SHAPE] = find_shapes(model)
         geoms, margins = self._pairs[:, :2].astype(int), model.geom_margin + model.geom_gap
         self._pairs[:, 4] = margins[geoms].sum(axis=1)
         self._allowed[0] = 0.0
