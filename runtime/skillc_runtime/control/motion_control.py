@@ -106,8 +106,9 @@ class MotionControl:
     def model(self) -> ArmMotionModel:
         """Return the motions that the arm can make from where it is now, to be computed without it."""
         task, (start, now) = self._task, self.joints_ahead()
-        state, speed = task.measured.state, self._tool_speed_m_s
-        return ArmMotionModel(task.kinematics, task.limits, task.workspace, state, task.base(), start, now, speed)
+        state, speed, base = task.measured.state, self._tool_speed_m_s, task.base()
+        here = Pose(base.position.copy(), base.rotation.copy())
+        return ArmMotionModel(task.kinematics, task.limits, task.workspace, state, here, start, now, speed)
 
     def joints_ahead(self) -> tuple[Array, Array]:
         """Return the joints (nv,) in rad where they come to rest, and those from where a motion of the tool goes on."""

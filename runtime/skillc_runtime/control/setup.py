@@ -17,8 +17,8 @@ from skillc_runtime.motion.pose import Pose
 class ArmSetup:
     """One arm, the gains of its controller and the limits of its joints.
 
-    `virtual` is of `load_virtual_model`; `base` returns the pose of the arm's base in the world; `period` is the
-    control period in s. An arm that violates a limit of `safety` is held at once.
+    `virtual` is of `load_virtual_model`; `base` returns the pose of the arm's base in the world, whose arrays may
+    change; `period` is the control period in s. An arm that violates a limit of `safety` is held at once.
     """
 
     arm: Arm

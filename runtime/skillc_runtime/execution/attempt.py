@@ -175,8 +175,8 @@ class Attempt:
 
     def _tell_prompts(self) -> None:
         """Emit what operators are asked, if that has changed."""
-        if self.tree.prompts != self._asked:
-            self._asked = self.tree.prompts
+        if (prompts := self.tree.prompts) != self._asked:
+            self._asked = prompts
             for listener in self._context.listeners:
                 listener(PromptsChanged(time=self._context.backend.clock.now, prompts=self._asked))
 
@@ -217,8 +217,7 @@ class Attempt:
         if self._monitor is None:
             self.tree.tick()
             return
-        with self._monitor.tick():
-            status = self.tree.tick()
+        status = self._monitor.follow(self.tree.tick)
         reason = self._monitor.find_invalidation() if status is Status.RUNNING else None
         if reason is not None:
             self.invalidate(reason)

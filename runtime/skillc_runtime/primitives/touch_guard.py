@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from math import hypot
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -53,7 +54,7 @@ class TouchGuard:
         if self._arm.compliance.released:
             return None
         velocity = self._arm.motion.path_velocity
-        speed = float(np.linalg.norm(velocity))
+        speed = hypot(*velocity.tolist())
         if speed > MOVING_M_S:
             self._way = velocity / speed
         resistance_n = -float(self._arm.measured.wrench[:3] @ self._way)

@@ -52,7 +52,7 @@ def read_setup(facts: ArmSpec, arm: ModelledArm, period_s: float) -> ArmSetup:
     chosen = replace(chosen, limits=replace(chosen.limits, jerk_m_s3=jerk_limit))
     _switch_mode(facts, arm, chosen.law)
     virtual, limits = load_virtual_model(facts.model), read_safety_limits(facts)
-    return ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.base, period_s, limits)
+    return ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.live_base, period_s, limits)
 
 
 def _switch_mode(facts: ArmSpec, arm: ModelledArm, law: LawGains) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Sequence
 
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.plans.progress import Progress, invalidation_reason, measure_progress
 from skillc_runtime.planning.plan import Step
+from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.world.state.changes import named_individuals
 from skillc_runtime.world.state.model import WorldError, WorldModel
@@ -41,14 +41,13 @@ class PlanMonitor:
         self._running: frozenset[int] = frozenset()
         self._pardoned: frozenset[int] | None = None
         self._ticking = False
-        self.stop = world.subscribe(self._follow)
+        self.stop = world.subscribe(self._note_write)
 
-    @contextmanager
-    def tick(self) -> Iterator[None]:
-        """While this is open, it is the steps of the plan that write to the world."""
+    def follow(self, tick: Callable[[], Status]) -> Status:
+        """Return what a function returns, in which it is the steps of the plan that write to the world."""
         self._ticking = True
         try:
-            yield
+            return tick()
         finally:
             self._ticking = False
 
@@ -73,7 +72,7 @@ class PlanMonitor:
     def _judge(self, begun: Iterable[Step], left: Iterable[Step], state: WorldState) -> str | None:
         return invalidation_reason(tuple(begun), tuple(left), self._goal, self._library, state)
 
-    def _follow(self, event: ChangeEvent) -> None:
+    def _note_write(self, event: ChangeEvent) -> None:
         """Take note of a write to the world."""
         progress = self._measure(event.before)
         if self._is_own(event, _select(progress, "running").values()):

@@ -19,8 +19,8 @@ class ActivePrimitives:
     @property
     def prompts(self) -> tuple[Prompt, ...]:
         """What they ask operators, with the numbers of their nodes."""
-        asking = ((self._nodes[each], each.prompt) for each in self._started if each.prompt is not None)
-        return tuple(replace(prompt, id=node) for node, prompt in asking)
+        asking = [(self._nodes[each], each.prompt) for each in self._started if each.prompt is not None]
+        return tuple([replace(prompt, id=node) for node, prompt in asking])
 
     @property
     def only_ask(self) -> bool:
