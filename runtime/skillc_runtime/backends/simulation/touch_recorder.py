@@ -52,11 +52,13 @@ class ContactWatch:
 
 @compiled
 def wants_look(watch: ContactWatch, now: float) -> int:
-    """Count a step; return 1 if contacts may have changed."""
-    last = watch.last
+    """Count a step; return 1 if there are contacts, and they may have changed."""
+    last, count = watch.last, float(watch.counts[0, 0] & 0xFFFFFFFF)
+    if count == 0.0:
+        last[STEPS], last[COUNT], last[TOUCHED] = 0.0, 0.0, 0.0
+        return 0
     last[STEPS] += 1.0
-    changed = last[COUNT] != float(watch.counts[0, 0] & 0xFFFFFFFF)
-    return 1 if last[TOUCHED] != 0.0 or changed or last[STEPS] == STEPS_PER_LOOK else 0
+    return 1 if last[TOUCHED] != 0.0 or last[COUNT] != count or last[STEPS] >= STEPS_PER_LOOK else 0
 
 
 class TouchRecorder(OnMemory):
