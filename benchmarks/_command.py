@@ -8,9 +8,13 @@ from __future__ import annotations
 import gc
 import json
 import sys
+from collections.abc import Callable
 from contextlib import redirect_stdout, suppress
 from functools import partial
 from importlib import import_module
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec
+from importlib.util import find_spec
 from resource import RUSAGE_CHILDREN, RUSAGE_SELF, getrusage
 from tempfile import TemporaryDirectory
 from time import process_time
@@ -38,6 +42,28 @@ class FirstAdvance:
         return made
 
 
+class AfterImport(MetaPathFinder):
+    """Changes modules as soon as the command has imported them, when and in the order in which it does."""
+
+    def __init__(self, changes: dict[str, Callable[[Any], None]]) -> None:
+        self._changes = changes
+
+    def find_spec(self, name: str, path: Any, target: Any = None) -> ModuleSpec | None:
+        """Find a module to change by the other finders."""
+        change = self._changes.pop(name, None)
+        spec = None if change is None else find_spec(name)
+        if spec is None or spec.loader is None or change is None:
+            return None
+        execute = spec.loader.exec_module
+
+        def execute_and_change(module: Any) -> None:
+            execute(module)
+            change(module)
+
+        spec.loader.exec_module = execute_and_change  # type: ignore[method-assign]
+        return spec
+
+
 def _all_processes_s() -> float:
     """Return the CPU time in s of this process, and of those that it has started and that have ended."""
     used = [getrusage(which) for which in (RUSAGE_SELF, RUSAGE_CHILDREN)]
@@ -48,10 +74,16 @@ def main(task: str) -> None:
     """Print the times in s: until the first tick, of the report, and of all that is made for it by any process."""
     entry, noted = import_module("skillc.cli.main"), FirstAdvance()
     gc.set_threshold(getattr(entry, "GARBAGE", gc.get_threshold()[0]))
-    running, cells = import_module("skillc.services.running"), import_module("skillc_runtime.backends.mujoco.cell")
-    inner = cells.SimulatedCell.advance
-    cells.SimulatedCell.advance = lambda cell, seconds: noted.advance(inner, cell, seconds)
-    running.report_run = partial(noted.report, running.report_run)
+
+    def note_advance(cells: Any) -> None:
+        inner = cells.SimulatedCell.advance
+        cells.SimulatedCell.advance = lambda cell, seconds: noted.advance(inner, cell, seconds)
+
+    def note_report(running: Any) -> None:
+        running.report_run = partial(noted.report, running.report_run)
+
+    after = {"skillc_runtime.backends.mujoco.cell": note_advance, "skillc.services.running": note_report}
+    sys.meta_path.insert(0, AfterImport(after))
     with TemporaryDirectory() as folder, redirect_stdout(sys.stderr), suppress(SystemExit):
         entry.skillc(["run", task, "--out", folder, "--no-film"])
     whole_s = _all_processes_s() - noted.before_report_s

@@ -11,6 +11,7 @@ from click.testing import CliRunner, Result
 
 from cell_checks.random_cells import SPOILED, random_cell
 from skillc.cli.main import skillc
+from skillc.services.cell_checks import checks
 
 SKILLS = """
 prefix lab: <http://example.org/lab#>
@@ -56,6 +57,20 @@ def test_a_task_with_a_thing_that_cannot_be_handled_is_refused_with_its_line(
     assert (result.exit_code, answer["status"]) == (3, "refused")
     assert answer["failure"].startswith(f"{tmp_path / 'cell.ttl'}:")
     assert f"lab:{part}" in answer["failure"] and says in answer["failure"]
+
+
+def test_what_was_found_is_kept_for_the_same_facts_and_no_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SKILLC_CACHE", str(tmp_path / "cache"))
+    words = ("run", "DIR:handle", "--backend", "kinematic", "--json")
+    refused = [json.loads(run(tmp_path, "no-body", *words)[0].stdout)["failure"]]
+    looked: list[object] = []
+    monkeypatch.setattr(checks, "check_cell", lambda *facts: looked.append(facts) or ())
+    refused.append(json.loads(run(tmp_path, "no-body", *words)[0].stdout)["failure"])
+    assert refused[0] == refused[1] and "has no size" in refused[0] and looked == []
+    run(tmp_path, "out-of-reach", *words)
+    assert len(looked) == 1
 
 
 def test_a_task_that_does_not_use_it_runs_with_a_warning(tmp_path: Path) -> None:

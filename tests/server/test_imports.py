@@ -14,7 +14,7 @@ CLIENT_FILES = 120
 
 
 @pytest.mark.parametrize(
-    ("module", "heavy"), [("skillc.server.serve", HEAVY), ("skillc.cells.process", {"matplotlib", "PIL"})]
+    ("module", "heavy"), [("skillc.server.serve", HEAVY), ("skillc.cells.program", {"matplotlib", "PIL"})]
 )
 def test_a_process_imports_only_what_it_needs(module: str, heavy: set[str]) -> None:
     assert not heavy & list_imported(module)

@@ -35,6 +35,11 @@ def describe_scene(scene: Scene) -> Iterator[str | bytes]:
     yield encode_meaning(scene.state.vocabulary)
     for each in scene.said:
         yield f"{each.subject} {each.predicate} {each.object}"
+    yield from describe_models()
+
+
+def describe_models() -> Iterator[str | bytes]:
+    """Yield the user's models of devices."""
     for model in user_models():
         yield str(model)
         yield model.read_bytes()

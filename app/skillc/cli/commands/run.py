@@ -16,6 +16,7 @@ from skillc.cli.command import Command
 from skillc.cli.completions import complete_task
 from skillc.cli.options import EXECUTION, grouped_option, json_option, store_options, task_arguments
 from skillc.cli.run_options import run_options
+from skillc_dsl.garbage import importing
 
 if TYPE_CHECKING:
     from skillc_runtime.recording.run_spec import RunSpec
@@ -53,15 +54,16 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     TASK is the name of a task of the project here or of a shipped one, or LIBRARY:NAME; `skillc tasks` lists them. In a
     project, TASK may be left out if the manifest names a default one.
     """
-    from skillc.cli.console import Terminal, print_json, remark_default
-    from skillc.cli.film_progress import FilmProgress
-    from skillc.cli.run_output import check_operable, print_results, run_with_progress
-    from skillc.services.files import check_writable
-    from skillc.services.picture_making import making_pictures
-    from skillc.services.planning import prepare_planners
-    from skillc.services.running import RunOptions
-    from skillc.services.stores import StoreChoice
-    from skillc.services.task_loading import check_request, fill_in, load_task
+    with importing():
+        from skillc.cli.console import Terminal, print_json, remark_default
+        from skillc.cli.film_progress import FilmProgress
+        from skillc.cli.run_output import check_operable, print_results, run_with_progress
+        from skillc.services.files import check_writable
+        from skillc.services.picture_making import making_pictures
+        from skillc.services.planning import prepare_planners
+        from skillc.services.running import RunOptions
+        from skillc.services.stores import StoreChoice
+        from skillc.services.task_loading import check_request, fill_in, load_task
 
     kept = StoreChoice(store, reset, writes=True)
     wanted = fill_in(spec, kept)

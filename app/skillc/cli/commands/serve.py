@@ -17,6 +17,7 @@ from skillc.cli.command import Command
 from skillc.cli.options import PATH, grouped_option
 from skillc.cli.serving import DEFAULT_BIND, cell_options, parse_address, require_ros2, require_server
 from skillc.cli.struct_options import struct_options
+from skillc_dsl.garbage import importing
 
 if TYPE_CHECKING:
     from skillc.server.listening import Listening
@@ -73,12 +74,13 @@ def command(
     require_server()
     if network.ros2:
         require_ros2("--ros2")
-    from skillc.cli.console import Terminal
-    from skillc.server.cells import choose_cells
-    from skillc.server.log import logging_to
-    from skillc.server.ros2_node import ros2_node
-    from skillc.server.serve import serve
-    from skillc.server.state import open_state
+    with importing():
+        from skillc.cli.console import Terminal
+        from skillc.server.cells import choose_cells
+        from skillc.server.log import logging_to
+        from skillc.server.ros2_node import ros2_node
+        from skillc.server.serve import serve
+        from skillc.server.state import open_state
 
     listening = _make_listening(network)
     served = choose_cells(libraries or (Path(),), scenes, state, backend, seed)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from skillc.services.cell_checks.checks import check_cell
 from skillc.services.cell_checks.report import ScenePlaces, grade, locate, used_individuals
+from skillc.services.cell_checks.verdicts import judge_state_once
 from skillc.services.reporting import Reporter, find_texts
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.execution.assignment import AchieveGoal
@@ -21,7 +21,7 @@ def find_start_problem(task: LoadedTask, reporter: Reporter) -> str | None:
     state, objective = task.assignment.state, task.assignment.objective
     item = objective.goal if isinstance(objective, AchieveGoal) else objective.body
     goals = (objective.goal,) if isinstance(objective, AchieveGoal) else ()
-    found = list(grade(check_cell(state, goals), used_individuals(item, state)))
+    found = list(grade(judge_state_once(state, goals), used_individuals(item, state)))
     if not found:
         return None
     places = _places(task)

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
 
 import msgspec
 
@@ -14,7 +13,7 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.refinement.look import PlanLook
 from skillc_runtime.planning.cache import PlanCache
 from skillc_runtime.planning.plan import Step
-from skillc_runtime.world.state.terms import MESH
+from skillc_runtime.world.state.fact_list import list_facts
 from skillc_runtime.world.state.world_state import WorldState
 
 _ENCODER = msgspec.msgpack.Encoder(order="deterministic")
@@ -40,7 +39,7 @@ class LookMemory:
     ) -> PlanLook:
         """Return what a look at a plan has found before, from the same facts and postures; else what it finds now."""
         digest = hashlib.sha256()
-        for part in (self.around, library.hash, library.vocabulary, postures, tuple(steps), *_list_facts(state)):
+        for part in (self.around, library.hash, library.vocabulary, postures, tuple(steps), *list_facts(state)):
             digest.update(_ENCODER.encode(part) + b"\n")
         key = digest.hexdigest()
         if (content := self.store.get(key)) is not None:
@@ -49,16 +48,3 @@ class LookMemory:
         found = find(steps)
         self.store.put(key, _ENCODER.encode(found))
         return found
-
-
-def _list_facts(state: WorldState) -> Iterator[object]:
-    """Yield all facts in order, and which meshes they name as they are now."""
-    yield sorted((each, sorted(types)) for each, types in state.direct.items())
-    for relation, links in sorted(state.asserted.items()):
-        yield relation, sorted(links.pairs())
-    for name, values in sorted(state.stored.items()):
-        yield name, sorted((each, repr(value)) for each, value in values.items())
-    for mesh in sorted({str(value) for _, value in state.stored[MESH].items()}) if MESH in state.stored else ():
-        with suppress(OSError):
-            there = Path(mesh).stat()
-            yield mesh, there.st_size, there.st_mtime_ns
