@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gc
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -18,19 +17,6 @@ def gc_disabled() -> Iterator[None]:
     finally:
         if was_enabled:
             gc.enable()
-
-
-@contextmanager
-def importing() -> Iterator[None]:
-    """Look for no garbage in the block, which only imports modules; what it leaves, which stays, is exempt for ever.
-
-    For programs: looking through what hundreds of modules leave takes a tenth of the time of their imports.
-    """
-    before = len(sys.modules)
-    with gc_disabled():
-        yield
-        if len(sys.modules) > before:
-            gc.freeze()
 
 
 def exempt_from_gc() -> None:

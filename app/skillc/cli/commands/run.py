@@ -16,7 +16,7 @@ from skillc.cli.command import Command
 from skillc.cli.completions import complete_task
 from skillc.cli.options import EXECUTION, grouped_option, json_option, store_options, task_arguments
 from skillc.cli.run_options import run_options
-from skillc_dsl.garbage import importing
+from skillc_dsl.importing import importing
 
 if TYPE_CHECKING:
     from skillc_runtime.recording.run_spec import RunSpec
@@ -54,7 +54,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     TASK is the name of a task of the project here or of a shipped one, or LIBRARY:NAME; `skillc tasks` lists them. In a
     project, TASK may be left out if the manifest names a default one.
     """
-    with importing():
+    with importing("run"):
         from skillc.cli.console import Terminal, print_json, remark_default
         from skillc.cli.film_progress import FilmProgress
         from skillc.cli.run_output import check_operable, print_results, run_with_progress

@@ -17,7 +17,7 @@ from skillc.cli.command import Command
 from skillc.cli.options import PATH, grouped_option
 from skillc.cli.serving import DEFAULT_BIND, cell_options, parse_address, require_ros2, require_server
 from skillc.cli.struct_options import struct_options
-from skillc_dsl.garbage import importing
+from skillc_dsl.importing import importing
 
 if TYPE_CHECKING:
     from skillc.server.listening import Listening
@@ -74,7 +74,7 @@ def command(
     require_server()
     if network.ros2:
         require_ros2("--ros2")
-    with importing():
+    with importing("serve"):
         from skillc.cli.console import Terminal
         from skillc.server.cells import choose_cells
         from skillc.server.log import logging_to
