@@ -35,8 +35,8 @@ def started() -> Iterator[Toy]:
 @pytest.fixture
 def toy(started: Toy, monkeypatch: pytest.MonkeyPatch) -> Iterator[Toy]:
     """A toy robot that is known as the back end `toy`; at the end it has got no command."""
-    found = backends.entry_points
-    monkeypatch.setattr(backends, "entry_points", lambda group: EntryPoints([*found(group=group), ENTRY]))
+    installed = EntryPoints([*backends.find_installed(), ENTRY])
+    monkeypatch.setattr(backends, "find_installed", lambda: installed)
     toy_backend.choose(started, monkeypatch)
     before = started.ask("report")
     yield started

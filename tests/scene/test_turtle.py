@@ -15,6 +15,7 @@ from skillc_dsl.source import Span
 from skillc_ontology import catalogue
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.turtle.statements import Parsed
+from skillc_rdf.turtle.tokens import tokens
 
 SEEDS = int(os.environ.get("TURTLE_SEEDS", "30"))
 FILES = [("everything", EVERYTHING), *catalogue.vocabulary_files()]
@@ -175,3 +176,9 @@ def test_a_misspelt_namespace_is_told_at_its_declaration() -> None:
 def test_another_format_is_told_once(text: str, format_: str) -> None:
     (problem,) = read(text).problems
     assert problem.name == "not-turtle" and f"this is {format_}, not Turtle" == problem.message
+
+
+@pytest.mark.parametrize(("name", "text"), FILES, ids=[name for name, _ in FILES])
+def test_a_letter_beyond_ascii_anywhere_changes_no_other_token(name: str, text: str) -> None:
+    plain = text.encode("ascii", "ignore").decode()
+    assert list(tokens(f"{plain}\n# \u00e9"))[:-1] == list(tokens(plain))[:-1]

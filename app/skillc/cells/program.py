@@ -5,6 +5,7 @@ What it writes to the standard error output is for a log.
 
 from __future__ import annotations
 
+import gc
 import signal
 import socket
 import sys
@@ -59,6 +60,7 @@ def serve_cell(requests: socket.socket, stops: socket.socket) -> int:
         return 1
     tell = partial(_tell_compilation, requests)
     LISTENERS.append(tell)
+    gc.disable()  # what is made until the cell is open stays
     try:
         with open_cell(settings, _Log()) as host:
             LISTENERS.remove(tell)
@@ -68,6 +70,7 @@ def serve_cell(requests: socket.socket, stops: socket.socket) -> int:
             for number in ENDING:
                 signal.signal(number, lambda received, _: service.end(f"by {signal.Signals(received).name}"))
             exempt_from_gc()
+            gc.enable()
             service.run()
         outbox.close(CLOSE_S)
     except DiagnosticsError as error:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from importlib.metadata import EntryPoint, entry_points
+import sys
+from functools import cache
+from importlib.metadata import EntryPoint, EntryPoints, entry_points
 from typing import TYPE_CHECKING, TypeAlias
 
 from skillc.errors import RequestError, ServiceError
@@ -27,9 +29,20 @@ SIMULATED = ("mujoco", "kinematic")
 """The back ends that are known to begin with all arms at home, unless the cell was saved."""
 
 
+def find_installed() -> EntryPoints:
+    """Return the entry points of all back ends that are installed."""
+    return _find_on(tuple(sys.path))
+
+
+@cache
+def _find_on(path: tuple[str, ...]) -> EntryPoints:
+    """Look for the packages that have back ends on a path of modules, which reads a file of each package there."""
+    return entry_points(group=GROUP)
+
+
 def list_backends() -> tuple[str, ...]:
     """Return the names of all back ends that are installed, sorted."""
-    return tuple(sorted(entry_points(group=GROUP).names))
+    return tuple(sorted(find_installed().names))
 
 
 def require_backend(name: object) -> BackendName:
@@ -64,7 +77,7 @@ def check_pace(backend: Backend, factor: float) -> None:
 
 
 def _find_entry(name: str) -> EntryPoint:
-    found = [each for each in entry_points(group=GROUP) if each.name == name]
+    found = [each for each in find_installed() if each.name == name]
     if not found:
         there = ", ".join(list_backends()) or "none"
         how = f"install the package that has the entry point `{name}` of `{GROUP}`"

@@ -15,31 +15,38 @@ Kind: TypeAlias = Literal[
 ]
 """`at` is a directive or a language tag, `open-text` and `open-iri` lack their end, `stray` is not Turtle."""
 
-_LETTER = (
-    "A-Za-z\u00c0-\u00d6\u00d8-\u00f6\u00f8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f"
+_ASCII = "A-Za-z"
+_BEYOND = (
+    "\u00c0-\u00d6\u00d8-\u00f6\u00f8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f"
     "\u2c00-\u2fef\u3001-\ud7ff\uf900-\ufdcf\ufdf0-\ufffd\U00010000-\U000effff"
 )
-_START = f"{_LETTER}_0-9"
-_CHARACTER = f"{_START}\u00b7\u0300-\u036f\u203f\u2040\\-"
+"""Letters beyond ASCII."""
+_INSIDE = "\u00b7\u0300-\u036f\u203f\u2040"
+"""What stands beyond ASCII in a name, but not at its beginning."""
 _ESCAPED = r"%[0-9A-Fa-f]{2}|\\[_~.\-!$&'()*+,;=/?#@%]"
 _MOST_DOTS = 16
 """The most dots in a prefix: a text without a `:` is not searched for one from each of its dots to its end."""
-_PREFIX = rf"[{_LETTER}][{_CHARACTER}]*+(?:\.+[{_CHARACTER}]++){{0,{_MOST_DOTS}}}+"
-_LOCAL = rf"(?:[{_START}:]|{_ESCAPED})(?:[{_CHARACTER}:]|{_ESCAPED}|\.+(?=[{_CHARACTER}:]|{_ESCAPED}))*"
 _ESCAPE = r"\\[^\r\n]"
 _EXPONENT = r"[eE][+-]?[0-9]+"
 
-_TOKEN = rf"""(?P<skip>[ \t\r\n]+|\#[^\r\n]*)
-      | (?P<name>(?:{_PREFIX})?:(?:{_LOCAL})?)
+
+def _write_expression(letter: str, inside: str) -> str:
+    """Return the expression of a token, by the classes of its letters and of what else stands in a name."""
+    start = f"{letter}_0-9"
+    character = f"{start}{inside}\\-"
+    prefix = rf"[{letter}][{character}]*+(?:\.+[{character}]++){{0,{_MOST_DOTS}}}+"
+    local = rf"(?:[{start}:]|{_ESCAPED})(?:[{character}:]|{_ESCAPED}|\.+(?=[{character}:]|{_ESCAPED}))*"
+    return rf"""(?P<skip>[ \t\r\n]+|\#[^\r\n]*)
+      | (?P<name>(?:{prefix})?:(?:{local})?)
       | (?P<number>[+-]?(?:[0-9]+\.[0-9]*{_EXPONENT}|\.[0-9]+{_EXPONENT}|[0-9]+{_EXPONENT}|[0-9]*\.[0-9]+|[0-9]+))
       | (?P<mark>[.;,\[\]()])
       | (?P<text>\"\"\"(?:\"{{0,2}}(?:[^"\\]|\\.))*\"\"\"|'''(?:'{{0,2}}(?:[^'\\]|\\.))*'''
           |(?!\"\"\")"(?:[^"\\\r\n]|{_ESCAPE})*"|(?!''')'(?:[^'\\\r\n]|{_ESCAPE})*')
       | (?P<iri><[^<>"\x00-\x20]*>)
-      | (?P<blank>_:[{_START}](?:[{_CHARACTER}]|\.+(?=[{_CHARACTER}]))*)
+      | (?P<blank>_:[{start}](?:[{character}]|\.+(?=[{character}]))*)
       | (?P<at>@[A-Za-z]+(?:-[A-Za-z0-9]+)*)
       | (?P<datatype>\^\^)
-      | (?P<word>[{_LETTER}_][{_CHARACTER}]*)
+      | (?P<word>[{letter}_][{character}]*)
       | (?P<open_text>(?:\"\"\"|''').*|["'][^\r\n]*)
       | (?P<open_iri><<|<[^\s<>"]*)
       | (?P<stray>[^\s"'<>;,\[\]()]+|.)"""
@@ -73,14 +80,15 @@ class Token(NamedTuple):
 
 
 @cache
-def _expression() -> re.Pattern[str]:
-    """Return the compiled expression of a token: its classes of letters take long to compile."""
-    return re.compile(_TOKEN, re.VERBOSE | re.DOTALL)
+def _expression(is_ascii: bool) -> re.Pattern[str]:
+    """Return the compiled expression of a token: beyond ASCII, its classes of letters take long to compile."""
+    written = _write_expression(_ASCII, "") if is_ascii else _write_expression(_ASCII + _BEYOND, _INSIDE)
+    return re.compile(written, re.VERBOSE | re.DOTALL)
 
 
 def tokens(text: str) -> Iterator[Token]:
     """Yield the tokens of a text, without white space and comments, and at the end one of the kind `end`."""
-    for match in _expression().finditer(text):
+    for match in _expression(text.isascii()).finditer(text):
         kind = match.lastgroup
         if kind != "skip":
             yield Token(cast(Kind, (kind or "stray").replace("_", "-")), match.group(), match.start(), match.end())

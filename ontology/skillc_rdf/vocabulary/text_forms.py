@@ -18,12 +18,12 @@ _DAYS = r"(?:[0-9]+D)?(?:T(?=[0-9])(?:[0-9]+H)?(?:[0-9]+M)?(?:[0-9]+(?:\.[0-9]+)
 class TextForm(NamedTuple):
     """The form of the texts of a datatype, and one of them."""
 
-    pattern: re.Pattern[str]
+    pattern: str
     example: str
 
     def fits(self, text: str) -> bool:
         """Whether a text has the form; the day of a date exists in its month."""
-        found = self.pattern.fullmatch(text)
+        found = re.fullmatch(self.pattern, text)
         parts = found.groupdict() if found else {}
         if "month" not in parts or "day" not in parts:
             return found is not None
@@ -31,24 +31,20 @@ class TextForm(NamedTuple):
         return int(parts["day"]) <= monthrange(leap_like, int(parts["month"]))[1]
 
 
-def _form(pattern: str, example: str) -> TextForm:
-    return TextForm(re.compile(pattern), example)
-
-
 FORMS = {
-    f"{XSD}dateTime": _form(rf"{_YEAR}-{_MONTH}-{_DAY}T{_TIME}{_ZONE}?", "2026-11-29T08:30:00Z"),
-    f"{XSD}dateTimeStamp": _form(rf"{_YEAR}-{_MONTH}-{_DAY}T{_TIME}{_ZONE}", "2026-11-29T08:30:00Z"),
-    f"{XSD}date": _form(rf"{_YEAR}-{_MONTH}-{_DAY}{_ZONE}?", "2026-11-29"),
-    f"{XSD}time": _form(rf"{_TIME}{_ZONE}?", "08:30:00"),
-    f"{XSD}gYear": _form(rf"{_YEAR}{_ZONE}?", "2026"),
-    f"{XSD}gYearMonth": _form(rf"{_YEAR}-{_MONTH}{_ZONE}?", "2026-11"),
-    f"{XSD}gMonth": _form(rf"--{_MONTH}{_ZONE}?", "--11"),
-    f"{XSD}gMonthDay": _form(rf"--{_MONTH}-{_DAY}{_ZONE}?", "--11-29"),
-    f"{XSD}gDay": _form(rf"---{_DAY}{_ZONE}?", "---29"),
-    f"{XSD}duration": _form(rf"-?P(?=[0-9T])(?:[0-9]+Y)?(?:[0-9]+M)?{_DAYS}", "P1DT2H"),
-    f"{XSD}dayTimeDuration": _form(rf"-?P(?=[0-9T]){_DAYS}", "P1DT2H"),
-    f"{XSD}yearMonthDuration": _form(r"-?P(?=[0-9])(?:[0-9]+Y)?(?:[0-9]+M)?", "P1Y2M"),
-    f"{XSD}hexBinary": _form(r"(?:[0-9A-Fa-f]{2})*", "0FB7"),
+    f"{XSD}dateTime": TextForm(rf"{_YEAR}-{_MONTH}-{_DAY}T{_TIME}{_ZONE}?", "2026-11-29T08:30:00Z"),
+    f"{XSD}dateTimeStamp": TextForm(rf"{_YEAR}-{_MONTH}-{_DAY}T{_TIME}{_ZONE}", "2026-11-29T08:30:00Z"),
+    f"{XSD}date": TextForm(rf"{_YEAR}-{_MONTH}-{_DAY}{_ZONE}?", "2026-11-29"),
+    f"{XSD}time": TextForm(rf"{_TIME}{_ZONE}?", "08:30:00"),
+    f"{XSD}gYear": TextForm(rf"{_YEAR}{_ZONE}?", "2026"),
+    f"{XSD}gYearMonth": TextForm(rf"{_YEAR}-{_MONTH}{_ZONE}?", "2026-11"),
+    f"{XSD}gMonth": TextForm(rf"--{_MONTH}{_ZONE}?", "--11"),
+    f"{XSD}gMonthDay": TextForm(rf"--{_MONTH}-{_DAY}{_ZONE}?", "--11-29"),
+    f"{XSD}gDay": TextForm(rf"---{_DAY}{_ZONE}?", "---29"),
+    f"{XSD}duration": TextForm(rf"-?P(?=[0-9T])(?:[0-9]+Y)?(?:[0-9]+M)?{_DAYS}", "P1DT2H"),
+    f"{XSD}dayTimeDuration": TextForm(rf"-?P(?=[0-9T]){_DAYS}", "P1DT2H"),
+    f"{XSD}yearMonthDuration": TextForm(r"-?P(?=[0-9])(?:[0-9]+Y)?(?:[0-9]+M)?", "P1Y2M"),
+    f"{XSD}hexBinary": TextForm(r"(?:[0-9A-Fa-f]{2})*", "0FB7"),
 }
 """The datatypes whose texts have a form that is checked."""
 FREE = frozenset(
