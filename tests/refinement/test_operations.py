@@ -9,8 +9,11 @@ from refinement.scenes import write_door
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.settings import CellSettings
+from skillc.cells.snapshot import decode_snapshot
+from skillc.contract.jobs import PreviewPlan
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.reporting import SilentReporter
+from skillc.workers.planning import preview_plan
 from skillc_ontology import catalogue
 from skillc_runtime.recording.events import PlanMade
 from skillc_runtime.recording.states import ENDS
@@ -57,3 +60,29 @@ def test_the_look_begins_where_the_arms_are(tmp_path: Path) -> None:
     assert plan.space is not None
     assert (plan.space.checked, plan.space.failure, plan.space.from_home) == (2, None, False)
     assert plan.space.text.endswith("the arms begin where they are")
+
+
+@pytest.mark.slow
+def test_a_preview_looks_from_where_the_arms_are_as_the_operation_would(tmp_path: Path) -> None:
+    with open_cell(settings_of(tmp_path, write_door(tmp_path, 0.5, -20.0, 0.75)), SilentReporter()) as host:
+        known = decode_snapshot(host.take_snapshot(with_arms=True))
+        found = preview_plan(PreviewPlan(None, GOAL, {}, "work", 30.0), known)
+        host.submit("same", OperationRequest(goal=GOAL, approve=True))
+        planned = wait_for(host, "same", "planned")
+    assert known.postures is not None and len(known.postures) == 1
+    assert found.status == "solved" and found.space is not None
+    assert (found.space.checked, found.space.from_home) == (2, False) and len(found.space.postures) == 2
+    assert found.text.endswith(
+        "all 2 checked in space: reach, joints, torques, paths, room; the arms begin where they are"
+    )
+    assert planned.state == "planned"
+
+
+@pytest.mark.slow
+def test_a_preview_says_why_the_arm_cannot_carry_it_out_unless_nobody_looks(tmp_path: Path) -> None:
+    with open_cell(settings_of(tmp_path, write_door(tmp_path, 0.45, -20.0, 0.75)), SilentReporter()) as host:
+        known = decode_snapshot(host.take_snapshot(with_arms=True))
+    found = preview_plan(PreviewPlan(None, GOAL, {}, "work", 30.0), known)
+    assert found.status == "gave-up" and "joint 4 would be at -3." in found.failure
+    unseen = preview_plan(PreviewPlan(None, GOAL, {}, "work", 30.0, geometry=False), known)
+    assert (unseen.status, unseen.space) == ("solved", None)

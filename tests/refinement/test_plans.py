@@ -10,6 +10,7 @@ from click.testing import CliRunner
 
 from refinement.scenes import write_door
 from skillc.cli.main import skillc
+from skillc.services import space_claims
 
 
 def plan(*arguments):
@@ -56,6 +57,15 @@ def test_what_nobody_looked_at_is_said():
     space = plan("contact:insert_peg")["space"]
     assert {each["what"] for each in space["unseen"]} >= {"Insert > SinkBelow"}
     assert {each["step"] for each in space["unseen"]} == {2}
+
+
+def test_where_nothing_can_look_that_is_said(monkeypatch):
+    monkeypatch.setattr(space_claims, "missing_extras", lambda *extras: extras)
+    ran = CliRunner().invoke(skillc, ["plan", "wiping:clean_table"])
+    assert ran.exit_code == 0
+    why = "what looks at it is not installed: pip install 'skillc[run]'"
+    assert ran.stdout.splitlines()[-1] == f"not checked in space: {why}"
+    assert plan("wiping:clean_table")["space"]["stopped"] == why
 
 
 def test_without_geometry_nothing_is_said_about_space():

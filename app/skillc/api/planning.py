@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from html import escape
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
 
 from skillc.api.boundary import NoticeList, api_call
 from skillc.api.picture import Picture
@@ -13,11 +13,13 @@ from skillc.errors import RequestError, ServiceError
 from skillc.services.plan_text import describe_answer, format_plan
 from skillc.services.planning import Answer, plan_goal, prepare_planners
 from skillc.services.schedule_picture import draw_schedule
+from skillc.services.space_claims import plan_goal_in_space
 from skillc.services.task_loading import LoadedTask, check_request, fill_in, load_task
 from skillc.values.arguments import (
     AnyPath,
     optional_seconds,
     require_choice,
+    require_flag,
 )
 from skillc.values.frames import make_frame, make_table
 from skillc.values.keywords import read_keywords
@@ -28,12 +30,22 @@ from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_qu
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import DEADLINE_S
 from skillc_runtime.recording.run_spec import RunSpec
+from skillc_runtime.recording.space_claim import SpaceClaim
 
 if TYPE_CHECKING:
     import pandas as pd
 
 Minimise = Literal["work", "makespan"]
 PLAN_COLUMNS = ("step", "skill", "arguments", "start_s", "duration_s")
+
+
+class PlanSettings(TypedDict, total=False):
+    """How is planned, as `plan` says."""
+
+    minimise: Minimise
+    prove: bool
+    deadline_s: float
+    geometry: bool
 
 
 class PlanningError(ServiceError):
@@ -64,7 +76,8 @@ class Plan:
     """A plan, with its steps in the order in which they start; notebooks show it as a schedule.
 
     `duration_s` is the expected work of all steps, `makespan_s` the time from start to end, in s, when steps that do
-    not wait for each other run in parallel. `optimal` is what is proved of it, `quality` the same as text.
+    not wait for each other run in parallel. `optimal` is what is proved of it, `quality` the same as text, `space` what
+    is known of it in space, None if nobody has looked.
     """
 
     task: str
@@ -74,19 +87,20 @@ class Plan:
     optimal: str
     quality: str
     planner: str
+    space: SpaceClaim | None
     _loaded: LoadedTask = field(repr=False, compare=False)
     _answer: Answer = field(repr=False, compare=False)
 
     def __str__(self) -> str:
         """Return the steps and how good the plan is, as `skillc plan` prints them."""
-        return format_plan(self._answer, self._loaded)
+        return format_plan(self._answer, self._loaded, self.space)
 
     def __len__(self) -> int:
         return len(self.steps)
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as plain data, as `skillc plan --json` prints it."""
-        return describe_answer(self._answer, self._loaded)
+        return describe_answer(self._answer, self._loaded, self.space)
 
     def to_frame(self) -> pd.DataFrame:
         """Return a pandas frame with a row for each step. SkillcError if pandas is not installed."""
@@ -117,17 +131,16 @@ def plan(
     goal: str | None = None,
     scene: AnyPath | None = None,
     library: AnyPath | None = None,
-    minimise: Minimise = "work",
-    prove: bool = False,
-    deadline_s: float = DEADLINE_S,
+    **settings: Unpack[PlanSettings],
 ) -> Plan:
     """Plan for a task, or for a goal in a scene, without running it.
 
     `task` is `LIBRARY:NAME`, or the name of a task of the project here or of a shipped one; without it and without a
     goal, it is the default task of the project. `arguments` are the values of its parameters by name, such as
     `{"surface": "lab:Table-1"}`. `goal` is a condition or PDDL, `scene` a file or the name of a shipped
-    scene, `library` the folder, file or name of the skills. `minimise` is total work or the makespan; `prove` plans
-    with more of a large scene until the least work is proved. The search ends after `deadline_s` s.
+    scene, `library` the folder, file or name of the skills. `minimise` is total `work`, unless it is the `makespan`;
+    `prove` plans with more of a large scene until the least work is proved. The search ends after `deadline_s` s, by
+    default 30. The arms can carry out the plan, as far as is known, beginning at home; without `geometry` nobody looks.
 
     PlanningError if there is no plan or none was found in time, DiagnosticsError if the library, the scene or the goal
     has errors, RequestError if what is named does not exist or cannot be planned for.
@@ -137,10 +150,16 @@ def plan(
         spec = fill_in(read_keywords(RunSpec, given, RunKeywords, task))
         check_request(spec, calls=False)
         with load_task(spec, NoticeList()) as loaded:
-            return make_plan(loaded, minimise, prove, deadline_s)
+            return make_plan(loaded, **settings)
 
 
-def make_plan(loaded: LoadedTask, minimise: Minimise, prove: bool, deadline_s: float) -> Plan:
+def make_plan(
+    loaded: LoadedTask,
+    minimise: Minimise = "work",
+    prove: bool = False,
+    deadline_s: float = DEADLINE_S,
+    geometry: bool = True,
+) -> Plan:
     """Plan for a loaded task; errors as of `plan`."""
     require_choice(minimise, Minimise, "`minimise`")
     if prove and minimise == "makespan":
@@ -149,13 +168,17 @@ def make_plan(loaded: LoadedTask, minimise: Minimise, prove: bool, deadline_s: f
     measure: Literal["makespan", "proven work", "work"] = (
         "makespan" if minimise == "makespan" else "proven work" if prove else "work"
     )
-    answer = plan_goal(loaded, measure, prepare_planners(True), CancelToken(limit_s or DEADLINE_S))
+    planners, cancel = prepare_planners(True), CancelToken(limit_s or DEADLINE_S)
+    if require_flag(geometry, "`geometry`"):
+        answer, space = plan_goal_in_space(loaded, measure, planners, cancel)
+    else:
+        answer, space = plan_goal(loaded, measure, planners, cancel), None
     if isinstance(answer, Unsolvable | GaveUp):
         raise PlanningError(answer)
-    return _as_plan(answer, loaded)
+    return _as_plan(answer, loaded, space)
 
 
-def _as_plan(answer: Solved | Scheduled, loaded: LoadedTask) -> Plan:
+def _as_plan(answer: Solved | Scheduled, loaded: LoadedTask, space: SpaceClaim | None) -> Plan:
     state = loaded.assignment.state
     schedule = answer.schedule if isinstance(answer, Scheduled) else schedule_plan(answer.plan, loaded.library, state)
     steps = tuple(
@@ -170,6 +193,7 @@ def _as_plan(answer: Solved | Scheduled, loaded: LoadedTask) -> Plan:
         optimal=answer.optimal,
         quality=describe_quality(answer.optimal, answer.left_out, answer.at_least_s),
         planner=answer.planner,
+        space=space,
         _loaded=loaded,
         _answer=answer,
     )

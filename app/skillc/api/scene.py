@@ -13,7 +13,7 @@ from msgspec import structs
 
 from skillc.api.boundary import NoticeList, api_call, refusing_values
 from skillc.api.picture import Picture
-from skillc.api.planning import Minimise, Plan, make_plan
+from skillc.api.planning import Plan, PlanSettings, make_plan
 from skillc.api.table import QueryResult
 from skillc.errors import RequestError
 from skillc.services import scenes
@@ -178,10 +178,10 @@ class Scene:
             box = scenes.picture_scene(self._opened.at_present())
         return Picture(self.name, svg.draw_document(box), mermaid.draw(box))
 
-    def plan(self, goal: str, *, minimise: Minimise = "work", prove: bool = False, deadline_s: float = 30.0) -> Plan:
+    def plan(self, goal: str, **settings: Unpack[PlanSettings]) -> Plan:
         """Plan for a goal in the world as it is now; parameters and errors as of `skillc.plan`."""
         with api_call(self._folders):
-            return make_plan(self._load(require_text(goal, "the goal"), None), minimise, prove, deadline_s)
+            return make_plan(self._load(require_text(goal, "the goal"), None), **settings)
 
     def start(self, goal: str | None = None, **settings: Unpack[SceneStartKeywords]) -> Operation:
         """Start a goal or a skill call in a copy of the world as it is now; parameters and errors as of `skillc.start`.

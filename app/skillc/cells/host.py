@@ -161,8 +161,10 @@ class CellHost:
         """Let operations that are submitted from now on run another library; its vocabulary has the same terms."""
         self.library = self.loop.library = decode_library(content)
 
-    def take_snapshot(self) -> bytes:
-        """Return what the cell knows now, encoded; the same again while nothing is written."""
+    def take_snapshot(self, with_arms: bool = False) -> bytes:
+        """Return what the cell knows now, encoded, and where its arms are; else the same while nothing is written."""
+        if with_arms:
+            return self._snapshots.take_with_arms(self.library, self.devices.backend.cell)
         return self._snapshots.take(self.library)
 
     def take_twin(self) -> bytes:

@@ -176,8 +176,10 @@ class CellService:
     def _look(self, message: Look) -> bytes:
         """Return what is asked for; nothing changes."""
         match message:
-            case TakeSnapshot(devices=devices):
-                return self._host.take_twin() if devices else self._host.take_snapshot()
+            case TakeSnapshot(beside="devices"):
+                return self._host.take_twin()
+            case TakeSnapshot(beside=beside):
+                return self._host.take_snapshot(with_arms=beside == "arms")
             case TakeSample():
                 return msgspec.msgpack.encode(self._host.devices.sampler.take())
             case TakeGeometry():

@@ -11,7 +11,9 @@ from typing import Any, cast
 from skillc.cells.library import decode_library, encode_library
 from skillc.services.backends import DEFAULT_BACKEND, BackendName
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.checkpoints import Checkpoints
+from skillc_runtime.execution.refinement.run_planning import Postures, measure_postures
 from skillc_runtime.world.state.evidence import EvidenceLedger, UndoableWrite
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
@@ -22,6 +24,7 @@ class CellSnapshot:
     """The library of a cell, a version of its world, the writes that led to it, and the number of the last one.
 
     `devices` is what the devices report of themselves, as a checkpoint of the backend; empty if it is not asked for.
+    `postures` are those of the arms, (nv,) in rad by IRI, None if they are not asked for.
     """
 
     library: SkillLibrary
@@ -30,6 +33,7 @@ class CellSnapshot:
     sequence: int
     backend: BackendName = "mujoco"
     devices: bytes = b""
+    postures: Postures | None = None
 
     @cached_property
     def ledger(self) -> EvidenceLedger:
@@ -40,7 +44,7 @@ class CellSnapshot:
 
     def __reduce__(self) -> tuple[Callable[..., CellSnapshot], tuple[Any, ...]]:
         """Pickle the library in the format in which cells get it: that is thirty times as fast as its objects."""
-        others = (self.state, self.writes, self.sequence, self.backend, self.devices)
+        others = (self.state, self.writes, self.sequence, self.backend, self.devices, self.postures)
         return _restore, (encode_library(self.library), *others)
 
 
@@ -57,6 +61,10 @@ class SnapshotTaker:
         if self._last is None or self._last[0] != sequence or self._last[1] is not library:
             self._last = sequence, library, encode_snapshot(self._describe(library))
         return self._last[2]
+
+    def take_with_arms(self, library: SkillLibrary, cell: Cell) -> bytes:
+        """Return what the cell knows now, and where its arms are."""
+        return encode_snapshot(replace(self._describe(library), postures=measure_postures(cell)))
 
     def take_twin(self, library: SkillLibrary, checkpoints: Checkpoints | None) -> bytes:
         """Return what the cell knows now and what its devices report: a twin of it is built from that.

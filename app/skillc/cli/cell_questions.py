@@ -35,6 +35,7 @@ def plan(spec: RunSpec, prove: bool, as_json: bool) -> int:
             minimise=spec.minimise,
             prove=prove,
             deadline_s=spec.deadline_s or PLANNING_S,
+            geometry=spec.geometry,
         )
     if as_json:
         click.echo(msgspec.json.format(msgspec.json.encode(answer)))

@@ -116,9 +116,10 @@ class AsyncCell(CellCalls):
         minimise: Literal["work", "makespan"] = "work",
         prove: bool = False,
         deadline_s: float = PLANNING_S,
+        geometry: bool = True,
     ) -> PlanPreview:
         """Plan for a task of the cell's library, or a goal, as its world is now; parameters as of `skillc.plan`."""
-        request = describe_plan(task, goal, arguments, minimise, prove, deadline_s)
+        request = describe_plan(task, goal, arguments, minimise, prove, deadline_s, geometry)
         return await self._connection.call(PREVIEW_PLAN, self.name, body=request)
 
     async def rehearse(

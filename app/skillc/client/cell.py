@@ -196,11 +196,18 @@ class ServerCell(WaitingCell):
         minimise: Literal["work", "makespan"] = "work",
         prove: bool = False,
         deadline_s: float = PLANNING_S,
+        geometry: bool = True,
     ) -> PlanPreview:
         """Plan for a task of the cell's library, or a goal, as its world is now; parameters as of `skillc.plan`."""
         return self._loop.run(
             self._client.plan(
-                task, arguments=arguments, goal=goal, minimise=minimise, prove=prove, deadline_s=deadline_s
+                task,
+                arguments=arguments,
+                goal=goal,
+                minimise=minimise,
+                prove=prove,
+                deadline_s=deadline_s,
+                geometry=geometry,
             )
         )
 

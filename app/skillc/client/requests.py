@@ -53,6 +53,7 @@ def describe_plan(
     minimise: Literal["work", "makespan"],
     prove: bool,
     deadline_s: float,
+    geometry: bool,
 ) -> PlanRequest:
     """Return a request for a plan."""
     return PlanRequest(
@@ -62,6 +63,7 @@ def describe_plan(
         minimise=require_choice(minimise, Literal["work", "makespan"], "`minimise`"),
         prove=prove,
         deadline_s=optional_seconds(deadline_s, "`deadline_s`") or PLANNING_S,
+        geometry=geometry,
     )
 
 

@@ -77,13 +77,17 @@ class CheckOperation(msgspec.Struct, frozen=True, tag="check"):
 
 
 class PreviewPlan(msgspec.Struct, frozen=True, tag="plan"):
-    """Plan for a task with arguments, or for a goal; the search ends after `deadline_s` s."""
+    """Plan for a task with arguments, or for a goal; the search ends after `deadline_s` s.
+
+    With `geometry` plans are looked at in space, from where the arms are.
+    """
 
     task: str | None
     goal: str | None
     arguments: dict[str, str]
     measure: Measure
     deadline_s: float
+    geometry: bool = True
 
 
 class Rehearse(msgspec.Struct, frozen=True, tag="rehearse"):

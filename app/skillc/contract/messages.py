@@ -54,9 +54,9 @@ class Acknowledge(_Message, tag="acknowledge", frozen=True, kw_only=True):
 
 
 class TakeSnapshot(_Message, tag="snapshot", frozen=True, kw_only=True):
-    """Answer with what the cell knows now, with what its devices report if `devices`; see `snapshot.py`."""
+    """Answer with what the cell knows now, and where its arms are, or what its devices report; see `snapshot.py`."""
 
-    devices: bool = False
+    beside: Literal["nothing", "arms", "devices"] = "nothing"
 
 
 class TakeSample(_Message, tag="sample", frozen=True, kw_only=True):

@@ -6,13 +6,16 @@ from typing import Annotated, Literal
 
 import msgspec
 
+from skillc_runtime.recording.space_claim import SpaceClaim
+
 MAX_PLANNING_S = 60.0
 
 
 class PlanRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A task of the cell's library with arguments, or a goal as a condition or as PDDL, to plan for.
 
-    `prove` searches until the least work is proved; the search ends after `deadline_s` s.
+    `prove` searches until the least work is proved; the search ends after `deadline_s` s. With `geometry` plans are
+    looked at in space, from where the arms are.
     """
 
     task: str | None = None
@@ -21,6 +24,7 @@ class PlanRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     minimise: Literal["work", "makespan"] = "work"
     prove: bool = False
     deadline_s: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_PLANNING_S)] = 30.0
+    geometry: bool = True
 
 
 class PreviewedStep(msgspec.Struct, frozen=True):
@@ -49,7 +53,8 @@ class PlanPreview(msgspec.Struct, frozen=True, kw_only=True):
     """The answer of the planners for the world after the write `sequence`; as `skillc plan` prints it in `text`.
 
     `failure` and `causes` say why there is no plan. `optimal` is what is proved of a plan, `at_least_s` the lower bound
-    of what was minimised. `duration_s` is the work of all steps, `makespan_s` the time until the last one ends.
+    of what was minimised. `duration_s` is the work of all steps, `makespan_s` the time until the last one ends. `space`
+    is what is known of the plan in space, None if nobody has looked.
     """
 
     status: Literal["solved", "unsolvable", "gave-up"]
@@ -70,3 +75,4 @@ class PlanPreview(msgspec.Struct, frozen=True, kw_only=True):
     failure: str = ""
     causes: tuple[str, ...] = ()
     searched: bool | None = None
+    space: SpaceClaim | None = None

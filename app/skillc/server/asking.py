@@ -17,13 +17,15 @@ from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs
 
 T = TypeVar("T")
 
+KNOWN_FACTS = TakeSnapshot()
 
-async def ask_about(call: ApiCall, job: Job, kind: type[T], seconds: float) -> T:
-    """Let a worker do a job for what the cell knows now; ApiRefusal if there is no answer.
+
+async def ask_about(call: ApiCall, job: Job, kind: type[T], seconds: float, wanted: TakeSnapshot = KNOWN_FACTS) -> T:
+    """Let a worker do a job for what is `wanted` of the cell now; ApiRefusal if there is no answer.
 
     The worker is killed if the client goes.
     """
-    snapshot = raise_refused(await call.server.find_cell(call.path["cell"]).request(TakeSnapshot()))
+    snapshot = raise_refused(await call.server.find_cell(call.path["cell"]).request(wanted))
     return await _wait(call, call.server.workers.answer(job, snapshot, kind, seconds))
 
 

@@ -75,12 +75,16 @@ def _left_out(answer: Solved | Scheduled, loaded: LoadedTask) -> Iterator[str]:
 
 def plan_as_json(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None = None) -> str:
     """Return one JSON object: status, steps with source lines, optimality, planner, space, or the reason."""
-    described = describe_answer(answer, loaded)
-    return json.dumps(described if space is None else {**described, "space": msgspec.to_builtins(space)}, indent=2)
+    return json.dumps(describe_answer(answer, loaded, space), indent=2)
 
 
-def describe_answer(answer: Answer, loaded: LoadedTask) -> dict[str, object]:
-    """Return status, steps with source lines, optimality and planner, or the reason, as plain data."""
+def describe_answer(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None) -> dict[str, object]:
+    """Return status, steps with source lines, optimality, planner and space, or the reason, as plain data."""
+    described = _describe(answer, loaded)
+    return described if space is None else {**described, "space": msgspec.to_builtins(space)}
+
+
+def _describe(answer: Answer, loaded: LoadedTask) -> dict[str, object]:
     match answer:
         case Solved(plan=plan):
             steps = [_step(step, loaded) for step in plan.steps]

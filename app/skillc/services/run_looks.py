@@ -11,7 +11,7 @@ from skillc_dsl import cache
 from skillc_model.skills import SkillLibrary
 from skillc_ontology.catalogue import user_models
 from skillc_runtime.execution.refinement.look_memory import LookMemory
-from skillc_runtime.execution.refinement.run_planning import SpaceLook, measure_postures
+from skillc_runtime.execution.refinement.run_planning import Postures, SpaceLook, measure_postures
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
@@ -20,6 +20,11 @@ if TYPE_CHECKING:
 def look_from_home(library: SkillLibrary, use_cache: bool = True) -> SpaceLook:
     """Return how plans are looked at that begin with all arms at home."""
     return SpaceLook(None, _open_memory(library) if use_cache else None)
+
+
+def look_from_postures(postures: Postures | None, library: SkillLibrary) -> SpaceLook:
+    """Return how plans are looked at that begin with arms in postures, each (nv,) in rad by IRI; None for home."""
+    return SpaceLook(postures, _open_memory(library))
 
 
 def look_from(cell: Cell, library: SkillLibrary, use_cache: bool = True) -> SpaceLook:

@@ -2485,7 +2485,8 @@ export interface components {
          * @description The answer of the planners for the world after the write `sequence`; as `skillc plan` prints it in `text`.
          *
          *         `failure` and `causes` say why there is no plan. `optimal` is what is proved of a plan, `at_least_s` the lower bound
-         *         of what was minimised. `duration_s` is the work of all steps, `makespan_s` the time until the last one ends.
+         *         of what was minimised. `duration_s` is the work of all steps, `makespan_s` the time until the last one ends. `space`
+         *         is what is known of the plan in space, None if nobody has looked.
          */
         PlanPreview: {
             /** @enum {unknown} */
@@ -2522,6 +2523,8 @@ export interface components {
             causes?: string[];
             /** @default null */
             searched?: boolean | null;
+            /** @default null */
+            space?: components["schemas"]["SpaceClaim"] | null;
         };
         /**
          * PreviewedStep
@@ -2554,7 +2557,8 @@ export interface components {
          * PlanRequest
          * @description A task of the cell's library with arguments, or a goal as a condition or as PDDL, to plan for.
          *
-         *         `prove` searches until the least work is proved; the search ends after `deadline_s` s.
+         *         `prove` searches until the least work is proved; the search ends after `deadline_s` s. With `geometry` plans are
+         *         looked at in space, from where the arms are.
          */
         PlanRequest: {
             /** @default null */
@@ -2574,6 +2578,8 @@ export interface components {
             prove?: boolean;
             /** @default 30 */
             deadline_s?: number;
+            /** @default true */
+            geometry?: boolean;
         };
         /**
          * Rehearsal

@@ -1,6 +1,6 @@
 // A plan before it runs: its steps, what is proved of it, and what was left out; or why there is none.
 import type { PlanPreview } from "../api/types";
-import { formatTime } from "../state/text";
+import { describePlan, formatTime } from "../state/text";
 import { PlaceLink } from "./links";
 import { NothingToDo } from "./NothingToDo";
 
@@ -32,6 +32,7 @@ export function Preview({ preview }: { preview: PlanPreview }) {
       ))}
       <LeftOut preview={preview} />
       {preview.note && <p class="small muted">{preview.note}</p>}
+      {preview.space?.failure && <p class="small muted">does not go in space: {preview.space.failure}</p>}
     </section>
   );
 }
@@ -51,7 +52,7 @@ const argumentsOf = (given: Record<string, string>): string => Object.values(giv
 function summary(preview: PlanPreview): string {
   const time = preview.makespan_s ?? preview.duration_s;
   const bound = preview.at_least_s === null ? "" : `at least ${formatTime(preview.at_least_s)}`;
-  return [time === null ? "" : `about ${formatTime(time)}`, preview.quality, bound]
+  return [time === null ? "" : `about ${formatTime(time)}`, describePlan(preview), bound]
     .filter((each) => each !== "")
     .join(", ");
 }

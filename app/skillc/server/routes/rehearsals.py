@@ -27,7 +27,7 @@ async def rehearse(call: ApiCall) -> Rehearsal:
     await ask_about(
         call, CheckOperation(wanted.task, wanted.goal, wanted.call, wanted.arguments, ()), type(None), QUERY_S
     )
-    twin = raise_refused(await cell.request(TakeSnapshot(devices=True)))
+    twin = raise_refused(await cell.request(TakeSnapshot(beside="devices")))
     return call.server.rehearsals.begin(cell.settings.name, call.body, twin)
 
 
