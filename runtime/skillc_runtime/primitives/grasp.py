@@ -14,12 +14,13 @@ from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.primitives.space_needs import Hold, Leave, SpaceNeed
 from skillc_runtime.primitives.support import SupportCheck
 from skillc_runtime.primitives.time_limits import finger_limit_s
+from skillc_runtime.world.space.cargo import cargo_changes
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
 from skillc_runtime.world.space.grasp_geometry import is_sideways
 from skillc_runtime.world.space.grasps import width_between
 from skillc_runtime.world.space.grip_force import mass_of
 from skillc_runtime.world.space.whereabouts import holders_of
-from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
+from skillc_runtime.world.state.changes import AddRelation, RemoveRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import number_of
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity
 from skillc_runtime.world.state.labelling import label
@@ -71,16 +72,17 @@ class Grasp(Primitive):
         self._check_fingers(gripper, hand, thing, state)
         self._frame = frame_name(state, self._gripper)
         self._in_hand = self._at.inverse() @ pose(state, self._object)
+        self._cargo = cargo_changes(state, self._object)
         try:
             gripper.attach(self._object, self._in_hand, mass_of(state, self._object))
         except RuntimeError as error:
             raise SkillFailure(str(error)) from error
 
     def tick(self) -> Status:
-        """Write that the gripper holds the object, and its assumed pose in the hand; return SUCCESS."""
+        """Write that the gripper holds the object, its assumed pose in the hand, and that its load moves with it."""
         self.cell.world.commit([AddRelation(self._gripper, CONTAIN, self._object)], "Grasp", "sensed")
         state = self.cell.world.snapshot()
-        held: list[Change] = [*relocation_changes(state, self._object, self._in_hand, self._frame)]
+        held = [*self._cargo, *relocation_changes(state, self._object, self._in_hand, self._frame)]
         sideways = is_sideways(self._at)
         if sideways != (state.value(self._object, HELD_SIDEWAYS) is True):
             held.append(SetProperty(self._object, HELD_SIDEWAYS, sideways))

@@ -2842,7 +2842,7 @@ export interface components {
          *         `known` are the evidence for that and for the believed place. `error_m` and `turned_deg` are how far the true pose
          *         is from the believed one. `intended_m` is where (x, y) its middle should be, to which it was last carried, and
          *         `missed_m` how far from there it really is in the plane. What is not known is None: a held thing is believed to be
-         *         where the hand is.
+         *         where the hand is. `moved_with` is what carried it along after it was put there, whose place `known` is about.
          */
         PlacementResult: {
             thing: components["schemas"]["LabelledIri"];
@@ -2869,6 +2869,8 @@ export interface components {
             ] | null;
             /** @default null */
             missed_m?: number | null;
+            /** @default null */
+            moved_with?: components["schemas"]["LabelledIri"] | null;
         };
         /**
          * PushResult

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
 from math import degrees, hypot
 from types import MappingProxyType
 
@@ -11,7 +13,7 @@ import numpy as np
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.report.result import PlacementResult
 from skillc_runtime.motion.pose import Pose, log
-from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.frame_tree import FrameError, frame_tree_of
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.evidence import DecidingWrite, describe_evidence
 from skillc_runtime.world.state.facts import PropertyFact, RelationFact
@@ -19,6 +21,16 @@ from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, MANIPULATABLE, POSITION
 from skillc_runtime.world.state.world_state import WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class _Move:
+    """A write that moved a thing: about the pose of the thing, or of what carries it."""
+
+    thing: str
+    moved: str
+    write: DecidingWrite
+
 
 NO_TARGETS: Mapping[str, tuple[float, float]] = MappingProxyType({})
 
@@ -33,10 +45,8 @@ def measure_placements(
     `targets` are the places (x, y) in m in the world where things should be, by IRI.
     """
     state = world.snapshot()
-    written = ((thing, world.deciding_write(PropertyFact(thing, POSITION[0]))) for thing in _movable(state))
-    return tuple(
-        _measure(world, state, truth, thing, write, targets.get(thing)) for thing, write in written if write is not None
-    )
+    moves = ((thing, _find_last_move(world, state, thing)) for thing in _movable(state))
+    return tuple(_measure(world, state, truth, move, targets.get(thing)) for thing, move in moves if move is not None)
 
 
 def _movable(state: WorldState) -> list[str]:
@@ -47,16 +57,16 @@ def _measure(
     world: WorldModel,
     state: WorldState,
     truth: GroundTruth | None,
-    thing: str,
-    write: DecidingWrite,
+    move: _Move,
     target: tuple[float, float] | None,
 ) -> PlacementResult:
+    thing, along = move.thing, move.thing != move.moved
     holder = min(state.subjects(CONTAIN, thing), default=None)
     vocabulary, believed, true = state.vocabulary, _believed(state, thing), _true(truth, thing)
     contained = None if holder is None else world.deciding_write(RelationFact(holder, CONTAIN, thing))
     off = None if believed is None or true is None else believed.inverse() @ true
     is_held = holder is not None and state.is_a(holder, END_EFFECTOR)
-    intended = None if is_held else target
+    intended = None if is_held or along else target
     return PlacementResult(
         thing=label(thing, vocabulary),
         holder=None if holder is None else label(holder, vocabulary),
@@ -64,12 +74,34 @@ def _measure(
         holder_known=describe_evidence(contained) if holder is not None else "",
         believed_m=None if believed is None else _numbers(believed),
         true_m=None if true is None else _numbers(true),
-        known=describe_evidence(write),
+        known=describe_evidence(move.write),
         error_m=None if off is None else float(np.linalg.norm(off.position)),
         turned_deg=None if off is None else degrees(float(np.linalg.norm(log(off.rotation)))),
         intended_m=intended,
         missed_m=None if intended is None or true is None else _distance_in_plane(intended, true),
+        moved_with=label(move.moved, vocabulary) if along else None,
     )
+
+
+def _find_last_move(world: WorldModel, state: WorldState, thing: str) -> _Move | None:
+    """Return the last write about the pose of a thing or of what carries it, to any depth; None if there is none."""
+    moves = [
+        _Move(thing, each, write)
+        for each in _with_carriers(state, thing)
+        if (write := world.deciding_write(PropertyFact(each, POSITION[0]))) is not None
+    ]
+    return max(moves, key=lambda each: each.write.number, default=None)
+
+
+def _with_carriers(state: WorldState, thing: str) -> Iterator[str]:
+    """Yield a thing and the things to handle that carry it, from the inside out."""
+    yield thing
+    with suppress(FrameError):
+        pose(state, thing)
+        at = frame_tree_of(state).carrier(thing)
+        while at is not None and state.is_a(at, MANIPULATABLE):
+            yield at
+            at = frame_tree_of(state).carrier(at)
 
 
 def _believed(state: WorldState, thing: str) -> Pose | None:

@@ -80,7 +80,7 @@ class PlacementResult(msgspec.Struct, frozen=True, kw_only=True):
     `known` are the evidence for that and for the believed place. `error_m` and `turned_deg` are how far the true pose
     is from the believed one. `intended_m` is where (x, y) its middle should be, to which it was last carried, and
     `missed_m` how far from there it really is in the plane. What is not known is None: a held thing is believed to be
-    where the hand is.
+    where the hand is. `moved_with` is what carried it along after it was put there, whose place `known` is about.
     """
 
     thing: LabelledIri
@@ -94,6 +94,7 @@ class PlacementResult(msgspec.Struct, frozen=True, kw_only=True):
     turned_deg: float | None
     intended_m: tuple[float, float] | None = None
     missed_m: float | None = None
+    moved_with: LabelledIri | None = None
 
 
 class TouchResult(msgspec.Struct, frozen=True, kw_only=True):

@@ -108,6 +108,7 @@ def format_placement(placed: PlacementResult) -> str:
         return ", ".join((*parts, placed.holder_known)) if parts else placed.known
     if placed.holder_known not in ("", placed.known):
         parts.append(placed.holder_known)
+    parts += [] if placed.moved_with is None else [f"moved with {placed.moved_with}"]
     parts.append(f"at {' '.join(f'{each:.3f}' for each in placed.believed_m)} m, {placed.known}")
     really = f"really {placed.error_m * 1e3:.0f} mm and {placed.turned_deg:.0f} deg from there"
     missed = "" if placed.missed_m is None else f", {placed.missed_m * 1e3:.0f} mm from where it should be"
@@ -124,7 +125,8 @@ PLACEMENT_COLUMNS = (
 def split_placement(placed: PlacementResult) -> tuple[str, ...]:
     """Return where a thing should be, is believed to be, how that is known, where it is, and both errors, as text."""
     where = "" if placed.holder is None else f"{'held by' if placed.is_held else 'in'} {placed.holder}"
-    believed = ", ".join(part for part in (where, _millimetres(placed.believed_m)) if part)
+    along = "" if placed.moved_with is None else f"moved with {placed.moved_with}"
+    believed = ", ".join(part for part in (where, along, _millimetres(placed.believed_m)) if part)
     known = ", ".join(dict.fromkeys(part for part in (placed.holder_known, placed.known) if part))
     error, turned = placed.error_m, placed.turned_deg
     off = "not known" if error is None or turned is None else f"{error * 1e3:.1f} mm, {turned:.1f} deg"

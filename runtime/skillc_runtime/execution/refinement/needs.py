@@ -28,7 +28,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.primitives.move import MOST_POSTURES
 from skillc_runtime.primitives.space_needs import Follow, Hold, Leave, Open, Press, Reach, SpaceNeed, Spread, Take
-from skillc_runtime.world.space.bounding_boxes import TOUCH_M
+from skillc_runtime.world.space.cargo import cargo_changes, lies_on
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
 from skillc_runtime.world.space.grasp_geometry import is_sideways
@@ -152,8 +152,9 @@ def _hold(need: Hold, here: Situation) -> Outcome:
         short = state.vocabulary.short
         return SpaceFailure("in-the-way", f"{short(above)} lies on {short(need.thing)}, which is to be moved")
     in_hand = need.at.inverse() @ pose(state, need.thing)
-    changes = relocation_changes(state, need.thing, in_hand, frame_name(state, need.gripper))
-    return here.with_changes([*changes, SetProperty(need.thing, HELD_SIDEWAYS, is_sideways(need.at))])
+    held = relocation_changes(state, need.thing, in_hand, frame_name(state, need.gripper))
+    sideways = SetProperty(need.thing, HELD_SIDEWAYS, is_sideways(need.at))
+    return here.with_changes([*cargo_changes(state, need.thing), *held, sideways])
 
 
 def _leave(need: Leave, here: Situation) -> Situation:
@@ -169,8 +170,7 @@ def _lying_on(here: Situation, thing: str) -> Iterator[str]:
     for each in read_occupants(here.state):
         if not each.movable or each.individual == thing or thing in holders_of(here.state, each.individual):
             continue
-        gap = _known_gap(here.state, each.individual, thing)
-        if gap is not None and abs(gap) <= TOUCH_M:
+        if lies_on(here.state, each.individual, thing):
             yield each.individual
 
 
