@@ -74,13 +74,20 @@ class GoalMeaning:
 
 
 @dataclass(frozen=True)
+class MovedMeaning:
+    """True of what a step has moved; false of all things at first."""
+
+
+@dataclass(frozen=True)
 class ExclusionMeaning:
     """True of the arguments (IRIs, in the order of the parameters) of steps that no plan may contain; never changes."""
 
     steps: tuple[tuple[str, ...], ...]
 
 
-Meaning: TypeAlias = RelationMeaning | PropertyMeaning | ClassMeaning | GuardMeaning | GoalMeaning | ExclusionMeaning
+Meaning: TypeAlias = (
+    RelationMeaning | PropertyMeaning | ClassMeaning | GuardMeaning | GoalMeaning | MovedMeaning | ExclusionMeaning
+)
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from skillc_model.pddl.domain import (
     ExclusionMeaning,
     GoalMeaning,
     GuardMeaning,
+    MovedMeaning,
     PropertyMeaning,
     RelationMeaning,
 )
@@ -63,7 +64,7 @@ class ChangeText:
             case ClassMeaning(cls):
                 owner = describe_class(lack.atom.terms[0], self._problem, self._state)
                 yield f"{owner}, and {skill} needs a {self._short(cls)}"
-            case GoalMeaning() | ExclusionMeaning():
+            case GoalMeaning() | MovedMeaning() | ExclusionMeaning():
                 return
             case _:
                 assert_never(meaning)

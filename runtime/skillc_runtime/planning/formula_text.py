@@ -20,6 +20,7 @@ from skillc_model.pddl.domain import (
     ExclusionMeaning,
     GoalMeaning,
     GuardMeaning,
+    MovedMeaning,
     PropertyMeaning,
     RelationMeaning,
 )
@@ -91,6 +92,8 @@ class FormulaFormatter:
                 return f"{text} for {', '.join(terms)}"
             case GoalMeaning():
                 return "the goal"
+            case MovedMeaning():
+                return f"{', '.join(terms)} moved"
             case ExclusionMeaning():
                 return f"tried before with {', '.join(terms)}"
             case _:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Literal, Protocol, TypeAlias, assert_never
 
-from skillc_model.conditions import Condition
+from skillc_model.conditions import And, Condition
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
@@ -23,11 +23,21 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class StepWhile:
-    """A step that does not go as long as a ground condition holds, and why."""
+    """A step that does not go as long as a ground condition holds, and why.
+
+    And only as long as no step before has put the things `unmoved` elsewhere, and one has each of the things `moved`.
+    """
 
     step: Step
     condition: Condition
     why: str
+    unmoved: tuple[str, ...] = ()
+    moved: tuple[str, ...] = ()
+
+    @property
+    def always(self) -> bool:
+        """Whether the step never goes."""
+        return self.condition == And(()) and not self.unmoved and not self.moved
 
 
 Excluded: TypeAlias = Step | StepWhile

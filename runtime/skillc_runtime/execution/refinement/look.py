@@ -10,7 +10,6 @@ from typing import TypeAlias, TypeVar
 
 import msgspec
 
-from skillc_model.conditions import Condition
 from skillc_runtime.execution.refinement.failure import Cause
 from skillc_runtime.planning.plan import Excluded, GaveUp, LeftOut, PlanResult, Step, StepWhile, Unsolvable
 from skillc_runtime.planning.schedule import Scheduled
@@ -29,23 +28,19 @@ PlanWithout: TypeAlias = Callable[[Sequence[Excluded]], AnswerT]
 class PlanLook(msgspec.Struct, frozen=True, kw_only=True):
     """What a look at a plan in space has found: the step that does not go, if one does not, and the cause.
 
-    `condition` is what holds of the things in its way, None if it does not go whatever stands where. Without a cause
-    nothing says why.
+    `found` are the steps that do not go, and while what holds: that one, and others like it. Without a cause nothing
+    says why.
     """
 
     claim: SpaceClaim
     failed: Step | None = None
     cause: Cause | None = None
-    condition: Condition | None = None
+    found: tuple[StepWhile, ...] = ()
 
     @property
-    def excluded(self) -> Excluded | None:
-        """What other plans may not contain; None if all steps go, or a value has to be measured first."""
-        if self.failed is None or self.cause == "no-value":
-            return None
-        if self.condition is None:
-            return self.failed
-        return StepWhile(self.failed, self.condition, self.claim.failure or "")
+    def excluded(self) -> tuple[Excluded, ...]:
+        """What other plans may not contain; nothing if all steps go, or a value has to be measured first."""
+        return () if self.cause == "no-value" else tuple(each.step if each.always else each for each in self.found)
 
     def explain(self, state: WorldState, needed: tuple[LeftOut, ...] = ()) -> GaveUp:
         """Return the answer that no plan is known all of whose steps go in space, after this look at the last one.
@@ -77,6 +72,7 @@ def look_at_plans(
             return
         seen = look(answer.plan.steps)
         yield answer, seen
-        if seen.excluded is None or seen.excluded in without:
+        new = [each for each in seen.excluded if each not in without]
+        if not new:
             return
-        without.append(seen.excluded)
+        without += new

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
+from skillc_model.conditions import And
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
+from skillc_runtime.execution.refinement.failure import Cause
 from skillc_runtime.execution.refinement.look import AnswerT, PlanLook, PlanWithout, look_at_plans
 from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement, refine_plan
-from skillc_runtime.execution.refinement.scope import find_excluded
+from skillc_runtime.execution.refinement.scope import call_of, find_excluded, limit_to_places
+from skillc_runtime.execution.refinement.siblings import list_siblings
 from skillc_runtime.execution.refinement.situation import Situation
 from skillc_runtime.execution.refinement.space_claim import make_claim
+from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.planning.plan import GaveUp, Step, StepWhile
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.world_state import WorldState
+
+OF_REACH: frozenset[Cause] = frozenset(("out-of-reach", "joint-range", "torque", "no-grasp-or-place"))
+"""The causes for which steps with other things or places may not go either."""
 
 
 def plan_in_space(
@@ -33,11 +40,12 @@ def plan_in_space(
         try:
             with cancelling(cancel):
                 now = refine_plan(library, state, steps)
+                seen = judge(library, state, now, steps)
         except Cancelled as why:
             return PlanLook(claim=SpaceClaim(checked=0, steps=len(steps), stopped=str(why)))
         found = now
         in_space = in_space and (now.failure is None or now.failure.is_in_space)
-        return judge(library, now, len(steps))
+        return seen
 
     before: tuple[AnswerT, PlanLook] | None = None
     for answer, seen in look_at_plans(plan, look):
@@ -58,18 +66,30 @@ def look_at_plan(
 ) -> PlanLook:
     """Return what a look at a plan finds that begins in a situation; Cancelled if `cancel` ends it."""
     with cancelling(cancel):
-        return judge(library, refine_plan(library, begin.state, steps, begin), len(steps), from_home)
+        return judge(library, begin.state, refine_plan(library, begin.state, steps, begin), steps, from_home)
 
 
-def judge(library: SkillLibrary, found: PlanRefinement, steps: int, from_home: bool = True) -> PlanLook:
-    """Return what a refinement of so many steps says, and what is in the way where it ends."""
-    claim = make_claim(found, steps, from_home)
+def judge(
+    library: SkillLibrary, begin: WorldState, found: PlanRefinement, steps: Sequence[Step], from_home: bool = True
+) -> PlanLook:
+    """Return what a refinement of steps from a version of the world on says, and what is in the way where it ends."""
+    claim = make_claim(found, len(steps), from_home)
     if found.failed is None or found.before is None:
         return PlanLook(claim=claim)
-    excluded = find_excluded(library, found.before, found.failed, claim.failure or "")
-    return PlanLook(
-        claim=claim,
-        failed=found.failed,
-        cause=None if found.failure is None else found.failure.cause,
-        condition=excluded.condition if isinstance(excluded, StepWhile) else None,
-    )
+    excluded = [find_excluded(library, begin, found.before, found.failed, claim.failure or "")]
+    cause = None if found.failure is None else found.failure.cause
+    if cause in OF_REACH and excluded[0].condition == And(()):
+        excluded += _exclude_siblings(library, begin, found.before, found.failed, steps)
+    return PlanLook(claim=claim, failed=found.failed, cause=cause, found=tuple(excluded))
+
+
+def _exclude_siblings(
+    library: SkillLibrary, begin: WorldState, before: Situation, step: Step, steps: Sequence[Step]
+) -> Iterator[StepWhile]:
+    """Yield the steps that are like one that does not go, and do not go either for lack of reach."""
+    for sibling, there in list_siblings(library, before, step, steps):
+        walk = Walk(library)
+        went = next(walk.go(call_of(sibling, library), there, Scope({})), None) is not None
+        why = walk.furthest
+        if not went and why is not None and why.cause in OF_REACH:
+            yield limit_to_places(begin, there.state, StepWhile(sibling, And(()), why.message))

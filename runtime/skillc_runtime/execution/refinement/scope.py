@@ -1,18 +1,21 @@
-"""For which worlds a step is known not to go in space: those in which what is in its way stands where it stands."""
+"""For which worlds a step is known not to go in space: as long as what matters for it stands where it stands."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from contextlib import suppress
+from dataclasses import replace
 
 from skillc_model import tree
 from skillc_model.conditions import And, Expression, Holds, Individual
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.collision.scenery import PoseKey, pose_key
+from skillc_runtime.execution.refinement.siblings import find_hand
 from skillc_runtime.execution.refinement.situation import Situation
 from skillc_runtime.execution.refinement.walk import Scope, Walk
-from skillc_runtime.planning.plan import Excluded, Step, StepWhile
+from skillc_runtime.planning.plan import Step, StepWhile
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.frames import moves_with
+from skillc_runtime.world.space.frames import moves_with, pose
 from skillc_runtime.world.state.changes import Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.terms import BASE_FRAME_ID, CONTAIN, MANIPULATABLE, ON
@@ -33,25 +36,49 @@ def call_of(step: Step, library: SkillLibrary) -> tree.Call:
     )
 
 
-def find_excluded(library: SkillLibrary, before: Situation, step: Step, why: str) -> Excluded:
-    """Return what a plan may not contain because a step does not go in a situation.
+def find_excluded(library: SkillLibrary, begin: WorldState, before: Situation, step: Step, why: str) -> StepWhile:
+    """Return what a plan from a version of the world on may not contain because a step does not go in a situation.
 
     The step is looked at again without the things that skills can move, and with as few of them as keep it from going:
-    while these are where they are, it does not go. If it does not go without all of them, it is excluded for good.
+    while these are where they are, it does not go. If it does not go without all of them, it does not while the things
+    that it names, and no hand holds, have not been moved, or not again: whatever is known of another place.
     """
+    condition = And(_find_blocking(library, before, step))
+    if condition.parts:
+        return StepWhile(step, condition, why)
+    return limit_to_places(begin, before.state, StepWhile(step, condition, why))
+
+
+def limit_to_places(begin: WorldState, now: WorldState, excluded: StepWhile) -> StepWhile:
+    """Return what is excluded as long as the things that a step names, and no hand holds, are where they are now."""
+    named = (each for each in excluded.step.arguments.values() if now.is_a(each, MANIPULATABLE))
+    free = sorted({each for each in named if find_hand(now, each) is None})
+    moved = tuple(each for each in free if _find_place(begin, each) != _find_place(now, each))
+    return replace(excluded, unmoved=tuple(each for each in free if each not in moved), moved=moved)
+
+
+def _find_place(state: WorldState, thing: str) -> PoseKey | None:
+    """Return where a thing is, None if that is not known."""
+    try:
+        return pose_key(pose(state, thing))
+    except FrameError:
+        return None
+
+
+def _find_blocking(library: SkillLibrary, before: Situation, step: Step) -> tuple[Holds, ...]:
+    """Return where the things are that keep a step from going; none if it does not go without them either."""
     state = before.state
     named = set(step.arguments.values())
     things = [each for each in sorted(state.instances(MANIPULATABLE) - named) if not _bears(state, each, named)]
     placed = {each: holder for each in things for holder in state.subjects(CONTAIN, each)}
     if not placed or len(placed) > MOST_THINGS or not _goes(library, before, step, placed):
-        return step
+        return ()
     blocking = dict(placed)
     for each in placed:
         fewer = {thing: holder for thing, holder in blocking.items() if thing != each}
         if not _goes(library, before, step, placed.keys() - fewer.keys()):
             blocking = fewer
-    facts = tuple(Holds(Individual(holder), CONTAIN, Individual(thing)) for thing, holder in blocking.items())
-    return StepWhile(step, And(facts), why)
+    return tuple(Holds(Individual(holder), CONTAIN, Individual(thing)) for thing, holder in blocking.items())
 
 
 def _bears(state: WorldState, thing: str, named: Iterable[str]) -> bool:

@@ -24,6 +24,7 @@ from skillc_model.pddl.domain import (
     ExclusionMeaning,
     GoalMeaning,
     GuardMeaning,
+    MovedMeaning,
     PlanningDomain,
     Predicate,
     PropertyMeaning,
@@ -110,7 +111,7 @@ class _Abstraction:
                 yield from (Atom(predicate.name, (name,)) for name in accepted)
             case GuardMeaning():
                 yield from (Atom(predicate.name, names) for names in self._abstract_arguments(predicate.parameters))
-            case GoalMeaning() | ExclusionMeaning():
+            case GoalMeaning() | MovedMeaning() | ExclusionMeaning():
                 return
             case _:
                 assert_never(predicate.meaning)

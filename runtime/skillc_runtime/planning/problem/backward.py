@@ -23,6 +23,7 @@ from skillc_model.pddl.domain import (
     ExclusionMeaning,
     GoalMeaning,
     GuardMeaning,
+    MovedMeaning,
     PlanningDomain,
     PropertyMeaning,
     RelationMeaning,
@@ -296,7 +297,7 @@ class _Regression:
             case PropertyMeaning(property=iri, value=value):
                 owners = self._state.individuals_with(iri, value) if individuals[0] is None else individuals
                 yield from ((name, (each,)) for each in owners if each is not None)
-            case ClassMeaning() | GuardMeaning() | GoalMeaning() | ExclusionMeaning():
+            case ClassMeaning() | GuardMeaning() | GoalMeaning() | MovedMeaning() | ExclusionMeaning():
                 return
             case _:
                 assert_never(meaning)

@@ -58,11 +58,18 @@ def allow_steps(
 
 
 def negate(condition: Formula) -> Formula:
-    """Return that a conjunction of atoms does not hold; ValueError for anything else, which excludes no step."""
-    parts = conjuncts(condition)
-    if not all(isinstance(each, Atom | Equal) for each in parts):
-        raise ValueError(f"{condition} is not a conjunction of atoms")
-    return disjunction(Negation(each) for each in parts if isinstance(each, Atom | Equal))
+    """Return that a conjunction of literals does not hold; ValueError for anything else, which excludes no step."""
+    return disjunction(map(_negate_literal, conjuncts(condition)))
+
+
+def _negate_literal(literal: Formula) -> Formula:
+    match literal:
+        case Atom() | Equal():
+            return Negation(literal)
+        case Negation(body):
+            return body
+        case _:
+            raise ValueError(f"{literal} is no literal")
 
 
 def _arguments_of(action: Action, steps: Iterable[Step], names: Mapping[str, str]) -> tuple[tuple[str, ...], ...]:

@@ -16,6 +16,7 @@ from skillc_model.pddl.domain import (
     ExclusionMeaning,
     GoalMeaning,
     GuardMeaning,
+    MovedMeaning,
     PlanningDomain,
     Predicate,
     PropertyMeaning,
@@ -76,7 +77,7 @@ class InitialState:
                 return ((name,) for iri, name in self._names.items() if self._state.is_a(iri, cls))
             case GuardMeaning():
                 return self._satisfying(predicate, predicate.meaning)
-            case GoalMeaning():
+            case GoalMeaning() | MovedMeaning():
                 return ()
             case ExclusionMeaning(steps):
                 return (tuple(map(self._names.__getitem__, step)) for step in steps)

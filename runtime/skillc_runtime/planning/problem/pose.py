@@ -25,6 +25,7 @@ from skillc_runtime.planning.plan import Excluded, LeftOut, Step, StepWhile
 from skillc_runtime.planning.problem.domain_cache import get_planning_domain
 from skillc_runtime.planning.problem.excluded_steps import allow_steps, exclude_steps, negate
 from skillc_runtime.planning.problem.initial_state import InitialState
+from skillc_runtime.planning.problem.moved_things import describe_moved, track_moves
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.object_selection import IndividualsByClass, group_by_class, select_objects
 from skillc_runtime.planning.problem.relevance import RelevantDomain, keep_relevant_actions
@@ -109,8 +110,15 @@ def pose_problem(
     )
     conditional = [each for each in without if isinstance(each, StepWhile) and each.step not in without]
     named = named.union(*(_check_known(each.condition, state) for each in conditional))
+    named = named.union(*((*each.unmoved, *each.moved) for each in conditional))
     wanted = _ground_goal(goal, library, domain, named, state)
     conditions = [(each.step, _ground_goal(each.condition, library, domain, named, state)) for each in conditional]
+    if any(each.unmoved or each.moved for each in conditional):
+        domain, moved = track_moves(domain, state.vocabulary)
+        conditions = [
+            (step, conjunction((holds, describe_moved(each, moved))))
+            for each, (step, holds) in zip(conditional, conditions, strict=True)
+        ]
     domain = add_goal_predicates(conjunction((wanted, *(each for _, each in conditions))), library, domain)
     aims = conjunction((wanted, *(negate(each) for _, each in conditions)))
     useful = RelevantDomain(domain, ()) if wanted == TRUE else keep_relevant_actions(domain, aims)
@@ -125,6 +133,7 @@ def pose_problem(
     objects = tuple(Typed(name, types[iri]) for name, iri in sorted(names.items()))
     forbidden = [(each, rename_terms(formula, by_iri)) for each, formula in conditions]
     domain = allow_steps(forbidden, exclude_steps(without, useful.domain, by_iri), useful.domain, by_iri)
+    domain = replace(domain, constants=objects) if forbidden else domain  # actions name them
     initial = InitialState(domain, state, objects, names)
     problem = Problem(
         name="task",
