@@ -25,6 +25,8 @@ KILLS := 200
 REQUESTS := 500
 # How many random surfaces for each of three arms are judged: whether what a look in space says of wiping them is so.
 SURFACES := 200
+# How many random layouts of each of six kinds (stacks, crowds, slots, shelves, ...) are judged in the same way.
+LAYOUTS := 50
 # How many random sequences of edits are analysed in `make soak`, after each edit from nothing and with what was known.
 SEQUENCES := 5000
 # How many random tasks, and how many wipings, `make soak` runs with random requests at random ticks.
@@ -100,10 +102,11 @@ fuzz: .venv/.dev ## test random input of each kind for MINUTES=1 with SEED=0; fa
 mistakes: .venv/.dev ## make EDITS=10000 random mistakes in libraries from SEED=0, one, two and three at once; each has to be one error
 	PYTHONPATH=tests:tests/compiler $(BIN)/python -m random_mistakes --edits $(EDITS) --seed $(SEED)
 
-soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak), and WATCHED=100 in which something happens to a part; judge what is said of SURFACES=200 an arm; kill servers KILLS=200 times, send them REQUESTS=500 of each kind, attack them ROUNDS=20 times in each way; SEQUENCES=5000 of edits, RUNS=2000 tasks and WIPINGS=50 with random requests, simulations that take minutes, a page over OPERATIONS=600
+soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak), and WATCHED=100 in which something happens to a part; judge what is said of SURFACES=200 an arm and LAYOUTS=50 a kind; kill servers KILLS=200 times, send them REQUESTS=500 of each kind, attack them ROUNDS=20 times in each way; SEQUENCES=5000 of edits, RUNS=2000 tasks and WIPINGS=50 with random requests, simulations that take minutes, a page over OPERATIONS=600
 	PYTHONPATH=tests $(BIN)/python -m random_cells --cells $(CELLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m random_cells watched --cells $(WATCHED) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m random_surfaces --surfaces $(SURFACES) --seed $(SEED)
+	PYTHONPATH=tests $(BIN)/python -m random_layouts --layouts $(LAYOUTS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m killed_servers --kills $(KILLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m random_requests --examples $(REQUESTS) --seed $(SEED)
 	ROUNDS=$(ROUNDS) $(BIN)/pytest --timeout 0 -m slow tests/server/test_attacks.py

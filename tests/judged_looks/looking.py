@@ -28,8 +28,9 @@ def judge_task(task: LoadedTask, seed: int, kind: str, search: Callable[[Simulat
     """Judge what is said of a task; `search` returns a way to do it in a cell, None if it finds none."""
     problem = find_start_problem(task, SilentReporter())
     if problem is not None:
-        return Verdict(seed, kind, "refused", None, problem)
-    said, why = look(task)
+        said, why = "no", problem
+    else:
+        said, why = look(task)
     cell = make_ideal_cell(task)
     match said:
         case "yes" | "from another posture":

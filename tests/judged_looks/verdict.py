@@ -8,9 +8,9 @@ from typing import Final, Literal, TypeAlias
 
 import msgspec
 
-Said: TypeAlias = Literal["yes", "no", "from another posture", "unknown", "refused"]
+Said: TypeAlias = Literal["yes", "no", "from another posture", "unknown"]
 """What is said before anything moves: that it goes, that it does not, that it goes from a posture that a run does not
-take, nothing, or that something in the scene is wrong."""
+take, or nothing."""
 
 JUDGED: Final[tuple[Said, ...]] = ("yes", "no", "from another posture")
 """What can be judged."""

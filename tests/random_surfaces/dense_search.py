@@ -6,7 +6,6 @@ Inverse kinematics is damped least squares on MuJoCo's Jacobians, contacts are t
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, cos, pi, radians, sin
 from typing import Any
@@ -14,9 +13,10 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from judged_looks.arm_in_model import ArmInModel, Frame, touching_bodies
 from random_surfaces.drawing import GRASP_M, TOOL_M, Surface
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.motion.pose import Array, log
+from skillc_runtime.motion.pose import Array
 
 STARTS = 200
 """From how many random postures the arm is brought above the surface."""
@@ -32,15 +32,6 @@ OVERLAP, RADIUS_M = 0.2, 0.015
 FAR_M, FAR_RAD = 0.003, 0.03
 ROOM_RAD = 0.05
 """How far joints are at least from the ends of their ranges at the start: nearer, springs push them back."""
-DEEP_M = 0.001
-
-
-@dataclass(frozen=True, slots=True)
-class Frame:
-    """Where the tool shall be: position (3,) in m and axes (3, 3) in the world."""
-
-    position: Array
-    axes: Array
 
 
 def wiping_path(surface: Surface) -> list[Frame]:
@@ -80,31 +71,25 @@ class DenseSearch:
     """A search in the model of a cell with one arm at home, whose hand is to hold the eraser at its grasping pose."""
 
     def __init__(self, cell: SimulatedCell, surface: Surface) -> None:
-        self.model = model = cell.model
-        self.data, self.surface = mujoco.MjData(model), surface
-        named = [model.joint(each) for each in range(model.njnt)]
-        arm = [each for each in named if each.name.startswith("lab:Arm-1/")]
-        self.q_at = np.array([each.qposadr[0] for each in arm])
-        self.v_at = np.array([each.dofadr[0] for each in arm])
-        self.range = np.array([each.range for each in arm])
-        self.torque = np.array([_most_torque(model, each.id) for each in arm])
-        self.site = model.site("lab:Hand-1/tcp").id
-        self.eraser = int(model.joint("lab:Eraser-1/free").qposadr[0])
-        # The hand points down on the middle of the block; the felt is half the height of the block below that.
-        self.tool_m = GRASP_M + TOOL_M[2] / 2
+        self.model, self.surface = cell.model, surface
+        self.data = data = mujoco.MjData(cell.model)
         held = radians(surface.held_deg)
         self.held = np.array([[cos(held), -sin(held), 0.0], [sin(held), cos(held), 0.0], [0.0, 0.0, 1.0]])
-        self.home = cell.data.qpos[self.q_at].copy()
+        # The hand points down on the middle of the block; the felt is half the height of the block below that.
+        self.arm = ArmInModel(cell.model, data, tool_m=GRASP_M + TOOL_M[2] / 2, turned=self.held)
+        self.torque = np.array([_most_torque(cell.model, each.id) for each in self.arm.joints])
+        self.eraser = int(cell.model.joint("lab:Eraser-1/free").qposadr[0])
+        self.home = cell.data.qpos[self.arm.q_at].copy()
         self.rng = np.random.default_rng(0)
 
     def solves(self, starts: int = STARTS) -> Array | None:
         """Return a posture (nv,) in rad above the surface from which all of it can be wiped; None if none is found."""
-        if not self._carries_home():
+        if not self._is_free(self.home, fingers=True) or not self._carries_home():
             return None
         path, tried = wiping_path(self.surface), list[Array]()
         low, high = self._start_range()
         for _ in range(starts):
-            q = self._descend(self.rng.uniform(low, high), path[0])
+            q = self.arm.descend(self.rng.uniform(low, high), path[0])
             if q is None or (q < low).any() or (q > high).any():
                 continue
             if any(np.abs(q - each).max() < 0.1 for each in tried):
@@ -116,91 +101,61 @@ class DenseSearch:
 
     def _carries_home(self) -> bool:
         """Whether the arm can hold the eraser at home, where it begins, and whereto it takes it."""
-        model, data = self.model, self.data
-        data.qpos[self.q_at] = self.home
-        mujoco.mj_kinematics(model, data)
-        axes = data.site_xmat[self.site].reshape(3, 3)
-        data.qpos[self.eraser : self.eraser + 3] = data.site_xpos[self.site] + GRASP_M * axes[:, 2]
-        turned = (axes @ self.held @ np.diag([1.0, -1.0, -1.0])).ravel()
-        mujoco.mju_mat2Quat(data.qpos[self.eraser + 3 : self.eraser + 7], turned)
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_collision(model, data)
-        return not any(self._is_of_eraser(contact) for contact in data.contact[: data.ncon])
-
-    def _is_of_eraser(self, contact: Any) -> bool:
-        """Whether a contact is of the eraser with something else than a hand, and deep."""
-        bodies = [self.model.body(self.model.geom_bodyid[each]).name for each in contact.geom]
-        of_eraser = [each.startswith("lab:Eraser-1/") for each in bodies]
-        of_hand = any(each.startswith("lab:Hand-1/") for each in bodies)
-        return contact.dist < -DEEP_M and any(of_eraser) and not all(of_eraser) and not of_hand
+        there = self.arm.place(self.home)
+        block = slice(self.eraser, self.eraser + 3)
+        self.data.qpos[block] = there.position - TOOL_M[2] / 2 * there.axes[:, 2]
+        turned = (there.axes @ np.diag([1.0, -1.0, -1.0])).ravel()
+        mujoco.mju_mat2Quat(self.data.qpos[self.eraser + 3 : self.eraser + 7], turned)
+        return not any(_is_of_eraser(pair) for pair in touching_bodies(self.model, self.data))
 
     def _start_range(self) -> tuple[Array, Array]:
-        room = np.minimum(ROOM_RAD, 0.1 * (self.range[:, 1] - self.range[:, 0]))
-        return self.range[:, 0] + room, self.range[:, 1] - room
-
-    def _descend(self, q: Array, target: Frame) -> Array | None:
-        for _ in range(100):
-            error, jacobian = self._error(q, target)
-            if np.abs(error).max() < 1e-4:
-                return q
-            step = jacobian.T @ np.linalg.solve(jacobian @ jacobian.T + 1e-4 * np.eye(6), error)
-            q = np.clip(q + step / max(1.0, float(np.abs(step).max()) / 0.3), *self.range.T)
-        return None
+        low, high = self.arm.range.T
+        room = np.minimum(ROOM_RAD, 0.1 * (high - low))
+        return low + room, high - room
 
     def _follows(self, start: Array, path: list[Frame]) -> bool:
         """Whether the arm follows a path from a posture (nv,), its redundant joints pulled back to it as they are."""
-        q, flat = start, np.eye(len(start))
+        q, flat, (low, high) = start, np.eye(len(start)), self.arm.range.T
         for target in path:
             for _ in range(3):
-                error, jacobian = self._error(q, target)
+                error, jacobian = self.arm.find_error(q, target)
                 inverse = jacobian.T @ np.linalg.inv(jacobian @ jacobian.T + 1e-6 * np.eye(6))
                 q = q + inverse @ error + 0.05 * (flat - inverse @ jacobian) @ (start - q)
-            error, jacobian = self._error(q, target)
+            error, jacobian = self.arm.find_error(q, target)
             if np.linalg.norm(error[:3]) > FAR_M or np.linalg.norm(error[3:]) > FAR_RAD:
                 return False
-            if (q < self.range[:, 0]).any() or (q > self.range[:, 1]).any() or self._is_weak(q, jacobian):
+            if (q < low).any() or (q > high).any() or self._is_weak(jacobian):
                 return False
             if not self._is_free(q, fingers=False):
                 return False
         return True
 
-    def _error(self, q: Array, target: Frame) -> tuple[Array, Array]:
-        """Return the error (6,) of the tool, in m and rad, and its Jacobian (6, nv)."""
-        model, data = self.model, self.data
-        data.qpos[self.q_at] = q
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
-        axes = data.site_xmat[self.site].reshape(3, 3)
-        at, axes = data.site_xpos[self.site] + self.tool_m * axes[:, 2], axes @ self.held
-        full = np.empty((2, 3, model.nv))
-        mujoco.mj_jac(model, data, full[0], full[1], at, int(model.site_bodyid[self.site]))
-        error = np.concatenate([target.position - at, log(target.axes @ axes.T)])
-        return error, full[:, :, self.v_at].reshape(6, -1)
-
-    def _is_weak(self, q: Array, jacobian: Array) -> bool:
-        """Whether a motor cannot bear the arm and the force of the tool."""
+    def _is_weak(self, jacobian: Array) -> bool:
+        """Whether a motor cannot bear the arm as it is and the force of the tool; jacobian (6, nv)."""
         data = self.data
         data.qvel[:] = 0.0
         mujoco.mj_forward(self.model, data)
         force = -self.surface.rotation[:, 2] * self.surface.force_n
-        torque = data.qfrc_bias[self.v_at] + jacobian[:3].T @ force
+        torque = data.qfrc_bias[self.arm.v_at] + jacobian[:3].T @ force
         return bool((np.abs(torque) > self.torque).any())
 
     def _is_free(self, q: Array, fingers: bool) -> bool:
         """Whether at q (nv,) no link, no palm and, if `fingers`, no finger lies in what is around or in another."""
-        model, data = self.model, self.data
-        data.qpos[self.q_at] = q
-        data.qpos[self.eraser : self.eraser + 3] = (0.0, 0.0, -5.0)
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_collision(model, data)
-        return not any(self._counts(contact, fingers) for contact in data.contact[: data.ncon])
+        self.data.qpos[self.arm.q_at] = q
+        self.data.qpos[self.eraser : self.eraser + 3] = (0.0, 0.0, -5.0)
+        return not any(_is_of_robot(pair, fingers) for pair in touching_bodies(self.model, self.data))
 
-    def _counts(self, contact: Any, fingers: bool) -> bool:
-        """Whether a contact is of the arm or its hand, and deep; of fingers it counts only if `fingers`."""
-        bodies = [self.model.body(self.model.geom_bodyid[each]).name for each in contact.geom]
-        of_fingers = any("finger" in each or "thumb" in each for each in bodies)
-        of_robot = any(each.startswith(("lab:Arm-1/", "lab:Hand-1/")) for each in bodies)
-        return contact.dist < -DEEP_M and of_robot and (fingers or not of_fingers)
+
+def _is_of_robot(bodies: tuple[str, str], fingers: bool) -> bool:
+    """Whether the arm or its hand is one of two bodies; fingers count only if `fingers`."""
+    of_fingers = any("finger" in each or "thumb" in each for each in bodies)
+    return any(each.startswith(("lab:Arm-1/", "lab:Hand-1/")) for each in bodies) and (fingers or not of_fingers)
+
+
+def _is_of_eraser(bodies: tuple[str, str]) -> bool:
+    """Whether the eraser is one of two bodies, and the other one not a part of it or of the hand."""
+    of_eraser = any(each.startswith("lab:Eraser-1/") for each in bodies)
+    return of_eraser and not all(each.startswith(("lab:Eraser-1/", "lab:Hand-1/")) for each in bodies)
 
 
 def _most_torque(model: Any, joint: int) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from types import MappingProxyType
 
 from skillc_runtime.devices.cell import Cell
@@ -15,13 +16,16 @@ from skillc_runtime.primitives.space_needs import Hold, Leave, SpaceNeed
 from skillc_runtime.primitives.support import SupportCheck
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.space.cargo import cargo_changes
+from skillc_runtime.world.space.frame_tree import FrameError, frame_tree_of
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
 from skillc_runtime.world.space.grasp_geometry import is_sideways
 from skillc_runtime.world.space.grasps import width_between
 from skillc_runtime.world.space.grip_force import mass_of
+from skillc_runtime.world.space.hand_shape import read_hand_shape
+from skillc_runtime.world.space.occupants import read_occupants
 from skillc_runtime.world.space.whereabouts import holders_of
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation, SetProperty
-from skillc_runtime.world.state.data_sheet import number_of
+from skillc_runtime.world.state.data_sheet import SheetError, number_of
 from skillc_runtime.world.state.labelled import LabelledIri, Quantity
 from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, GRASP_WIDTH, HELD_SIDEWAYS, WIDTH_TOLERANCE
@@ -31,8 +35,8 @@ from skillc_runtime.world.state.world_state import WorldState
 FREE_CLEARANCE_M = 0.005
 """How much farther than while holding it the fingers must be open for an object to be free."""
 
-RELEASE_CLEARANCE_M = 0.04
-"""How much farther than the object's width the fingers open to release it."""
+RELEASE_CLEARANCES_M = (0.04, 0.016)
+"""How much farther than the object's width the fingers open to release it, and where there is less room."""
 
 
 WIDTH_TOLERANCE_M = 0.004
@@ -147,7 +151,7 @@ class Release(Primitive):
         self._arm, self._gripper = cell.arm(arm), cell.gripper(gripper)
         self._hand, self._object, self._to = gripper, object, to
         self._support = SupportCheck(cell, arm, object, to)
-        self._free_at_m = self._opening = self._limit_s = self._ends = 0.0
+        self._free_at_m = self._width_m = self._limit_s = self._ends = 0.0
         self._face, self._carried, self._freed = Pose.of((0.0, 0.0, 0.0)), False, False
 
     def start(self) -> None:
@@ -159,8 +163,7 @@ class Release(Primitive):
         self._face = working_face(size(state, self._object))
         self._free_at_m = self._gripper.opening_m + FREE_CLEARANCE_M
         width = state.value(self._object, GRASP_WIDTH)
-        opening = RELEASE_CLEARANCE_M + (width if isinstance(width, float) else self._gripper.opening_m)
-        self._opening = min(opening, self._gripper.max_opening_m)
+        self._width_m = width if isinstance(width, float) else self._gripper.opening_m
         self._limit_s = finger_limit_s(state, self._hand, self._gripper.max_opening_m)
         self._support.start()
 
@@ -203,7 +206,19 @@ class Release(Primitive):
 
     def _move(self) -> None:
         self._ends = self.cell.now + self._limit_s
-        self._gripper.move(self._opening, self._gripper.max_force_n)
+        self._gripper.move(self._find_opening_m(), self._gripper.max_force_n)
+
+    def _find_opening_m(self) -> float:
+        """Return how far in m the fingers open: less where what is known to be around leaves no room for more."""
+        state, most_m = self.cell.world.snapshot(), self._gripper.max_opening_m
+        openings = [min(self._width_m + each, most_m) for each in RELEASE_CLEARANCES_M]
+        with suppress(SheetError, FrameError):
+            at = self._arm.measured.pose @ self._face.inverse() @ frame_tree_of(state).own_pose(self._object).inverse()
+            hand, others = read_hand_shape(state, self._hand), read_occupants(state)
+            around = [each for each in others if each.individual != self._object]
+            free = (each for each in openings if hand.find_in_the_way(at, each, 0.0, around) is None)
+            return next(free, openings[0])
+        return openings[0]
 
     def _detach(self) -> None:
         """Detach the object and write it to the world model.

@@ -1,0 +1,1 @@
+"""Random small layouts: stacks, crowds, narrow slots, shelves, two arms; start at `judging`."""

@@ -1,0 +1,64 @@
+"""What a look in space says of random layouts is so: what it says can be moved is, and for the others there is no way."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from judged_looks.looking import make_ideal_cell
+from judged_looks.verdict import Verdict, share_solved
+from random_layouts.drawing import KINDS, draw_layout, format_layout
+from random_layouts.exhaustive import find_way
+from random_layouts.judging import judge, write_layout
+from skillc.services.reporting import SilentReporter
+from skillc.services.task_loading import load_task
+from skillc_runtime.recording.run_spec import RunSpec
+
+
+def test_a_seed_draws_the_same_layout_again_and_all_are_different() -> None:
+    drawn = [draw_layout(seed, kind) for seed in range(10) for kind in KINDS]
+    assert drawn == [draw_layout(seed, kind) for seed in range(10) for kind in KINDS]
+    assert len({format_layout(each, "cell") for each in drawn}) == 60
+    assert {each.arms for each in drawn} == {1, 2}
+
+
+def test_what_is_said_not_to_go_and_goes_counts_as_not_solved() -> None:
+    said = [("yes", True), ("from another posture", True), ("no", True), ("no", False), ("unknown", None)]
+    verdicts = [Verdict(seed, "plain", *each, "") for seed, each in enumerate(said)]
+    assert share_solved(verdicts) == pytest.approx(2 / 3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("seed", "kind", "way"),
+    [
+        (0, "plain", "Part-1 into Bin-1 with 1"),
+        (0, "stack", "Part-2 into Bin-1 with 1, Part-1 into Bin-1 with 1"),
+        (3, "two-arms", None),
+    ],
+)
+def test_the_search_takes_what_is_above_first_and_finds_nothing_out_of_reach(
+    seed: int, kind: str, way: str | None, tmp_path: Path
+) -> None:
+    layout = draw_layout(seed, kind)
+    with load_task(RunSpec(task=write_layout(layout, tmp_path / "drawn")), SilentReporter()) as task:
+        assert find_way(make_ideal_cell(task), layout) == way
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize(
+    ("seed", "kind", "said"),
+    [
+        (0, "plain", "yes"),
+        (1, "stack", "yes"),
+        (0, "crowd", "yes"),
+        (1, "slot", "yes"),
+        (3, "shelf", "no"),
+        (0, "two-arms", "yes"),
+    ],
+)
+def test_what_is_said_of_moving_a_part_is_so(seed: int, kind: str, said: str, tmp_path: Path) -> None:
+    """In the first slot fingers that open as far as elsewhere clamp the walls."""
+    verdict = judge(seed, kind, tmp_path)
+    assert (verdict.said, verdict.is_so) == (said, True), verdict.why
