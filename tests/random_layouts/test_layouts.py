@@ -1,4 +1,4 @@
-"""What a look in space says of random layouts is so: what it says can be moved is, and for the others there is no way."""
+"""What a look in space says of random layouts is so: what it says can be moved is, and else there is no way."""
 
 from __future__ import annotations
 
@@ -54,11 +54,12 @@ def test_the_search_takes_what_is_above_first_and_finds_nothing_out_of_reach(
         (1, "stack", "yes"),
         (0, "crowd", "yes"),
         (1, "slot", "yes"),
+        (2, "slot", "yes"),
         (3, "shelf", "no"),
         (0, "two-arms", "yes"),
     ],
 )
 def test_what_is_said_of_moving_a_part_is_so(seed: int, kind: str, said: str, tmp_path: Path) -> None:
-    """In the first slot fingers that open as far as elsewhere clamp the walls."""
+    """In the first slot fingers that open as far as elsewhere clamp the walls; the second has room for narrow fingers."""
     verdict = judge(seed, kind, tmp_path)
     assert (verdict.said, verdict.is_so) == (said, True), verdict.why

@@ -21,7 +21,7 @@ from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes
 from skillc_runtime.world.space.grasp_geometry import is_sideways
 from skillc_runtime.world.space.grasps import width_between
 from skillc_runtime.world.space.grip_force import mass_of
-from skillc_runtime.world.space.hand_shape import read_hand_shape
+from skillc_runtime.world.space.hand_shape import RELEASE_CLEARANCES_M, read_hand_shape
 from skillc_runtime.world.space.occupants import read_occupants
 from skillc_runtime.world.space.whereabouts import holders_of
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation, SetProperty
@@ -34,9 +34,6 @@ from skillc_runtime.world.state.world_state import WorldState
 
 FREE_CLEARANCE_M = 0.005
 """How much farther than while holding it the fingers must be open for an object to be free."""
-
-RELEASE_CLEARANCES_M = (0.04, 0.016)
-"""How much farther than the object's width the fingers open to release it, and where there is less room."""
 
 
 WIDTH_TOLERANCE_M = 0.004

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from skillc_runtime.motion.arrays import np
@@ -11,7 +11,7 @@ from skillc_runtime.world.space.bodies import read_shape
 from skillc_runtime.world.space.frame_tree import frame_tree_of
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.grasp_geometry import APPROACH_M
-from skillc_runtime.world.space.hand_shape import HandShape, read_hand_shape
+from skillc_runtime.world.space.hand_shape import RELEASE_CLEARANCES_M, HandShape, read_hand_shape
 from skillc_runtime.world.space.no_place import NEAR_BASE_M, REACH_SHARE, Neighbour, PlaceError, WantedRoom
 from skillc_runtime.world.space.occupants import Occupant, read_occupants
 from skillc_runtime.world.space.oriented_box import CORNERS
@@ -27,7 +27,10 @@ GAP_M = 0.01
 """How far from what is beside it a thing is put down."""
 
 FINGER_M = 0.03
-"""How much room a finger needs beside a thing when it lets go."""
+"""How much room a finger gets beside a thing when it lets go."""
+
+FINGER_SLACK_M = 0.003
+"""How much wider a finger may be on each side than its data sheet says, where there is less room."""
 
 PALM_SLACK_M = 0.003
 """How much higher a palm may be than its data sheet says."""
@@ -61,7 +64,7 @@ def free_hand_pose(state: WorldState, arm: str, gripper: str, thing: str, to: st
     PlaceError if nothing there carries it, it does not fit, everything is taken, or it is out of reach. FrameError,
     MissingFact or SheetError if facts are missing.
     """
-    short, load = state.vocabulary.short, _read_load(state, gripper, thing)
+    short, loads = state.vocabulary.short, [_read_load(state, gripper, thing, room) for room in (_ample, _narrow)]
     supports = [face_away(each, pose(state, arm).position) for each in find_supports(state, to)]
     tilted = next(filter(None, (tilt_problem(state, each) for each in supports)), None)
     if tilted is not None:
@@ -78,7 +81,7 @@ def free_hand_pose(state: WorldState, arm: str, gripper: str, thing: str, to: st
         neighbours = [
             solid for each in others if each.individual != support.individual for solid in _in_frame(each, support)
         ]
-        found = _roof_problem(state, support, load) or _best(state, arm, support, load, neighbours)
+        found = _best_of(state, arm, support, loads, neighbours)
         if isinstance(found, Pose):
             return found
         failures.append(found)
@@ -95,6 +98,19 @@ def pose_in_hand(state: WorldState, gripper: str, thing: str) -> Pose:
     return space.own_pose(thing)
 
 
+def _best_of(
+    state: WorldState, arm: str, support: Support, loads: Iterable[Load], neighbours: list[Neighbour]
+) -> Pose | PlaceError:
+    """Return the best hand pose on a support: with less room around the hand only if it is too small for more."""
+    found: Pose | PlaceError | None = None
+    for load in loads:
+        found = _roof_problem(state, support, load) or _best(state, arm, support, load, neighbours)
+        if isinstance(found, Pose) or found.lack != "room":
+            break
+    assert found is not None, "there is a load"
+    return found
+
+
 def _roof_problem(state: WorldState, support: Support, load: Load) -> PlaceError | None:
     """Return that a hand from above does not fit between a support and what is above it; None if it does."""
     height_m = -float(_extent(load.corners, load.turns[0])[0][2])
@@ -102,15 +118,28 @@ def _roof_problem(state: WorldState, support: Support, load: Load) -> PlaceError
     return None if found is None else PlaceError(f"on {name_support(state, support)}, {found}", "headroom")
 
 
-def _read_load(state: WorldState, gripper: str, thing: str) -> Load:
+def _ample(_hand: HandShape) -> tuple[float, float]:
+    """Return the room in m that fingers get: on each side, across the direction in which they close and along it."""
+    return HAND_M, FINGER_M
+
+
+def _narrow(hand: HandShape) -> tuple[float, float]:
+    """Return the least room in m that fingers need, as above."""
+    return hand.finger_width_m / 2 + FINGER_SLACK_M, hand.finger_thickness_m + RELEASE_CLEARANCES_M[-1] / 2
+
+
+def _read_load(
+    state: WorldState, gripper: str, thing: str, room_of: Callable[[HandShape], tuple[float, float]]
+) -> Load:
     in_hand = pose_in_hand(state, gripper, thing)
     corners = np.concatenate([_corners(each, in_hand) for each in solids_of(read_shape(state, thing))])
     width_m = float(np.abs(corners[:, 1]).max())
     hand = read_hand_shape(state, gripper)
+    across_m, beside_m = room_of(hand)
     if state.value(thing, HELD_SIDEWAYS) is True:
-        room = _room_of_horizontal(hand, width_m)
+        room = _room_of_horizontal(hand, width_m + beside_m)
         return Load(corners, room, room, SIDEWAYS)
-    fingers = CORNERS * np.array([HAND_M, width_m + FINGER_M, hand.tip_m])
+    fingers = CORNERS * np.array([across_m, width_m + beside_m, hand.tip_m])
     behind = np.array([0.0, 0.0, hand.depth_m + PALM_SLACK_M])
     palm = CORNERS * np.array([hand.palm_thickness_m, hand.palm_width_m, 0.0]) / 2 - behind
     return Load(corners, fingers, palm, QUARTERS)
@@ -124,10 +153,13 @@ def _corners(solid: Solid, place: Pose) -> Array:
     return corners
 
 
-def _room_of_horizontal(hand: HandShape, width_m: float) -> Array:
-    """Return the corners (8, 3) in m of the room that a horizontal hand needs, in its frame, until it has withdrawn."""
+def _room_of_horizontal(hand: HandShape, half_open_m: float) -> Array:
+    """Return the corners (8, 3) in m of the room that a horizontal hand needs, in its frame, until it has withdrawn.
+
+    half_open_m: how far from its middle its open fingers reach.
+    """
     behind_m = hand.depth_m + APPROACH_M
-    half = np.array([hand.half_height_m, max(width_m + FINGER_M, hand.palm_width_m / 2), (hand.tip_m + behind_m) / 2])
+    half = np.array([hand.half_height_m, max(half_open_m, hand.palm_width_m / 2), (hand.tip_m + behind_m) / 2])
     corners: Array = CORNERS * half + np.array([0.0, 0.0, (hand.tip_m - behind_m) / 2])
     return corners
 
