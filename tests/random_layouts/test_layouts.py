@@ -60,6 +60,6 @@ def test_the_search_takes_what_is_above_first_and_finds_nothing_out_of_reach(
     ],
 )
 def test_what_is_said_of_moving_a_part_is_so(seed: int, kind: str, said: str, tmp_path: Path) -> None:
-    """In the first slot fingers that open as far as elsewhere clamp the walls; the second has room for narrow fingers."""
+    """In the first slot fingers that open as far as elsewhere clamp the walls; the second has room for slim ones."""
     verdict = judge(seed, kind, tmp_path)
     assert (verdict.said, verdict.is_so) == (said, True), verdict.why
