@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import chain, islice
 from typing import TypeAlias, assert_never
 
 import numpy as np
@@ -13,7 +14,7 @@ from skillc_runtime.collision.path_planning import NoPath, plan_joint_path
 from skillc_runtime.execution.refinement.arm_view import ArmView, view_arm
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.situation import Situation
-from skillc_runtime.kinematics.inverse import rank_postures
+from skillc_runtime.kinematics.inverse import APART_RAD, find_postures, rank_postures, spread_seeds
 from skillc_runtime.kinematics.sweep import (
     ERROR_M,
     ERROR_RAD,
@@ -46,6 +47,10 @@ SAMPLE_M = 0.02
 
 LOOKED_AT = 24
 """How many postures of a pose are looked at; a run tries the first MOST_POSTURES."""
+
+ELBOWS, ELBOW_SEEDS = 12, 8
+"""Towards how many other postures the elbow of a redundant arm is pulled where the first ones do not go, and from how
+many starts each."""
 
 LOWERED_M = 0.03
 """How far a thing is lowered at most until it stands on something."""
@@ -80,14 +85,30 @@ def meet(need: SpaceNeed, here: Situation) -> Iterator[Outcome]:
 
 
 def _reach(view: ArmView, tool: Pose, here: Situation) -> Iterator[Outcome]:
-    found = rank_postures(view.chain, view.base.inverse() @ tool, view.free_range, view.home)
+    target = view.base.inverse() @ tool
+    found = rank_postures(view.chain, target, view.free_range, view.home)
     if not len(found):
         yield SpaceFailure("out-of-reach", f"no posture of {_name(view, here)} brings its tool to {_place(tool)}")
     chosen = False
-    for number, q in enumerate(found[:LOOKED_AT]):
+    for number, q in enumerate(islice(chain(found, _other_elbows(view, target, found)), LOOKED_AT)):
         after = _take(view, q, here, tool, chosen or number >= MOST_POSTURES)
         yield after
         chosen |= isinstance(after, Situation)
+
+
+def _other_elbows(view: ArmView, target: Pose, known: Array) -> Iterator[Array]:
+    """Yield more postures (nv,) in rad of a redundant arm with its tool at a target in its base, apart from the known.
+
+    Those that are known are the nearest to home on their branches.
+    """
+    if view.chain.joints <= 6:
+        return
+    found = list(known)
+    for rest in spread_seeds(view.chain.slides, view.free_range, view.home, ELBOWS):
+        for q in find_postures(view.chain, target, view.free_range, rest, ELBOW_SEEDS):
+            if all(float(np.abs(q - each).max()) > APART_RAD for each in found):
+                found.append(q)
+                yield q
 
 
 def _take(view: ArmView, q: Array, here: Situation, tool: Pose | None = None, chosen: bool = False) -> Outcome:
