@@ -35,6 +35,7 @@ def test_shipped_plans_are_checked_whole(task):
         "steps": len(answer["plan"]),
         "unseen": [],
         "apart": [],
+        "stands": [],
         "failure": None,
         "stopped": "",
         "from_home": True,

@@ -8,13 +8,26 @@ from contextlib import contextmanager
 from skillc_runtime.execution.tree.event_factory import make_change_event
 from skillc_runtime.recording.commands import EditWorld
 from skillc_runtime.recording.events import Listener
+from skillc_runtime.recording.space_claim import SpaceClaim
+from skillc_runtime.world.space.stands import stand_changes
 from skillc_runtime.world.state.labelled_reading import change_of
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def edit_world(world: WorldModel, edit: EditWorld) -> None:
     """Make the changes in one transaction; WorldError or StoreError if they are refused, and then none is made."""
     world.commit([change_of(each) for each in edit.changes], f"{edit.who}: {edit.why}", None)
+
+
+def write_stands(world: WorldModel, space: SpaceClaim, emit: Listener, now: float) -> WorldState:
+    """Write where a plan lets bases stand, at the time `now` in s of the cell; return the world after that."""
+    changes = [
+        change for each in space.stands for change in stand_changes(each.place.iri, each.x_m, each.y_m, each.yaw_rad)
+    ]
+    with recorded_changes(world, emit, now):
+        world.commit(changes, "the plan lets bases stand there")
+    return world.snapshot()
 
 
 @contextmanager

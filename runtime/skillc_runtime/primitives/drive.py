@@ -1,7 +1,8 @@
-"""Drives a mobile base to a workstation."""
+"""Drives a mobile base to a workstation: to its pose, or where beside it bases are stated to stand."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from types import MappingProxyType
 
 import numpy as np
@@ -9,13 +10,17 @@ import numpy as np
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.fact_monitor import base_away_from
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.space_needs import SpaceNeed, Stand
 from skillc_runtime.primitives.standing_bases import leaving_changes
 from skillc_runtime.primitives.time_limits import drive_limit_s
-from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.space.frames import placement_changes
+from skillc_runtime.world.space.stands import read_stand, standing_pose
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.labelled import Quantity
 from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.terms import AT, HAS_ARM
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
 
 
 class DriveBase(Primitive):
@@ -23,6 +28,12 @@ class DriveBase(Primitive):
 
     moves = MappingProxyType({"robot": "to"})
     stays_put = True
+
+    @classmethod
+    def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:
+        """Return that the base stands there."""
+        robot, to = arguments.get("robot"), arguments.get("to")
+        return (Stand(robot, to),) if isinstance(robot, str) and isinstance(to, str) else None
 
     def __init__(self, cell: Cell, *, robot: str, to: str) -> None:
         super().__init__(cell)
@@ -33,7 +44,7 @@ class DriveBase(Primitive):
     def start(self) -> None:
         """Start driving."""
         state = self.cell.world.snapshot()
-        goal = pose(state, self._to)
+        goal = standing_pose(state, self._to)
         far = float(np.linalg.norm(goal.position[:2] - self._base.pose.position[:2]))
         self._limit_s = drive_limit_s(state, self._robot, far, self._base.speed)
         self._ends = self.cell.now + self._limit_s
@@ -48,10 +59,13 @@ class DriveBase(Primitive):
             if self.cell.now > self._ends:
                 raise self._absence()
             return Status.RUNNING
-        elsewhere = base_away_from(self.cell, self._robot, self._to, self.cell.world.snapshot())()
+        state = self.cell.world.snapshot()
+        goal = standing_pose(state, self._to)
+        elsewhere = base_away_from(self.cell, self._robot, self._to, goal, state)()
         if elsewhere is not None:
             raise SkillFailure(elsewhere)
-        self.cell.world.commit([AddRelation(self._robot, AT, self._to)], "DriveBase", "reported")
+        beside = [] if read_stand(state, self._to) is None else placement_changes(self._robot, goal)
+        self.cell.world.commit([AddRelation(self._robot, AT, self._to), *beside], "DriveBase", "reported")
         return Status.SUCCESS
 
     def _check_stopped(self) -> None:
@@ -68,7 +82,7 @@ class DriveBase(Primitive):
 
     def _absence(self) -> SkillFailure:
         state = self.cell.world.snapshot()
-        away = pose(state, self._to).position[:2] - self._base.pose.position[:2]
+        away = standing_pose(state, self._to).position[:2] - self._base.pose.position[:2]
         return SkillFailure(
             "{robot} has not arrived at {to} within {limit:.0f}: it is {away:.2f} away from there",
             robot=label(self._robot, state.vocabulary),

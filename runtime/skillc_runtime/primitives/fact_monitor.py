@@ -10,9 +10,10 @@ from math import dist
 
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.gripper import Gripper
+from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.contradiction import suppose_around
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.space.frames import pose, states_own_pose
 from skillc_runtime.world.space.whereabouts import displacement_changes
 from skillc_runtime.world.state.changes import RemoveRelation
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
@@ -82,9 +83,9 @@ def _expected(cell: Cell, state: WorldState) -> Iterator[Expected]:
     for robot in sorted(state.instances(MOBILE_ROBOT)) if AT in relations else ():
         for place in sorted(state.objects(robot, AT)):
             with suppress(KeyError, FrameError, SheetError):
-                yield Expected(
-                    RelationFact(robot, AT, place), base_away_from(cell, robot, place, state), also_given=False
-                )
+                goal = pose(state, robot if states_own_pose(state, robot) else place)
+                away = base_away_from(cell, robot, place, goal, state)
+                yield Expected(RelationFact(robot, AT, place), away, also_given=False)
 
 
 def _lost(gripper: Gripper, thing: str, name: str, state: WorldState) -> str | None:
@@ -94,12 +95,12 @@ def _lost(gripper: Gripper, thing: str, name: str, state: WorldState) -> str | N
     return f"{name} reports that it holds {state.vocabulary.short(held) if held else 'nothing'}"
 
 
-def base_away_from(cell: Cell, robot: str, place: str, state: WorldState) -> Reading:
-    """Return the facts that say where a robot's base stands when that is not at a place.
+def base_away_from(cell: Cell, robot: str, place: str, at: Pose, state: WorldState) -> Reading:
+    """Return the facts that say where a robot's base stands when that is not `at`, its pose in the world at a place.
 
-    FrameError for a place without a pose, SheetError for a robot without a sheet, KeyError for one without a base.
+    SheetError for a robot without a sheet, KeyError for one without a base.
     """
-    goal, short = pose(state, place).position, state.vocabulary.short
+    goal, short = at.position, state.vocabulary.short
     tolerance, base = _tolerance_m(state, robot), cell.base(robot)
 
     def read() -> str | None:

@@ -78,4 +78,12 @@ class Leave:
     to: str
 
 
-SpaceNeed: TypeAlias = Reach | Take | Follow | Press | Spread | Open | Hold | Leave
+@dataclass(frozen=True, slots=True, eq=False)
+class Stand:
+    """A mobile base stands at a workstation from now on: where that wants it to, or nearby where the arm can work."""
+
+    robot: str
+    to: str
+
+
+SpaceNeed: TypeAlias = Reach | Take | Follow | Press | Spread | Open | Hold | Leave | Stand

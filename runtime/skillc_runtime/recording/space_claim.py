@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from math import degrees
+
 import msgspec
 
-from skillc_runtime.world.state.labelled import LabelledPose
+from skillc_runtime.world.state.labelled import LabelledIri, LabelledPose
 
 
 class UnseenCall(msgspec.Struct, frozen=True):
@@ -31,13 +33,34 @@ class StepsApart(msgspec.Struct, frozen=True):
     arms: tuple[str, str]
 
 
+class StandAt(msgspec.Struct, frozen=True):
+    """Where a base stands in a step of a plan, from 1: an arm does not get to its work where the place wants the base.
+
+    x_m, y_m, yaw_rad: in the frame of the place.
+    """
+
+    step: int
+    robot: LabelledIri
+    place: LabelledIri
+    x_m: float
+    y_m: float
+    yaw_rad: float
+
+    @property
+    def text(self) -> str:
+        """It as a sentence."""
+        turned = f", turned by {degrees(self.yaw_rad):.0f} deg" if self.yaw_rad else ""
+        at = f"({self.x_m:.2f}, {self.y_m:.2f}) m from {self.place}{turned}"
+        return f"step {self.step}: {self.robot} stands at {at}, since an arm does not get to its work from there"
+
+
 class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
     """How many steps of a plan go in space, of how many, and why the next does not; None if it does or is not known.
 
     unseen: the calls in these steps that were not looked at. postures: those in which arms bring their tools to poses,
     in the order of the steps, which a run takes as well. apart: the steps that do not run at the same time, since arms
-    would meet. stopped: why the look ended before it was through; empty if it was. from_home: whether the arms begin at
-    home; else where they were when the plan was made.
+    would meet. stands: where bases stand beside where a place wants them. stopped: why the look ended before it was
+    through; empty if it was. from_home: whether the arms begin at home; else where they were when the plan was made.
     """
 
     checked: int
@@ -45,6 +68,7 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
     unseen: tuple[UnseenCall, ...] = ()
     postures: tuple[ChosenPosture, ...] = ()
     apart: tuple[StepsApart, ...] = ()
+    stands: tuple[StandAt, ...] = ()
     failure: str | None = None
     stopped: str = ""
     from_home: bool = True
@@ -70,6 +94,7 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
         begin = "at home" if self.from_home else "where they are"
         lines = [f"{self.summary}: reach, joints, torques, paths, room; the arms begin {begin}"]
         lines += (f"step {each.step}: nobody says what {each.what} needs of space" for each in self.unseen)
+        lines += (each.text for each in self.stands)
         lines += (
             f"steps {each.one} and {each.other} do not run at the same time: {' and '.join(each.arms)} would meet"
             for each in self.apart

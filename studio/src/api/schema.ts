@@ -1569,8 +1569,8 @@ export interface components {
          *
          *         unseen: the calls in these steps that were not looked at. postures: those in which arms bring their tools to poses,
          *         in the order of the steps, which a run takes as well. apart: the steps that do not run at the same time, since arms
-         *         would meet. stopped: why the look ended before it was through; empty if it was. from_home: whether the arms begin at
-         *         home; else where they were when the plan was made.
+         *         would meet. stands: where bases stand beside where a place wants them. stopped: why the look ended before it was
+         *         through; empty if it was. from_home: whether the arms begin at home; else where they were when the plan was made.
          */
         SpaceClaim: {
             checked: number;
@@ -1581,6 +1581,8 @@ export interface components {
             postures?: components["schemas"]["ChosenPosture"][];
             /** @default [] */
             apart?: components["schemas"]["StepsApart"][];
+            /** @default [] */
+            stands?: components["schemas"]["StandAt"][];
             /** @default null */
             failure?: string | null;
             /** @default  */
@@ -1617,6 +1619,20 @@ export interface components {
                 string,
                 string
             ];
+        };
+        /**
+         * StandAt
+         * @description Where a base stands in a step of a plan, from 1: an arm does not get to its work where the place wants the base.
+         *
+         *         x_m, y_m, yaw_rad: in the frame of the place.
+         */
+        StandAt: {
+            step: number;
+            robot: components["schemas"]["LabelledIri"];
+            place: components["schemas"]["LabelledIri"];
+            x_m: number;
+            y_m: number;
+            yaw_rad: number;
         };
         /**
          * PlanMade

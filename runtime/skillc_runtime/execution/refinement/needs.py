@@ -14,6 +14,7 @@ from skillc_runtime.collision.path_planning import NoPath, plan_joint_path
 from skillc_runtime.execution.refinement.arm_view import ArmView, view_arm
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.situation import Situation
+from skillc_runtime.execution.refinement.standing import list_stands
 from skillc_runtime.kinematics.inverse import APART_RAD, find_postures, rank_postures, spread_seeds
 from skillc_runtime.kinematics.sweep import (
     ERROR_M,
@@ -28,7 +29,18 @@ from skillc_runtime.kinematics.sweep import (
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.primitives.move import MOST_POSTURES
-from skillc_runtime.primitives.space_needs import Follow, Hold, Leave, Open, Press, Reach, SpaceNeed, Spread, Take
+from skillc_runtime.primitives.space_needs import (
+    Follow,
+    Hold,
+    Leave,
+    Open,
+    Press,
+    Reach,
+    SpaceNeed,
+    Spread,
+    Stand,
+    Take,
+)
 from skillc_runtime.world.space.cargo import cargo_changes, lies_on
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
@@ -80,6 +92,8 @@ def meet(need: SpaceNeed, here: Situation) -> Iterator[Outcome]:
             yield _hold(need, here)
         case Leave():
             yield _leave(need, here)
+        case Stand():
+            yield from list_stands(need, here)
         case _:
             assert_never(need)
 

@@ -9,26 +9,31 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.meetings import find_steps_apart
 from skillc_runtime.execution.refinement.scope import call_of
-from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation, begin_at_home
+from skillc_runtime.execution.refinement.situation import ChosenStand, RefinedMotion, Situation, begin_at_home
 from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import apply_effects
 from skillc_runtime.recording.space_claim import StepsApart
 from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.terms import MOBILE_ROBOT
 from skillc_runtime.world.state.world_state import WorldState
 
-RETRIES = 4
-"""How often a step may fail before no other ways to do the steps before it are tried."""
+RETRIES, WITH_BASES = 4, 40
+"""How often a step may fail before no other ways to do the steps before it are tried; where bases drive, more often."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RefinedStep:
-    """A step that goes, with the motions of the arms in it; `unseen` are calls in it that nobody could look at."""
+    """A step that goes, with the motions of the arms in it, and where bases stand beside where places want them.
+
+    `unseen` are calls in it that nobody could look at.
+    """
 
     step: Step
     motions: tuple[RefinedMotion, ...]
     unseen: tuple[str, ...]
+    stands: tuple[ChosenStand, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,6 +69,7 @@ class _Refiner:
         self._left = RETRIES
 
     def refine(self, steps: tuple[Step, ...], here: Situation) -> PlanRefinement:
+        self._left = WITH_BASES if here.state.instances(MOBILE_ROBOT) else RETRIES
         found = next(self._go(steps, here, ()), None)
         if found is None:
             return self._furthest
@@ -80,7 +86,7 @@ class _Refiner:
         step, walk = left[0], Walk(self._library)
         for after in walk.go(call_of(step, self._library), here, Scope({})):
             motions = after.motions[len(here.motions) :]
-            refined = RefinedStep(step, motions, tuple(walk.unseen))
+            refined = RefinedStep(step, motions, tuple(walk.unseen), after.stands[len(here.stands) :])
             yield from self._go(left[1:], self._with_effects(step, after), (*done, refined))
             if self._left <= 0:
                 return
@@ -94,4 +100,4 @@ class _Refiner:
             state = apply_effects(step, self._library, after.state)
         except (EvaluationError, WorldError):
             return after
-        return Situation(state, after.postures, after.openings, motions=after.motions)
+        return Situation(state, after.postures, after.openings, motions=after.motions, stands=after.stands)

@@ -14,6 +14,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.standing_bases import leaving_changes
 from skillc_runtime.world.state.changes import AddRelation, Change
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
+from skillc_runtime.world.state.labelled import LabelledIri
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import ARM_DEVICE, AT, HAS_GRIPPER
 from skillc_runtime.world.state.world_state import WorldState
@@ -42,12 +43,23 @@ class RefinedMotion:
         return sweep_space(self.assembly, self.base, (self.start, *self.postures))
 
 
+@dataclass(frozen=True, slots=True)
+class ChosenStand:
+    """Where a base was let stand at a place, in its frame: in m, and turned by an angle in rad."""
+
+    robot: LabelledIri
+    place: LabelledIri
+    x_m: float
+    y_m: float
+    yaw_rad: float
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Situation:
     """The world as it is believed to be then, and the devices in it.
 
     postures: of arms, (nv,) in rad; openings: of grippers, in m; forces: of tools that press, (3,) in N in the world;
-    spreads: offsets (n, 3) in m in the world of tools with a motion that is added; motions: all so far.
+    spreads: offsets (n, 3) in m in the world of tools with a motion that is added; motions, stands: all so far.
     """
 
     state: WorldState
@@ -56,13 +68,15 @@ class Situation:
     forces: Mapping[str, Array] = field(default_factory=dict)
     spreads: Mapping[str, Array] = field(default_factory=dict)
     motions: tuple[RefinedMotion, ...] = ()
+    stands: tuple[ChosenStand, ...] = ()
 
     def with_changes(self, changes: tuple[Change, ...] | list[Change]) -> Situation:
         """Return the situation after changes of the world; WorldError if they contradict it.
 
         Who is at another place then has left the pose where it stood.
         """
-        arriving = (each.subject for each in changes if isinstance(each, AddRelation) and each.relation == AT)
+        adding = (each for each in changes if isinstance(each, AddRelation) and each.relation == AT)
+        arriving = (each.subject for each in adding if each.object not in self.state.objects(each.subject, AT))
         leaving = [left for each in arriving for left in leaving_changes(self.state, each)]
         return replace(self, state=WorldModel(self.state).commit([*leaving, *changes]).after) if changes else self
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from skillc_runtime.recording.space_claim import ChosenPosture, SpaceClaim, UnseenCall
+from skillc_runtime.recording.space_claim import ChosenPosture, SpaceClaim, StandAt, UnseenCall
 from skillc_runtime.world.state.labelling import label_pose
 
 if TYPE_CHECKING:
@@ -23,6 +23,11 @@ def make_claim(found: PlanRefinement, steps: int, from_home: bool = True) -> Spa
         unseen=tuple(UnseenCall(number, call) for number, each in enumerate(found.steps, 1) for call in each.unseen),
         postures=tuple(_list_postures(found)),
         apart=found.apart,
+        stands=tuple(
+            StandAt(number, each.robot, each.place, each.x_m, each.y_m, each.yaw_rad)
+            for number, step in enumerate(found.steps, 1)
+            for each in step.stands
+        ),
         failure=failure,
         from_home=from_home,
     )

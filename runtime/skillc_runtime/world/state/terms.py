@@ -66,6 +66,7 @@ ORIENTATION = tuple(SKIROS + name for name in ("OrientationW", "OrientationX", "
 ANGLES = tuple(SKILLC + name for name in ("roll", "pitch", "yaw"))
 ON = SKILLC + "on"
 OFFSET = tuple(SKILLC + name for name in ("atX", "atY", "atZ"))
+STAND = tuple(SKILLC + name for name in ("standX", "standY", "standYaw"))
 ANCHOR = SKILLC + "anchor"
 FACE = SKILLC + "face"
 SIZE = tuple(SKIROS + name for name in ("SizeX", "SizeY", "SizeZ"))

@@ -1,0 +1,63 @@
+"""Where a mobile base may stand at a workstation: where that wants it to, then nearby, the nearest first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from math import hypot
+
+from skillc_runtime.collision.solid_overlaps import overlap_depths
+from skillc_runtime.execution.refinement.situation import ChosenStand, Situation
+from skillc_runtime.primitives.space_needs import Stand
+from skillc_runtime.world.space.frames import placement_changes
+from skillc_runtime.world.space.occupants import near_pairs, read_occupants
+from skillc_runtime.world.space.stands import read_stand, stand_changes, standing_pose
+from skillc_runtime.world.state.changes import AddRelation
+from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.terms import AT
+from skillc_runtime.world.state.world_state import WorldState
+
+FAR_M, TURNED_RAD = 0.45, 0.5
+"""How far from where a workstation wants it a base is let stand, and turned."""
+
+SAMPLES = 60
+"""How many places are sampled."""
+
+RAD_AS_M = 0.3
+"""How far away a place counts for each rad that the base is turned there, in m."""
+
+RATIOS = (0.8191725134, 0.6710436067, 0.5497004779)
+"""Steps of an additive recurrence that leaves no gaps in three dimensions (M. Roberts 2018)."""
+
+
+def list_stands(need: Stand, here: Situation) -> Iterator[Situation]:
+    """Yield the situations with a base where a workstation wants it, then at places nearby where it has room."""
+    stated = read_stand(here.state, need.to)
+    yield here if stated is None else _place(here, need)
+    depth_m = _overlap_m(_place(here, need).state, need.robot)
+    for x_m, y_m, yaw_rad in _sample():
+        chosen = here.with_changes([*stand_changes(need.to, x_m, y_m, yaw_rad)])
+        there = _place(chosen, need)
+        if _overlap_m(there.state, need.robot) <= depth_m:
+            robot, place = (label(each, here.state.vocabulary) for each in (need.robot, need.to))
+            stand = ChosenStand(robot, place, x_m, y_m, yaw_rad)
+            yield replace(there, stands=(*there.stands, stand))
+
+
+def _place(here: Situation, need: Stand) -> Situation:
+    """Return the situation with the base where the facts about the workstation say."""
+    there = here.with_changes([AddRelation(need.robot, AT, need.to)])
+    return there.with_changes([*placement_changes(need.robot, standing_pose(here.state, need.to))])
+
+
+def _sample() -> list[tuple[float, float, float]]:
+    """Return places in the frame of a workstation, in m and rad, the nearest first."""
+    shares = [[2.0 * ((0.5 + number * each) % 1.0) - 1.0 for each in RATIOS] for number in range(1, SAMPLES + 1)]
+    places = [(round(FAR_M * x, 3), round(FAR_M * y, 3), round(TURNED_RAD * turn, 3)) for x, y, turn in shares]
+    return sorted(places, key=lambda each: hypot(each[0], each[1]) + RAD_AS_M * abs(each[2]))
+
+
+def _overlap_m(state: WorldState, robot: str) -> float:
+    """Return how deep a base lies inside any other thing, in m."""
+    pairs = [pair for pair in near_pairs(read_occupants(state)) if robot in (pair[0].individual, pair[1].individual)]
+    return max(overlap_depths([(one.solids, other.solids) for one, other in pairs]), default=0.0)
