@@ -69,15 +69,15 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def install(env: Path, *words: str | Path) -> None:
-    """Install into an environment, which is made if it does not exist, with bytecode, as pip does."""
+    """Install into an environment, which is made if it does not exist."""
     if not env.exists():
         venv.create(env, with_pip=False)
-    call(uv(), "pip", "install", "-q", "--compile-bytecode", "--python", env / "bin/python", *words, cwd=env)
+    call(uv(), "pip", "install", "-q", "--python", env / "bin/python", *words, cwd=env)
 
 
 def test_the_wheel_works_in_a_clean_environment(tmp_path: Path, wheel: Path) -> None:
     check_contents(wheel)
-    install(tmp_path / "env", "--constraint", CONSTRAINTS, wheel)
+    install(tmp_path / "env", "--compile-bytecode", "--constraint", CONSTRAINTS, wheel)  # as pip does
     python, skillc = tmp_path / "env/bin/python", tmp_path / "env/bin/skillc"
     files = [each for each in (tmp_path / "env").rglob("*") if each.is_file() and not each.is_symlink()]
     assert sum(each.stat().st_size for each in files) <= LARGEST
