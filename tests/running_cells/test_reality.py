@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import shutil
 import sqlite3
-from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from collections.abc import Generator, Sequence
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -59,18 +59,20 @@ def find_places(host: CellHost) -> dict[str, Array]:
     return things | {name: each.state().q.copy() for name, each in cell.arms.items()}
 
 
-@contextmanager
-def crashed(settings: CellSettings, request: OperationRequest, ticks: int) -> Iterator[tuple[CellHost, CellHost]]:
+def crash(
+    settings: CellSettings, request: OperationRequest, moments: Sequence[int]
+) -> Generator[tuple[CellHost, CellHost]]:
     """Yield a cell after some ticks of an operation, and the same again, from a copy of what its disk had then."""
-    image = Path(settings.folder).with_name("image")
     with open_cell(settings, SilentReporter()) as host:
         host.submit("first", request)
-        while host.loop.ticks < ticks:
-            if not host.tick():
-                host.loop.wait(0.1)
-        shutil.copytree(settings.folder, image)
-        with open_cell(structs.replace(settings, folder=str(image)), SilentReporter()) as again:
-            yield host, again
+        for ticks in moments:
+            while host.loop.ticks < ticks:
+                if not host.tick():
+                    host.loop.wait(0.1)
+            image = Path(settings.folder).with_name(f"image-{ticks}")
+            shutil.copytree(settings.folder, image)
+            with open_cell(structs.replace(settings, folder=str(image)), SilentReporter()) as again:
+                yield host, again
 
 
 @pytest.mark.parametrize(
@@ -89,9 +91,8 @@ def test_what_was_interrupted_at_any_moment_is_continued_from_there(
     moments: tuple[int, ...],
     tmp_path: Path,
 ) -> None:
-    for ticks in moments:
-        settings = make_settings(tmp_path / str(ticks), case, backend)
-        with crashed(settings, request_, ticks) as (before, again):
+    with closing(crash(make_settings(tmp_path, case, backend), request_, moments)) as crashes:
+        for ticks, (before, again) in zip(moments, crashes, strict=True):
             held = [hand.carries for hand in reality(before)._grippers.values()]
             assert [hand.carries for hand in reality(again)._grippers.values()] == held, ticks
             again.submit("again", OperationRequest(continues="first"))
@@ -109,7 +110,9 @@ def test_a_cell_that_dies_in_the_air_is_there_again_and_at_rest(
 ) -> None:
     # No cell is paced here: what a second of the wall may forget would be many seconds of the arm.
     monkeypatch.setattr(keeping, "PERIOD_S", 0.0)
-    with crashed(make_settings(tmp_path, SORTING, "kinematic"), find_task(SORTING), ticks) as (before, again):
+    settings = make_settings(tmp_path, SORTING, "kinematic")
+    with closing(crash(settings, find_task(SORTING), (ticks,))) as crashes:
+        before, again = next(crashes)
         where, later = find_places(before), find_places(again)
         assert max(float(np.abs(where[each] - later[each]).max()) for each in where) < 0.05, "as of the last tick"
         assert reality(again).is_at_rest()
