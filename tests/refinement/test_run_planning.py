@@ -34,8 +34,8 @@ def look_at(task: LoadedTask, look: SpaceLook, limit_s: float = 60.0) -> SpaceCl
     cancel = CancelToken(limit_s)
     prepared = prepare_task(task.assignment, task.library, (), prepare_planners(True), cancel, look=look)
     assert isinstance(prepared, PreparedTask) and prepared.planned is not None
-    assert prepared.planned.space is not None
-    return prepared.planned.space
+    assert prepared.space is not None
+    return prepared.space
 
 
 @pytest.mark.slow

@@ -22,27 +22,40 @@ from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.space_claim import ChosenPosture
 from skillc_runtime.world.state.model import WorldModel
 
-GOAL = "lab:Desk-1.isClean == true"
+GOAL = RunSpec(library="wiping", goal="lab:Desk-1.isClean == true")
+BODY = """
+prefix lab: <http://example.org/lab#>
+import "handling.skill"
+import "wiping/wipe.skill"
+
+task wipe_door {
+    scene "door.ttl"
+    do seq {
+        Pick(arm: lab:Panda-1, object: lab:Eraser-1)
+        Wipe(surface: lab:Desk-1, arm: lab:Panda-1)
+    }
+}
+"""
 
 
 def wipe_door(
     folder: Path,
     change: Callable[[ChosenPosture], ChosenPosture | None] = lambda each: each,
     physics: bool = False,
+    body: bool = False,
 ) -> tuple[str, str, list[str]]:
     """Wipe a door on which not all lanes go from the posture nearest to home; return how it ends, why, and the notes.
 
-    The run takes the postures of the plan after a change of each, which may drop it.
+    The run takes the postures of the plan, or of a body that was given, after a change of each, which may drop it.
     """
     scene, events = write_door(folder, 0.5, -20.0, 0.75), list[Event]()
-    with load_task(RunSpec(library="wiping", goal=GOAL, scene=str(scene)), SilentReporter()) as task:
+    (folder / "tasks.skill").write_text(BODY)
+    spec = RunSpec(task=f"{folder}:wipe_door") if body else structs.replace(GOAL, scene=str(scene))
+    with load_task(spec, SilentReporter()) as task:
         prepared = prepare_task(task.assignment, task.library, look=SpaceLook())
-        assert (
-            isinstance(prepared, PreparedTask) and prepared.planned is not None and prepared.planned.space is not None
-        )
-        postures = tuple(filter(None, map(change, prepared.planned.space.postures)))
-        space = structs.replace(prepared.planned.space, postures=postures)
-        prepared = replace(prepared, planned=replace(prepared.planned, space=space))
+        assert isinstance(prepared, PreparedTask) and prepared.space is not None
+        postures = tuple(filter(None, map(change, prepared.space.postures)))
+        prepared = replace(prepared, space=structs.replace(prepared.space, postures=postures))
         world = WorldModel(task.assignment.state)
         ended = execute_task(
             prepared, task.library, SimulatedCell(world) if physics else KinematicCell(world), [events.append]
@@ -52,9 +65,12 @@ def wipe_door(
 
 
 @pytest.mark.slow
-def test_a_surface_that_goes_only_from_another_posture_than_the_nearest_to_home_is_wiped(tmp_path: Path) -> None:
-    assert wipe_door(tmp_path) == ("succeeded", "", [])
-    status, why, notes = wipe_door(tmp_path, lambda each: None)
+@pytest.mark.parametrize("body", [False, True])
+def test_a_surface_that_goes_only_from_another_posture_than_the_nearest_to_home_is_wiped(
+    tmp_path: Path, body: bool
+) -> None:
+    assert wipe_door(tmp_path, body=body) == ("succeeded", "", [])
+    status, why, notes = wipe_door(tmp_path, lambda each: None, body=body)
     assert (status, notes) == ("failed", [])
     assert "the joint joint4 would have to be at -3." in why
 

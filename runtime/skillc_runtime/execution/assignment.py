@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, assert_never
 
 from skillc_model.conditions import Condition
@@ -12,7 +12,7 @@ from skillc_model.tree import Node
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.plan_body import build_plan_body
-from skillc_runtime.execution.refinement.run_planning import SpaceLook, plan_for_run
+from skillc_runtime.execution.refinement.run_planning import SpaceLook, look_at_body_for_run, plan_for_run
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.planning.arrangement import Arrangement, arrange_plan, step_numbers
 from skillc_runtime.planning.foresight import foresee
@@ -52,24 +52,24 @@ class Assignment:
 
 @dataclass(frozen=True, slots=True)
 class PlannedSteps:
-    """The planner's answer, how its steps are arranged, and the steps in the order of the body.
-
-    `space` is what is known of the plan in space, None if nobody has looked.
-    """
+    """The planner's answer, how its steps are arranged, and the steps in the order of the body."""
 
     solved: Solved
     arrangement: Arrangement
     steps: tuple[Step, ...]
-    space: SpaceClaim | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class PreparedTask:
-    """An assignment with the body that will run; `planned` is None if the body was given."""
+    """An assignment with the body that will run; `planned` is None if the body was given.
+
+    `space` is what is known of the plan, or of the body that was given, in space, None if nobody has looked.
+    """
 
     assignment: Assignment
     body: Node
     planned: PlannedSteps | None
+    space: SpaceClaim | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,11 +96,13 @@ def prepare_task(
     """Plan if there is a goal, and check everything that would keep the body from running, before anything moves.
 
     The plan has none of the steps in `without`. `planners` defaults to those that are installed; they search until
-    `cancel` ends them, by default for DEADLINE_S. With a `look` the arms can carry out the plan, as far as is known.
+    `cancel` ends them, by default for DEADLINE_S. With a `look` the arms can carry out the plan, as far as is known; a
+    body that they cannot carry out is not refused.
     """
+    cancel = cancel or CancelToken(DEADLINE_S)
     match assignment.objective:
         case AchieveGoal() as objective:
-            search = _Search(planners or find_planners(), cancel or CancelToken(DEADLINE_S), report, look)
+            search = _Search(planners or find_planners(), cancel, report, look)
             prepared = _prepare_plan(assignment, objective, library, without, search)
         case ExecuteBody(body):
             prepared = PreparedTask(assignment, body, None)
@@ -109,7 +111,11 @@ def prepare_task(
     if isinstance(prepared, NotStarted):
         return prepared
     refusals = preflight(prepared.body, library, assignment.state)
-    return NotStarted("\n".join(map(str, refusals))) if refusals else prepared
+    if refusals:
+        return NotStarted("\n".join(map(str, refusals)))
+    if prepared.planned is not None or look is None:
+        return prepared
+    return replace(prepared, space=look_at_body_for_run(library, assignment.state, prepared.body, look, cancel))
 
 
 def replan_task(
@@ -155,7 +161,7 @@ def arrange_prepared(
     arrangement = arrange_plan(solved.plan, *foresee(library, assignment.state, goal))
     steps = tuple(solved.plan.steps[number] for number in step_numbers(arrangement))
     body = build_plan_body(solved.plan, arrangement, library)
-    return PreparedTask(assignment, body, PlannedSteps(solved, arrangement, steps, space))
+    return PreparedTask(assignment, body, PlannedSteps(solved, arrangement, steps), space)
 
 
 @dataclass(frozen=True, slots=True)

@@ -112,10 +112,8 @@ class Attempt:
     def __init__(self, prepared: PreparedTask, context: RunContext, nodes_before: int) -> None:
         """Build the tree, whose nodes are numbered from `nodes_before` + 1; nothing starts."""
         cell = context.backend.cell
-        planned = prepared.planned
-        failures = None if planned is None else context.failures
-        space = None if planned is None else planned.space
-        postures = () if space is None else restore_postures(space)
+        failures = None if prepared.planned is None else context.failures
+        postures = () if prepared.space is None else restore_postures(prepared.space)
         self.prepared, self._context = prepared, context
         self.tree = TreeRun(
             prepared.body,

@@ -115,7 +115,7 @@ def continue_plan(last: AttemptResult, library: SkillLibrary, state: WorldState)
     """
     assignment, planned = replace(last.prepared.assignment, state=state), last.prepared.planned
     if planned is None:
-        return PreparedTask(assignment, last.prepared.body, None)
+        return PreparedTask(assignment, last.prepared.body, None, last.prepared.space)
     return _prepare_steps(last, last.steps_with_status("failure", "halted", "idle"), library, state)
 
 
@@ -142,7 +142,7 @@ def _prepare_steps(
 ) -> PreparedTask:
     """Return some steps of the plan as a body; PlanError if they are not possible."""
     assert last.prepared.planned is not None, "steps come from a plan"
-    solved, space = last.prepared.planned.solved, last.prepared.planned.space
+    solved, space = last.prepared.planned.solved, last.prepared.space
     rest = replace(solved, plan=solved.plan.keep(steps))
     if space is not None:
         space = SpaceClaim(checked=0, steps=len(steps), stopped="it goes on after a failure", postures=space.postures)

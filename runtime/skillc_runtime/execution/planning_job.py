@@ -28,6 +28,7 @@ from skillc_runtime.planning.progress import PlanningProgress, ReportProgress
 from skillc_runtime.planning.solve import DEADLINE_S
 from skillc_runtime.planning.validation import PlanError, validate
 from skillc_runtime.platforms.processes import DEFAULT_START, StartMethod
+from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.world_state import WorldState
 
 GRACE_S = 2.0
@@ -115,7 +116,7 @@ class PlanningJob:
         if isinstance(result.value, NotStarted):
             return result.value
         planned: _Planned = result.value
-        return PreparedTask(self._assignment, planned.body, planned.steps)
+        return PreparedTask(self._assignment, planned.body, planned.steps, planned.space)
 
 
 def find_arrival_problem(prepared: PreparedTask, library: SkillLibrary, now: WorldState) -> str | None:
@@ -142,6 +143,7 @@ class _Planned:
 
     body: Node
     steps: PlannedSteps | None
+    space: SpaceClaim | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,4 +161,4 @@ class _PlanningTask:
         answer = replan_task(
             self.assignment, self.library, self.failures, self.planners, self.cancel, report, self.look
         )
-        return answer if isinstance(answer, NotStarted) else _Planned(answer.body, answer.planned)
+        return answer if isinstance(answer, NotStarted) else _Planned(answer.body, answer.planned, answer.space)

@@ -60,7 +60,7 @@ def make_plan_event(prepared: PreparedTask, library: SkillLibrary, now: float) -
         steps=record_steps(solved.plan, library),
         quality=describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
         arrangement=record_arrangement(prepared.planned.arrangement),
-        space=prepared.planned.space,
+        space=prepared.space,
     )
 
 
@@ -69,8 +69,11 @@ def make_arrival_event(answer: PreparedTask | NotStarted, library: SkillLibrary,
     if isinstance(answer, NotStarted):
         return PlanArrived(time=now, tick=tick, refused=answer.reason, detail=answer.detail, proved=answer.proved)
     planned = answer.planned
-    plan = None if planned is None else record_plan(planned.solved, planned.arrangement, library, planned.space)
-    return PlanArrived(time=now, tick=tick, plan=plan)
+    if planned is None:
+        return PlanArrived(time=now, tick=tick, space=answer.space)
+    return PlanArrived(
+        time=now, tick=tick, plan=record_plan(planned.solved, planned.arrangement, library, answer.space)
+    )
 
 
 def read_arrival(event: PlanArrived, assignment: Assignment, library: SkillLibrary) -> PreparedTask | NotStarted:
@@ -80,4 +83,4 @@ def read_arrival(event: PlanArrived, assignment: Assignment, library: SkillLibra
     if event.plan is not None:
         return arrange_prepared(assignment, restore_plan(event.plan), library, event.plan.space)
     assert isinstance(assignment.objective, ExecuteBody), "a goal needs a plan"
-    return PreparedTask(assignment, assignment.objective.body, None)
+    return PreparedTask(assignment, assignment.objective.body, None, event.space)

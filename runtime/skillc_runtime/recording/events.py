@@ -137,7 +137,8 @@ class PlanArrived(_Event, tag="plan-arrived", frozen=True, kw_only=True):
     """The answer of a planner took effect in a tick of the cell's loop: a plan, or why there is none.
 
     Neither if there was nothing to plan and the body that was given passed its checks. `detail` is what there is to say
-    besides; `proved` if there is no plan, rather than that none was found.
+    besides; `proved` if there is no plan, rather than that none was found. `space` is what is known in space of a body
+    that was given.
     """
 
     tick: int
@@ -145,6 +146,7 @@ class PlanArrived(_Event, tag="plan-arrived", frozen=True, kw_only=True):
     refused: str = ""
     detail: str = ""
     proved: bool = False
+    space: SpaceClaim | None = None
 
 
 class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):

@@ -1489,7 +1489,8 @@ export interface components {
          * @description The answer of a planner took effect in a tick of the cell's loop: a plan, or why there is none.
          *
          *         Neither if there was nothing to plan and the body that was given passed its checks. `detail` is what there is to say
-         *         besides; `proved` if there is no plan, rather than that none was found.
+         *         besides; `proved` if there is no plan, rather than that none was found. `space` is what is known in space of a body
+         *         that was given.
          */
         PlanArrived: {
             /** @enum {unknown} */
@@ -1504,6 +1505,8 @@ export interface components {
             detail?: string;
             /** @default false */
             proved?: boolean;
+            /** @default null */
+            space?: components["schemas"]["SpaceClaim"] | null;
         };
         /**
          * ArrivedPlan

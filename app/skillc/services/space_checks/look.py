@@ -77,8 +77,7 @@ def _given(step: Step, library: SkillLibrary) -> list[str]:
 
 def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node, cancel: CancelToken) -> Looked:
     def goes(there: WorldState) -> bool:
-        after = next(Walk(library).go(body, begin_at_home(there), Scope({})), None)
-        return after is not None and not any(each.chosen for each in after.motions)
+        return next(Walk(library).go(body, begin_at_home(there), Scope({})), None) is not None
 
     walk, calls = Walk(library), list(find_calls(body))
     skills = frozenset(each.skill for each in calls)

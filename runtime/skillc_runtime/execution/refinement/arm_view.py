@@ -56,11 +56,9 @@ class ArmView:
         """Where its tool is in the world."""
         return self.base @ self.chain.place_tool(self.q)
 
-    def move(
-        self, postures: Sequence[Array], along: bool, tool: Pose | None = None, chosen: bool = False
-    ) -> RefinedMotion:
-        """Return its motion from where it is through postures (nv,) in rad; `tool`, `chosen`: as in `RefinedMotion`."""
-        return RefinedMotion(self.arm, self.q, tuple(postures), self.base, self.assembly, along, tool, chosen)
+    def move(self, postures: Sequence[Array], along: bool, tool: Pose | None = None) -> RefinedMotion:
+        """Return its motion from where it is through postures (nv,) in rad; `tool` is as in `RefinedMotion`."""
+        return RefinedMotion(self.arm, self.q, tuple(postures), self.base, self.assembly, along, tool)
 
     def load(self, force: Array) -> JointLoad:
         """Return what its joints bear while the tool exerts a force (3,) in N in the world."""

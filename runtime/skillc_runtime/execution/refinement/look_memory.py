@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import msgspec
 
 from skillc_model.skills import SkillLibrary
+from skillc_model.tree import Node
 from skillc_runtime.execution.refinement.look import PlanLook
 from skillc_runtime.planning.cache import PlanCache
 from skillc_runtime.planning.plan import Step
@@ -34,17 +35,17 @@ class LookMemory:
         library: SkillLibrary,
         state: WorldState,
         postures: object,
-        steps: Sequence[Step],
-        find: Callable[[Sequence[Step]], PlanLook],
+        what: Sequence[Step] | Node,
+        find: Callable[[], PlanLook],
     ) -> PlanLook:
-        """Return what a look at a plan has found before, from the same facts and postures; else what it finds now."""
+        """Return what a look at a plan or a body has found before, from the same facts and postures; else now."""
         digest = hashlib.sha256()
-        for part in (self.around, library.hash, library.vocabulary, postures, tuple(steps), *list_facts(state)):
+        for part in (self.around, library.hash, library.vocabulary, postures, what, *list_facts(state)):
             digest.update(_ENCODER.encode(part) + b"\n")
         key = digest.hexdigest()
         if (content := self.store.get(key)) is not None:
             with suppress(msgspec.MsgspecError):
                 return msgspec.msgpack.decode(content, type=PlanLook)
-        found = find(steps)
+        found = find()
         self.store.put(key, _ENCODER.encode(found))
         return found

@@ -28,7 +28,6 @@ from skillc_runtime.kinematics.sweep import (
 )
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
-from skillc_runtime.primitives.move import MOST_POSTURES
 from skillc_runtime.primitives.space_needs import (
     Follow,
     Hold,
@@ -103,11 +102,8 @@ def _reach(view: ArmView, tool: Pose, here: Situation) -> Iterator[Outcome]:
     found = rank_postures(view.chain, target, view.free_range, view.home)
     if not len(found):
         yield SpaceFailure("out-of-reach", f"no posture of {_name(view, here)} brings its tool to {_place(tool)}")
-    chosen = False
-    for number, q in enumerate(islice(chain(found, _other_elbows(view, target, found)), LOOKED_AT)):
-        after = _take(view, q, here, tool, chosen or number >= MOST_POSTURES)
-        yield after
-        chosen |= isinstance(after, Situation)
+    for q in islice(chain(found, _other_elbows(view, target, found)), LOOKED_AT):
+        yield _take(view, q, here, tool)
 
 
 def _other_elbows(view: ArmView, target: Pose, known: Array) -> Iterator[Array]:
@@ -125,17 +121,17 @@ def _other_elbows(view: ArmView, target: Pose, known: Array) -> Iterator[Array]:
                 yield q
 
 
-def _take(view: ArmView, q: Array, here: Situation, tool: Pose | None = None, chosen: bool = False) -> Outcome:
+def _take(view: ArmView, q: Array, here: Situation, tool: Pose | None = None) -> Outcome:
     """Return the situation after a motion of the joints to a posture (nv,) in rad, or what is in its way.
 
-    `tool` and `chosen` are as in `RefinedMotion`.
+    `tool` is as in `RefinedMotion`.
     """
     try:
         way = plan_joint_path(view.checker, view.q, [q], view.space)
     except NoPath as why:
         touch = view.checker.find_collision(q)
         return SpaceFailure("no-path" if touch is None else "in-the-way", str(why))
-    return here.with_motion(view.move(way, along=False, tool=tool, chosen=chosen))
+    return here.with_motion(view.move(way, along=False, tool=tool))
 
 
 def _follow(view: ArmView, poses: tuple[Pose, ...], here: Situation) -> Outcome:

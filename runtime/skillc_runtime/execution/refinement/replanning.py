@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from skillc_model.conditions import And
 from skillc_model.skills import SkillLibrary
+from skillc_model.tree import Node
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.execution.refinement.failure import Cause
 from skillc_runtime.execution.refinement.look import AnswerT, PlanLook, PlanWithout, look_at_plans
@@ -13,7 +14,7 @@ from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement, 
 from skillc_runtime.execution.refinement.scope import call_of, find_excluded, limit_to_places
 from skillc_runtime.execution.refinement.siblings import list_siblings
 from skillc_runtime.execution.refinement.situation import Situation
-from skillc_runtime.execution.refinement.space_claim import make_claim
+from skillc_runtime.execution.refinement.space_claim import claim_of_body, make_claim
 from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.planning.plan import GaveUp, Step, StepWhile
 from skillc_runtime.recording.space_claim import SpaceClaim
@@ -67,6 +68,13 @@ def look_at_plan(
     """Return what a look at a plan finds that begins in a situation; Cancelled if `cancel` ends it."""
     with cancelling(cancel):
         return judge(library, begin.state, refine_plan(library, begin.state, steps, begin), steps, from_home)
+
+
+def look_at_body(library: SkillLibrary, begin: Situation, from_home: bool, body: Node, cancel: CancelToken) -> PlanLook:
+    """Return what a look at a body finds that begins in a situation; Cancelled if `cancel` ends it."""
+    walk = Walk(library)
+    with cancelling(cancel):
+        return PlanLook(claim=claim_of_body(next(walk.go(body, begin, Scope({})), None), walk, from_home))
 
 
 def judge(

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
 from skillc_model.skills import SkillLibrary
+from skillc_model.tree import Node
 from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.execution.refinement.failure import Cause
 from skillc_runtime.execution.refinement.look import AnswerT, PlanLook, PlanWithout, look_at_plans
@@ -22,6 +23,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
+    from skillc_runtime.execution.refinement.situation import Situation
 
 LOOK_S = 5.0
 """For how long plans may be looked at in any case, in s of wall time, also if planning has used up its time."""
@@ -73,7 +75,9 @@ def plan_for_run(
     def look(steps: Sequence[Step]) -> PlanLook:
         nonlocal limit
         limit = limit or CancelToken(max(LOOK_S, cancel.remaining_s), cancel)
-        return _look_safely(library, state, how, limit, steps)
+        return _look_safely(
+            library, state, how, tuple(steps), partial(_look, library, state, how.postures, limit, steps)
+        )
 
     is_sure = how.postures is None or _are_at_rest(state, how.postures)
     possible: tuple[AnswerT, SpaceClaim] | None = None
@@ -91,6 +95,16 @@ def plan_for_run(
     return (answer if before is None else before.explain(state)), None
 
 
+def look_at_body_for_run(
+    library: SkillLibrary, state: WorldState, body: Node, how: SpaceLook, cancel: CancelToken
+) -> SpaceClaim | None:
+    """Return what is known of a body in space, found in LOOK_S; None where there are no arms."""
+    if not state.instances(ARM_DEVICE):
+        return None
+    find = partial(_look_at_body, library, state, how.postures, CancelToken(LOOK_S, cancel), body)
+    return _look_safely(library, state, how, body, find).claim
+
+
 def _are_at_rest(state: WorldState, postures: Postures) -> bool:
     """Whether all arms are at home that have such a posture, with empty hands."""
     for arm, q in postures.items():
@@ -104,17 +118,21 @@ def _are_at_rest(state: WorldState, postures: Postures) -> bool:
 
 
 def _look_safely(
-    library: SkillLibrary, state: WorldState, how: SpaceLook, limit: CancelToken, steps: Sequence[Step]
+    library: SkillLibrary,
+    state: WorldState,
+    how: SpaceLook,
+    what: tuple[Step, ...] | Node,
+    find: Callable[[], PlanLook],
 ) -> PlanLook:
-    """Return what a look at a plan finds; if it fails or ends early, that it has."""
-    find = partial(_look, library, state, how.postures, limit)
+    """Return what a look at a plan or a body finds; if it fails or ends early, that it has."""
     try:
-        return find(steps) if how.memory is None else how.memory.recall(library, state, how.postures, steps, find)
+        return find() if how.memory is None else how.memory.recall(library, state, how.postures, what, find)
     except Cancelled as why:
         stopped = str(why)
     except FOREIGN_ERRORS as error:  # whatever fails in it is no reason not to do what planners have proved
         stopped = f"the look has failed: {type(error).__name__}: {error}"
-    return PlanLook(claim=SpaceClaim(checked=0, steps=len(steps), stopped=stopped, from_home=how.postures is None))
+    steps = len(what) if isinstance(what, tuple) else 1
+    return PlanLook(claim=SpaceClaim(checked=0, steps=steps, stopped=stopped, from_home=how.postures is None))
 
 
 def _look(
@@ -122,7 +140,21 @@ def _look(
 ) -> PlanLook:
     # The simulator is slow to import.
     from skillc_runtime.execution.refinement.replanning import look_at_plan
+
+    return look_at_plan(library, _begin(state, postures), postures is None, steps, limit)
+
+
+def _look_at_body(
+    library: SkillLibrary, state: WorldState, postures: Postures | None, limit: CancelToken, body: Node
+) -> PlanLook:
+    # The simulator is slow to import.
+    from skillc_runtime.execution.refinement.replanning import look_at_body
+
+    return look_at_body(library, _begin(state, postures), postures is None, body, limit)
+
+
+def _begin(state: WorldState, postures: Postures | None) -> Situation:
+    # The simulator is slow to import.
     from skillc_runtime.execution.refinement.situation import begin_at, begin_at_home
 
-    begin = begin_at_home(state) if postures is None else begin_at(state, postures)
-    return look_at_plan(library, begin, postures is None, steps, limit)
+    return begin_at_home(state) if postures is None else begin_at(state, postures)

@@ -25,8 +25,7 @@ class RefinedMotion:
     """A motion of an arm through postures, each (nv,) in rad; `along` if its tool follows a path.
 
     start (nv,): rad, where it begins; base: of the arm in the world; assembly: the arm with what it holds meanwhile.
-    `tool` is the pose in the world for which the last posture was found, None if it was given. `chosen` if another
-    posture, which is free as well, is nearer to home.
+    `tool` is the pose in the world for which the last posture was found, None if it was given.
     """
 
     arm: str
@@ -36,7 +35,6 @@ class RefinedMotion:
     assembly: ArmAssembly
     along: bool
     tool: Pose | None = None
-    chosen: bool = False
 
     def sweep(self) -> SweptSpace:
         """Return the space that the arm sweeps."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from skillc_runtime.recording.space_claim import ChosenPosture, SpaceClaim, StandAt, UnseenCall
@@ -10,6 +10,8 @@ from skillc_runtime.world.state.labelling import label_pose
 
 if TYPE_CHECKING:
     from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement
+    from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation
+    from skillc_runtime.execution.refinement.walk import Walk
 
 
 def make_claim(found: PlanRefinement, steps: int, from_home: bool = True) -> SpaceClaim:
@@ -21,7 +23,9 @@ def make_claim(found: PlanRefinement, steps: int, from_home: bool = True) -> Spa
         checked=len(found.steps),
         steps=steps,
         unseen=tuple(UnseenCall(number, call) for number, each in enumerate(found.steps, 1) for call in each.unseen),
-        postures=tuple(_list_postures(found)),
+        postures=tuple(
+            each for number, step in enumerate(found.steps, 1) for each in _postures_of(number, step.motions)
+        ),
         apart=found.apart,
         stands=tuple(
             StandAt(number, each.robot, each.place, each.x_m, each.y_m, each.yaw_rad)
@@ -33,9 +37,21 @@ def make_claim(found: PlanRefinement, steps: int, from_home: bool = True) -> Spa
     )
 
 
-def _list_postures(found: PlanRefinement) -> Iterator[ChosenPosture]:
-    for number, step in enumerate(found.steps, 1):
-        for each in step.motions:
-            if each.tool is not None:
-                q = tuple(each.postures[-1].tolist())
-                yield ChosenPosture(number, each.arm, q, label_pose(each.tool))
+def claim_of_body(found: Situation | None, walk: Walk, from_home: bool) -> SpaceClaim:
+    """Return what is known of a body, which counts as one step, after a walk through it: None if it does not go."""
+    failure = None if found is not None else "no way was found" if walk.furthest is None else walk.furthest.message
+    return SpaceClaim(
+        checked=0 if found is None else 1,
+        steps=1,
+        unseen=tuple(UnseenCall(1, call) for call in walk.unseen),
+        postures=() if found is None else tuple(_postures_of(1, found.motions)),
+        failure=failure,
+        from_home=from_home,
+    )
+
+
+def _postures_of(step: int, motions: Iterable[RefinedMotion]) -> Iterator[ChosenPosture]:
+    """Yield the postures that were found for poses of tools, in a step of a number."""
+    for each in motions:
+        if each.tool is not None:
+            yield ChosenPosture(step, each.arm, tuple(each.postures[-1].tolist()), label_pose(each.tool))
