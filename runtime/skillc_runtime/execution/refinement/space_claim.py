@@ -10,7 +10,7 @@ from skillc_runtime.world.state.labelling import label_pose
 
 if TYPE_CHECKING:
     from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement
-    from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation
+    from skillc_runtime.execution.refinement.situation import ChosenStand, RefinedMotion, Situation
     from skillc_runtime.execution.refinement.walk import Walk
 
 
@@ -27,11 +27,7 @@ def make_claim(found: PlanRefinement, steps: int, from_home: bool = True) -> Spa
             each for number, step in enumerate(found.steps, 1) for each in _postures_of(number, step.motions)
         ),
         apart=found.apart,
-        stands=tuple(
-            StandAt(number, each.robot, each.place, each.x_m, each.y_m, each.yaw_rad)
-            for number, step in enumerate(found.steps, 1)
-            for each in step.stands
-        ),
+        stands=tuple(each for number, step in enumerate(found.steps, 1) for each in _stands_of(number, step.stands)),
         failure=failure,
         from_home=from_home,
     )
@@ -45,6 +41,7 @@ def claim_of_body(found: Situation | None, walk: Walk, from_home: bool) -> Space
         steps=1,
         unseen=tuple(UnseenCall(1, call) for call in walk.unseen),
         postures=() if found is None else tuple(_postures_of(1, found.motions)),
+        stands=() if found is None else tuple(_stands_of(1, found.stands)),
         failure=failure,
         from_home=from_home,
     )
@@ -55,3 +52,9 @@ def _postures_of(step: int, motions: Iterable[RefinedMotion]) -> Iterator[Chosen
     for each in motions:
         if each.tool is not None:
             yield ChosenPosture(step, each.arm, tuple(each.postures[-1].tolist()), label_pose(each.tool))
+
+
+def _stands_of(step: int, stands: Iterable[ChosenStand]) -> Iterator[StandAt]:
+    """Yield where bases were let stand, in a step of a number."""
+    for each in stands:
+        yield StandAt(step, each.robot, each.place, each.x_m, each.y_m, each.yaw_rad)
