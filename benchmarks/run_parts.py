@@ -32,7 +32,15 @@ TASK = "contact:press_button"
 PAIRS = 5
 PLAIN = Quality(1.0, 0, 40)
 LIBRARIES = "import mcap.writer, mujoco, numba, numpy, rich.console"
-STARTED = "import skillc.cli.commands.run, skillc.cli.run_output, skillc.services.running"
+STARTED = """
+import skillc.cli.commands.run
+from skillc_dsl.importing import importing
+from skillc_runtime.platforms.python_modules import defer_import
+
+defer_import("glfw")
+with importing("run"):
+    import skillc.cli.run_output, skillc.services.running
+"""
 
 
 class KeptFilms(Pictures):

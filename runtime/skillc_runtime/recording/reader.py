@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 from typing import BinaryIO
 
@@ -29,9 +30,14 @@ class _FirstLine(msgspec.Struct):
     event: _Start
 
 
-_DECODER = msgspec.json.Decoder(Envelope)
 _FIRST_LINE = msgspec.json.Decoder(_FirstLine)
 _START = msgspec.json.Decoder(_Start)
+
+
+@cache
+def _decoder() -> msgspec.json.Decoder[Envelope]:
+    """Return the decoder of all events, which takes long to make."""
+    return msgspec.json.Decoder(Envelope)
 
 
 class TraceError(ValueError):
@@ -81,7 +87,7 @@ class EnvelopeDecoder:
         if number == 1:
             self._check_format(line)
         try:
-            envelope = _DECODER.decode(line)
+            envelope = _decoder().decode(line)
         except (msgspec.DecodeError, UnicodeDecodeError) as error:
             raise TraceError(f"{self._path}:{number}: this is not an event of skillc: {error}") from error
         if envelope.sequence != number or envelope.run != (run or envelope.run):
