@@ -31,7 +31,16 @@ assert sys.platform != "win32", "there are no forks"
 
 PARENT_POLL_S = 0.1
 """The interval at which a process checks whether its parent still runs."""
-_SPAWNED = "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); pickle.load(sys.stdin.buffer)()"
+_SPAWNED = """
+import pickle, sys
+sys.path[:] = pickle.load(sys.stdin.buffer)
+from skillc_dsl.importing import importing
+from skillc_runtime.platforms.python_modules import defer_import
+defer_import("glfw")
+with importing("worker"):
+    function = pickle.load(sys.stdin.buffer)
+function()
+"""
 
 
 class _Forked:

@@ -19,6 +19,7 @@ import click
 
 from skillc.cli.command import Command
 from skillc.cli.serving import DEFAULT_BIND, cell_options, parse_address, require_server
+from skillc_dsl.importing import importing
 
 if TYPE_CHECKING:
     from skillc.services.backends import BackendName
@@ -93,13 +94,14 @@ def _find_running(state: Path, choice: StudioChoice) -> str | None:
 
 def _serve(choice: StudioChoice, bind: str | None, state: Path, backend: BackendName, seed: int, show: Show) -> None:
     """Serve, and show the page as soon as it can be loaded, until Ctrl-C."""
-    from skillc.cli.console import Terminal
-    from skillc.client.address import ADMIN_TOKEN, read_token
-    from skillc.server.cells import choose_cells
-    from skillc.server.context import ServerContext
-    from skillc.server.listening import Listening
-    from skillc.server.serve import serve
-    from skillc.server.state import open_state
+    with importing("serve"):
+        from skillc.cli.console import Terminal
+        from skillc.client.address import ADMIN_TOKEN, read_token
+        from skillc.server.cells import choose_cells
+        from skillc.server.context import ServerContext
+        from skillc.server.listening import Listening
+        from skillc.server.serve import serve
+        from skillc.server.state import open_state
 
     def show_page(server: ServerContext, address: str) -> None:
         client = server.state.tokens.find(read_token(state / ADMIN_TOKEN) or "")
