@@ -14,15 +14,18 @@ from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.terms import OFFSET, POSITION
 from skillc_runtime.world.state.world_state import WorldState
 
-DISTANCES_M = (0.04, 0.08, 0.12, 0.16, 0.2)
+DISTANCES_M = (0.05, 0.1, 0.15, 0.2)
 """How far away places are that are tried, in each direction of the numbers that say where the thing is."""
+
+ROOM_M = 0.02
+"""How far from the place that is proposed the thing may be, along each of these numbers, so that all still goes."""
 
 
 def find_cure(state: WorldState, things: Iterable[str], goes: Callable[[WorldState], bool], cancel: CancelToken) -> str:
     """Return with which place of the first of some things that stands somewhere all goes, as a sentence.
 
-    Places are tried from the nearest on, and those left out at which it would lie deeper in another thing. Empty if
-    none was found before `cancel` ends the search.
+    All goes as well with the thing up to ROOM_M from there. Places are tried from the nearest on, and those left out at
+    which it would lie deeper in another thing. Empty if none was found before `cancel` ends the search.
     """
     try:
         with cancelling(cancel):
@@ -42,9 +45,21 @@ def _find_place(state: WorldState, things: Iterable[str], goes: Callable[[WorldS
             for way_m in (distance_m, -distance_m):
                 to_m = round(stated_m + way_m, 4)
                 there = _moved(state, thing, name, to_m)
-                if there is not None and _overlap_m(there, thing) <= before_m and goes(there):
+                if there is not None and _overlap_m(there, thing) <= before_m and _goes_about(there, thing, goes):
                     return f"with {short} moved by {distance_m:g} m, to {local_name(name)} {to_m:g}, all steps go"
     return ""
+
+
+def _goes_about(state: WorldState, thing: str, goes: Callable[[WorldState], bool]) -> bool:
+    """Whether all goes where a thing is, and with it a little to each side."""
+    if not goes(state):
+        return False
+    beside = (
+        _moved(state, thing, name, stated_m + way_m)
+        for name, stated_m in _numbers(state, thing)
+        for way_m in (ROOM_M, -ROOM_M)
+    )
+    return all(there is not None and goes(there) for there in beside)
 
 
 def _numbers(state: WorldState, thing: str) -> Iterator[tuple[str, float]]:
