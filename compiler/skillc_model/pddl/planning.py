@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from skillc_model.chains import unroll_for_any_scene
 from skillc_model.foresight import foresee_effects
 from skillc_model.pddl.actions import PlannedSkill, make_actions
 from skillc_model.pddl.constants import Mention, assumed_classes, find_mentions, missing_individuals
@@ -47,7 +48,7 @@ def make_planning_domain(
     that all exist and are of the classes that the skills require. The terms that the remaining skills change decide
     what is static, which decides what skills can be planned with, so the result is computed as a fixed point.
     """
-    library = foresee_effects(library)
+    library = unroll_for_any_scene(foresee_effects(library))
     named, settled = find_mentions(library), individuals is not None
     if individuals is None:
         individuals = assumed_classes((each for found in named.values() for each in found), library.vocabulary)

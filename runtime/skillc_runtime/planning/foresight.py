@@ -5,7 +5,6 @@ What a plan promises in this way is computed again from the poses that a look in
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from skillc_model.conditions import Condition, Holds, Individual
@@ -21,8 +20,7 @@ from skillc_model.foresight import (
 from skillc_model.read_write import terms_read
 from skillc_model.skills import SkillLibrary
 from skillc_model.traversal import walk
-from skillc_rdf.vocabulary.types import Vocabulary
-from skillc_runtime.world.state.axioms import WorldAxioms
+from skillc_runtime.planning.stated_facts import LibraryKey, StatedTerms, VocabularyKey
 from skillc_runtime.world.state.terms import OBJECT, SIZE
 from skillc_runtime.world.state.versioned import PairIndex, PairIndexBuilder
 from skillc_runtime.world.state.world_state import WorldState
@@ -39,11 +37,11 @@ def foresee(library: SkillLibrary, state: WorldState, goal: Condition | None = N
     """
     if not computes_foreseen(state.vocabulary):
         return library, state
-    concerned = _terms_of_skills(_LibraryKey(library)) | (terms_read(goal) if goal is not None else frozenset())
+    concerned = _terms_of_skills(LibraryKey(library)) | (terms_read(goal) if goal is not None else frozenset())
     if concerned.isdisjoint(FORESEEN):
         return library, state
-    stated = _state_relations(_VocabularyKey(state.vocabulary))
-    return _with_effects(_LibraryKey(library), stated), _with_facts(state, stated)
+    stated = _state_relations(VocabularyKey(state.vocabulary))
+    return _with_effects(LibraryKey(library), stated), _with_facts(state, stated)
 
 
 def explain_unsupported(goal: Condition, state: WorldState) -> str | None:
@@ -57,60 +55,22 @@ def explain_unsupported(goal: Condition, state: WorldState) -> str | None:
     return None
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _LibraryKey:
-    """A library as a cache key: the same if its skills are the same objects."""
-
-    library: SkillLibrary
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _LibraryKey) and self.library.skills is other.library.skills
-
-    def __hash__(self) -> int:
-        return id(self.library.skills)
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class _VocabularyKey:
-    """A vocabulary as a cache key: the same if it is the same object."""
-
-    vocabulary: Vocabulary
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _VocabularyKey) and self.vocabulary is other.vocabulary
-
-    def __hash__(self) -> int:
-        return id(self.vocabulary)
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class _Stated:
-    """A vocabulary in which relations are stated that are computed in the world, and its axioms.
-
-    They are functional: where a thing comes to rest, only that is known, and replaces all that was computed.
-    """
-
-    vocabulary: Vocabulary
-    axioms: WorldAxioms
-
-
 @lru_cache(maxsize=4)
-def _terms_of_skills(key: _LibraryKey) -> frozenset[str]:
+def _terms_of_skills(key: LibraryKey) -> frozenset[str]:
     return find_terms_of_skills(key.library)
 
 
 @lru_cache(maxsize=4)
-def _state_relations(key: _VocabularyKey) -> _Stated:
-    vocabulary = state_foreseen(key.vocabulary)
-    return _Stated(vocabulary, WorldAxioms(vocabulary))
+def _state_relations(key: VocabularyKey) -> StatedTerms:
+    return StatedTerms.of(state_foreseen(key.vocabulary))
 
 
 @lru_cache(maxsize=4)
-def _with_effects(key: _LibraryKey, stated: _Stated) -> SkillLibrary:
+def _with_effects(key: LibraryKey, stated: StatedTerms) -> SkillLibrary:
     return with_foreseen_effects(key.library, stated.vocabulary)
 
 
-def _with_facts(state: WorldState, stated: _Stated) -> WorldState:
+def _with_facts(state: WorldState, stated: StatedTerms) -> WorldState:
     """Return the world in which relations are stated that it computes, as they hold."""
     # Whoever plans without them needs no numpy.
     from skillc_runtime.world.space.bounding_boxes import TOUCH_M
@@ -123,10 +83,4 @@ def _with_facts(state: WorldState, stated: _Stated) -> WorldState:
             if state.holds(one, relation, other):
                 pairs.add(one, other)
         facts[relation] = pairs.build()
-    return replace(
-        state,
-        vocabulary=stated.vocabulary,
-        axioms=stated.axioms,
-        asserted={**state.asserted, **facts},
-        facts={**state.facts, **facts},
-    )
+    return stated.apply(state, facts)

@@ -11,9 +11,10 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import Cancelled, cancelling, limit_current
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.foresight import explain_unsupported, foresee
+from skillc_runtime.planning.problem.chains import unroll_chains
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
-from skillc_runtime.planning.problem.pose import GoalError, already_holds, pose_problem
+from skillc_runtime.planning.problem.pose import GoalError, already_holds
 from skillc_runtime.planning.search.grounding import Grounding
 from skillc_runtime.planning.unsolvability import EXPLANATION_S, explain_unsolvable, pose_to_explain
 from skillc_runtime.world.eval.obstacles import RelationObstacle
@@ -57,7 +58,8 @@ def _explain(library: SkillLibrary, state: WorldState, goal: Condition) -> Unrea
     if unsupported is not None:
         return UnreachableGoal(unsupported)
     library, state = foresee(library, state, goal)
-    posed = pose_problem(library, state, goal, (), AT_ONCE)
+    unrolled = unroll_chains(library, state, goal)
+    posed, state, goal = unrolled.pose((), AT_ONCE), unrolled.state, unrolled.goal
     problem = relax_scene(posed, state) if posed.narrowed else posed.problem
     if problem is None or _is_reachable(problem):
         return None

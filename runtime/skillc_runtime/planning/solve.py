@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import partial
 
 from msgspec import structs
 
@@ -24,8 +25,9 @@ from skillc_runtime.planning.plan import (
     Unsolvable,
 )
 from skillc_runtime.planning.planners import list_planners
+from skillc_runtime.planning.problem.chains import UnrolledProblem, unroll_chains
 from skillc_runtime.planning.problem.neighbourhood import NARROW, AbstractionSize
-from skillc_runtime.planning.problem.pose import GoalError, PosedProblem, already_holds, pose_problem
+from skillc_runtime.planning.problem.pose import GoalError, PosedProblem, already_holds
 from skillc_runtime.planning.progress import PlanningProgress, ReportProgress, ignore_progress
 from skillc_runtime.planning.unsolvability import UnsolvabilityReason, explain_unsolvable, pose_to_explain
 from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
@@ -55,23 +57,6 @@ def solve(
     """
     cancel = cancel or CancelToken(DEADLINE_S)
     chosen = tuple(list_planners() if planners is None else planners)
-
-    def pose(size: AbstractionSize | None) -> PosedProblem:
-        return pose_problem(library, state, goal, without, size)
-
-    def answer(posed: PosedProblem, part: CancelToken) -> PlanResult:
-        def report_part(progress: PlanningProgress) -> None:
-            report(structs.replace(progress, individuals=len(posed.problem.objects), narrowed=posed.narrowed))
-
-        return _plan_and_validate(chosen, posed, state, goal, part, report_part)
-
-    def search(problem: Problem, part: CancelToken) -> PlanResult:
-        return chosen[0].plan(problem, part, ignore_progress)
-
-    def explain(posed: PosedProblem) -> UnsolvabilityReason:
-        whole = posed if posed.narrowed else pose_to_explain(posed, state, goal, without, size)
-        return explain_unsolvable(whole, goal, state)
-
     try:
         with cancelling(cancel):
             if already_holds(goal, state):
@@ -80,28 +65,56 @@ def solve(
             if unsupported is not None:
                 return GaveUp(unsupported, searched=False)
             library, state = foresee(library, state, goal)
+            task = _Task(unroll_chains(library, state, goal), state, goal, tuple(without), size, chosen, report)
         with cancelling(cancel):
-            return plan_in_stages(PlanningStages(pose, answer, search, explain, cancel), state, size)
+            stages = PlanningStages(
+                partial(task.unrolled.pose, without), task.answer, task.search, task.explain, cancel
+            )
+            return plan_in_stages(stages, task.unrolled.state, size)
     except GoalError as reason:
         return GaveUp(str(reason), searched=False)
     except Cancelled as reason:
         return GaveUp(str(reason))
 
 
-def _plan_and_validate(
-    planners: Sequence[Planner],
-    posed: PosedProblem,
-    state: WorldState,
-    goal: Condition,
-    cancel: CancelToken,
-    report: ReportProgress,
-) -> PlanResult:
+@dataclass(frozen=True, slots=True)
+class _Task:
+    """What is planned: as it is posed for planners, and the world and the goal with which plans are validated."""
+
+    unrolled: UnrolledProblem
+    state: WorldState
+    goal: Condition
+    without: tuple[Excluded, ...]
+    size: AbstractionSize | None
+    planners: tuple[Planner, ...]
+    report: ReportProgress
+
+    def answer(self, posed: PosedProblem, part: CancelToken) -> PlanResult:
+        """Return the answer of the first planner that has one, validated."""
+
+        def report_part(progress: PlanningProgress) -> None:
+            self.report(structs.replace(progress, individuals=len(posed.problem.objects), narrowed=posed.narrowed))
+
+        return _plan_and_validate(self, posed, part, report_part)
+
+    def search(self, problem: Problem, part: CancelToken) -> PlanResult:
+        """Return what the first planner finds, which nothing validates."""
+        return self.planners[0].plan(problem, part, ignore_progress)
+
+    def explain(self, posed: PosedProblem) -> UnsolvabilityReason:
+        """Return why a problem has no plan."""
+        state, goal = self.unrolled.state, self.unrolled.goal
+        whole = posed if posed.narrowed else pose_to_explain(posed, state, goal, self.without, self.size)
+        return explain_unsolvable(whole, goal, state)
+
+
+def _plan_and_validate(task: _Task, posed: PosedProblem, cancel: CancelToken, report: ReportProgress) -> PlanResult:
     failures: list[str] = []
-    for planner in planners:
+    for planner in task.planners:
         report(PlanningProgress(planner=planner.name))
         try:
             with cancelling(cancel):
-                result = _validate(planner.plan(posed.problem, cancel, report), posed, state, goal)
+                result = _validate(planner.plan(posed.problem, cancel, report), posed, task)
         except Cancelled as reason:
             result = GaveUp(str(reason))
         match result:
@@ -112,12 +125,12 @@ def _plan_and_validate(
     return GaveUp(cancel.cancelled_because or "; ".join(failures))
 
 
-def _validate(result: PlanResult, posed: PosedProblem, state: WorldState, goal: Condition) -> PlanResult:
+def _validate(result: PlanResult, posed: PosedProblem, task: _Task) -> PlanResult:
     if not isinstance(result, Solved):
         return result
     try:
-        validate(result.plan, posed.library, state, goal)
-        work_s = compute_work_s(result.plan, posed.library, state)
+        validate(result.plan, task.unrolled.whole, task.state, task.goal)
+        work_s = compute_work_s(result.plan, task.unrolled.whole, task.state)
     except PlanError as error:
         return GaveUp(f"{result.planner} returned a plan that does not work: {error}")
     return (

@@ -15,9 +15,10 @@ from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, Solved, Unsolvable
 from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.problem.chains import unroll_chains
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
-from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
+from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Schedule, Scheduled, Scheduler
 from skillc_runtime.planning.solve import DEADLINE_S, solve
@@ -70,10 +71,11 @@ def minimise_makespan(
         return _schedule_empty_plan(least_work, problem)
     try:
         with cancelling(cancel):
-            posed = pose_problem(library, state, goal, without, AT_ONCE)
+            unrolled = unroll_chains(library, state, goal)
+            posed = unrolled.pose(without, AT_ONCE)
     except (TooManyValues, Cancelled) as why:
         return GaveUp(str(why))
-    problem = replace(problem, library=posed.library)
+    problem = replace(problem, library=unrolled.whole)
     first = _schedule_least_work(least_work, problem) if isinstance(least_work, Solved) else least_work
     if isinstance(first, Scheduled):
         part = cancel.limited(LOWER_BOUND_DEADLINE_S)

@@ -102,7 +102,7 @@ def pose_problem(
     that are far from those of the goal. Individuals that no helpful step involves are left out, too, unless they are to
     be kept, for an explanation. GoalError if the goal names an unknown individual or cannot be expressed.
     """
-    library = _with_vocabulary(library, state.vocabulary)
+    library = with_vocabulary(library, state.vocabulary)
     kinds = group_by_class(state)
     named = _referenced_individuals(goal, state, kinds)
     domain = get_planning_domain(
@@ -219,7 +219,7 @@ def _list_left_out_steps(steps: Sequence[Excluded], state: WorldState) -> Iterat
             yield LeftOut((show(each.step),), each.why, harmless=False, kind="steps")
 
 
-def _with_vocabulary(library: SkillLibrary, vocabulary: Vocabulary) -> SkillLibrary:
+def with_vocabulary(library: SkillLibrary, vocabulary: Vocabulary) -> SkillLibrary:
     """Return the library with the vocabulary of the world, which may define further classes."""
     names = library.names if vocabulary.classes.keys() <= library.vocabulary.classes.keys() else {}
     return msgspec.structs.replace(library, vocabulary=vocabulary, names=names)
