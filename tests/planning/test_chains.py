@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Iterator
 from typing import NamedTuple
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -148,6 +149,7 @@ def problems(draw: st.DrawFn) -> tuple[Lies, list[tuple[str, str, bool]], str | 
     return lies, draw(st.lists(goal, min_size=1, max_size=3)), draw(st.none() | st.sampled_from(movable))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=20)
 @given(problems(), st.sampled_from(WORDS))
 def test_planner_world_and_search_agree(
@@ -173,3 +175,14 @@ def test_planner_world_and_search_agree(
     for step in answer.plan.steps:
         state = apply_step(step, terms.library, state)
     assert all(state.holds(NS + thing, terms.within, NS + place) is wanted for thing, place, wanted in goals)
+
+
+@pytest.mark.slow
+def test_where_longer_chains_are_possible_than_are_planned_with_nothing_is_proved() -> None:
+    lies: Lies = {**FIXED, "W1": "P1", **{f"T{number}": "P2" for number in range(4)}}
+    terms = WORDS[1]
+    goal = Holds(Individual(NS + "W1"), terms.within, Individual(NS + "P2"))
+    answer = solve(terms.library, world(lies, terms), goal, (AStar(),))
+    assert isinstance(answer, Solved) and len(answer.plan.steps) == 1
+    assert answer.optimal == "optimal for the filtered problem"
+    assert [each.what for each in answer.left_out if each.kind == "chains"] == [("longer chains",)]

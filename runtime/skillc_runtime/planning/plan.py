@@ -72,12 +72,12 @@ Optimal: TypeAlias = Literal[
     "proven", "optimal for the filtered problem", "optimal for approximate durations", "best found"
 ]
 
-Kind: TypeAlias = Literal["individuals", "skills", "steps"]
+Kind: TypeAlias = Literal["individuals", "skills", "steps", "chains"]
 
 
 @dataclass(frozen=True, slots=True)
 class LeftOut:
-    """Individuals (IRIs), skills or steps, in any order, that a problem leaves out for one reason.
+    """Individuals (IRIs), skills, steps or chains of facts, in any order, that a problem leaves out for one reason.
 
     `harmless` if it is proved that leaving them out changes neither whether there is a plan nor the least cost.
     """
@@ -175,6 +175,7 @@ PARTS: dict[Kind, str] = {
     "individuals": "the part of the scene that was planned with",
     "skills": "the skills that can be planned with",
     "steps": "the steps that have not failed",
+    "chains": "what follows from a few facts that skills change",
 }
 
 

@@ -103,7 +103,7 @@ class PlanStep(msgspec.Struct, frozen=True, kw_only=True):
 class PartLeftOut(msgspec.Struct, frozen=True):
     """A part of a planning problem that was left out; see `LeftOut` in `planning.plan`."""
 
-    kind: Literal["individuals", "skills", "steps"]
+    kind: Literal["individuals", "skills", "steps", "chains"]
     why: str
     harmless: bool
 

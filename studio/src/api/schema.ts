@@ -1553,7 +1553,7 @@ export interface components {
          */
         PartLeftOut: {
             /** @enum {unknown} */
-            kind: "individuals" | "skills" | "steps";
+            kind: "chains" | "individuals" | "skills" | "steps";
             why: string;
             harmless: boolean;
         };

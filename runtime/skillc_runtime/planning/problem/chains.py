@@ -23,10 +23,7 @@ MOST_STEPS = 3
 """How many facts that skills change a chain may have at most; longer ones are not planned with."""
 
 LONG_CHAINS = LeftOut(
-    ("longer chains",),
-    f"what follows from more than {MOST_STEPS} facts that skills change",
-    harmless=False,
-    kind="steps",
+    ("longer chains",), f"what follows from more than {MOST_STEPS} facts that skills change", False, kind="chains"
 )
 
 
