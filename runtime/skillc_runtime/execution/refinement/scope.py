@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from skillc_model import tree
 from skillc_model.conditions import And, Expression, Holds, Individual
+from skillc_model.foresight import FORESEEN, RESTS_ON, find_terms_of_skills
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.collision.scenery import PoseKey, pose_key
 from skillc_runtime.execution.refinement.siblings import find_hand
@@ -78,7 +79,16 @@ def _find_blocking(library: SkillLibrary, before: Situation, step: Step) -> tupl
         fewer = {thing: holder for thing, holder in blocking.items() if thing != each}
         if not _goes(library, before, step, placed.keys() - fewer.keys()):
             blocking = fewer
-    return tuple(Holds(Individual(holder), CONTAIN, Individual(thing)) for thing, holder in blocking.items())
+    rests = not find_terms_of_skills(library).isdisjoint(FORESEEN)
+    return tuple(_where(state, thing, holder, rests) for thing, holder in blocking.items())
+
+
+def _where(state: WorldState, thing: str, holder: str, rests: bool) -> Holds:
+    """Return where a thing is: on what it rests, if planners foresee that with the library, else what contains it."""
+    support = min(state.objects(thing, RESTS_ON), default=None) if rests else None
+    if support is not None:
+        return Holds(Individual(thing), RESTS_ON, Individual(support))
+    return Holds(Individual(holder), CONTAIN, Individual(thing))
 
 
 def _bears(state: WorldState, thing: str, named: Iterable[str]) -> bool:
