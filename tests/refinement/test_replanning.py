@@ -81,3 +81,19 @@ lab:Cell skiros:contain lab:Roof .
     answer = plan(tmp_path, (PART_A, PART_A + roof))
     assert answer["status"] != "solved"
     assert "lab:Part-A" in answer["failure"]
+
+
+@pytest.mark.slow
+def test_a_pile_is_taken_from_its_top_also_where_many_parts_stand_around(tmp_path):
+    """Of forty parts one is in the way, and the step is not excluded for good."""
+    more = "".join(
+        f"""
+lab:Cell skiros:contain lab:Other-{number} .
+lab:Other-{number} a sorting:WorkPart ; skiros:SizeX 0.03 ; skiros:SizeY 0.03 ; skiros:SizeZ 0.04 ; skiros:Weight 0.1 ;
+    skiros:BaseFrameId "map" ; skiros:PositionX -1.0 ; skiros:PositionY {0.1 * number:.1f} ; skiros:PositionZ 0.02 .
+"""
+        for number in range(40)
+    )
+    answer = plan(tmp_path, (PART_B, "skillc:on lab:Part-A ." + more))
+    assert [thing for skill, thing in steps(answer) if skill == "Pick"] == ["lab:Part-B", "lab:Part-A"]
+    assert answer["space"]["checked"] == 4
