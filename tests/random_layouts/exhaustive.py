@@ -27,8 +27,11 @@ APPROACH_M, LINE_M, LIFT_M = 0.10, 0.02, 0.05
 FLOOR_M = 0.004
 """How thick the floor of a bin is."""
 
-ROOMS_M = (0.02, 0.008)
-"""How much farther than a part is wide the fingers open."""
+ROOM_M = 0.008
+"""How much farther than a part is wide the fingers open: little, so that they fit."""
+
+FARTHEST_M = 1.2
+"""How far from the second joint no arm gets with its hand."""
 
 QUARTERS = tuple(exp(np.array([0.0, 0.0, quarter * np.pi / 2])) for quarter in range(4))
 DOWN = np.diag([1.0, -1.0, -1.0])
@@ -100,12 +103,12 @@ class _Search:
     def _grasps(self, poses: Poses, arm: ArmInModel, part: Part) -> Iterator[Grasp]:
         """Yield the grasps from which the part can be lifted."""
         at = poses[part.name]
-        for turn, pointing, room in product(QUARTERS, (DOWN, AHEAD), ROOMS_M):
+        for turn, pointing in product(QUARTERS, (DOWN, AHEAD)):
             axes = at.axes @ turn @ pointing
             width = float(np.abs(axes[:, 1] @ at.axes) @ part.size)
             for height in _heights(part, axes):
                 hand = Frame(at.position + np.array([0.0, 0.0, height]), axes)
-                q = self._reach(poses, arm, hand, width + room, None)
+                q = self._reach(poses, arm, hand, width + ROOM_M, None)
                 if q is None:
                     continue
                 lifted = Frame(hand.position + np.array([0.0, 0.0, LIFT_M]), axes)
@@ -131,15 +134,17 @@ class _Search:
             hand = Frame(spot.position + offset, axes)
             after = {**poses, part.name: spot}
             held = {**poses, part.name: Frame(spot.position, spot.axes @ turn)}
-            for room in ROOMS_M:
-                q = self._reach(after, grasp.arm, hand, grasp.opening_m + room, None)
-                above = Frame(hand.position + np.array([0.0, 0.0, 0.12]), axes)
-                if q is not None and self._follow(held, grasp.arm, q, (hand, above), grasp.opening_m, part.name):
-                    return True
+            q = self._reach(after, grasp.arm, hand, grasp.opening_m + ROOM_M, None)
+            above = Frame(hand.position + np.array([0.0, 0.0, 0.12]), axes)
+            if q is not None and self._follow(held, grasp.arm, q, (hand, above), grasp.opening_m, part.name):
+                return True
         return False
 
     def _reach(self, poses: Poses, arm: ArmInModel, hand: Frame, opening_m: float, held: str | None) -> Array | None:
         """Return a posture (nv,) in rad with the open hand at a pose, into which it comes in a line."""
+        shoulder = self.data.xanchor[arm.joints[1].id]
+        if np.linalg.norm(hand.position - shoulder) > FARTHEST_M:
+            return None
         before = Frame(hand.position - APPROACH_M * hand.axes[:, 2], hand.axes)
         for _ in range(STARTS):
             q = arm.descend(self.rng.uniform(*arm.range.T), hand, 40)
