@@ -56,7 +56,7 @@ Outcome: TypeAlias = Situation | SpaceFailure
 SAMPLE_M = 0.02
 """The distance of poses along a path of the tool that are looked at."""
 
-LOOKED_AT = 24
+LOOKED_AT = 16
 """How many postures of a pose are looked at; a run tries the first MOST_POSTURES."""
 
 ELBOWS, ELBOW_SEEDS = 12, 8
