@@ -28,10 +28,18 @@ class ArmParts:
         model = self._body.compiled
         self._data = mujoco.MjData(model)
         self._data.qpos[self._body.joints :] = self._body.fingers
+        mujoco.mj_kinematics(model, self._data)
         self._geoms = np.flatnonzero(model.geom_contype == MOVES)
         self._middles = model.geom_aabb[self._geoms, :3]
         self.halves: Array = model.geom_aabb[self._geoms, 3:]
         self.levers = self._body.levers
+
+    @property
+    def reach_m(self) -> float:
+        """A distance in m from the base farther than which no part gets, whatever the joints: that of the first joint
+        and the farthest that a part may be from it."""
+        first = self._data.xpos[self._body.compiled.jnt_bodyid[0]]
+        return float(self.levers.max() + np.linalg.norm(first))
 
     def place(self, q: Array) -> tuple[Array, Array]:
         """Return the middles (geoms, 3) in m and the rotations (geoms, 3, 3) of all geoms at joints q (nv,) in rad."""

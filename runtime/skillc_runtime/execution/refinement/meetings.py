@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from itertools import combinations
+from functools import cached_property
+from itertools import combinations, product
+
+import numpy as np
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import check_current
-from skillc_runtime.collision.swept_space import SweptSpace, join_spaces
+from skillc_runtime.collision.swept_space import CUBE_M, SweptSpace, join_spaces
 from skillc_runtime.execution.refinement.situation import RefinedMotion
+from skillc_runtime.motion.pose import Array
 from skillc_runtime.planning.arrangement import find_predecessors
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.validation import PlanError
@@ -27,7 +31,7 @@ def find_steps_apart(
     """
     if len({each.arm for one in motions for each in one}) < 2:
         return ()
-    spaces, short = [_sweep(each) for each in motions], state.vocabulary.short
+    spaces, short = [_group_by_arm(each) for each in motions], state.vocabulary.short
     before = [set(each) for each in _find_predecessors(library, state, steps)]
     found = list[StepsApart]()
     for late in range(len(steps)):
@@ -46,7 +50,7 @@ def find_meeting_arms(groups: Iterable[Sequence[RefinedMotion]]) -> tuple[str, s
     moving = [each for each in groups if each]
     if len({each.arm for one in moving for each in one}) < 2:
         return None
-    spaces = [_sweep(each) for each in moving]
+    spaces = [_group_by_arm(each) for each in moving]
     return next((arms for pair in combinations(spaces, 2) if (arms := _find_meeting(*pair)) is not None), None)
 
 
@@ -57,18 +61,32 @@ def _find_predecessors(library: SkillLibrary, state: WorldState, steps: Sequence
     return [frozenset()] * len(steps)
 
 
-def _sweep(motions: Sequence[RefinedMotion]) -> dict[str, SweptSpace]:
-    """Return the space that each arm sweeps in motions."""
+class _Way:
+    """The motions of one arm; the space that they sweep is computed if another arm may come there."""
+
+    def __init__(self, motions: Sequence[RefinedMotion]) -> None:
+        self._motions = motions
+
+    @cached_property
+    def _space(self) -> SweptSpace:
+        return join_spaces([each.sweep() for each in self._motions])
+
+    @cached_property
+    def _bases(self) -> list[tuple[Array, float]]:
+        return [(each.base.position, each.reach_m) for each in self._motions]
+
+    def meets(self, other: _Way) -> bool:
+        pairs = product(self._bases, other._bases)
+        if all(np.linalg.norm(one - two) > its + theirs + CUBE_M for (one, its), (two, theirs) in pairs):
+            return False
+        return self._space.meets(other._space)
+
+
+def _group_by_arm(motions: Sequence[RefinedMotion]) -> dict[str, _Way]:
     arms = sorted({each.arm for each in motions})
-    return {arm: join_spaces([each.sweep() for each in motions if each.arm == arm]) for arm in arms}
+    return {arm: _Way([each for each in motions if each.arm == arm]) for arm in arms}
 
 
-def _find_meeting(early: dict[str, SweptSpace], late: dict[str, SweptSpace]) -> tuple[str, str] | None:
-    return next(_list_meetings(early, late), None)
-
-
-def _list_meetings(early: dict[str, SweptSpace], late: dict[str, SweptSpace]) -> Iterator[tuple[str, str]]:
-    for one, its in early.items():
-        for other, theirs in late.items():
-            if one != other and its.meets(theirs):
-                yield one, other
+def _find_meeting(early: dict[str, _Way], late: dict[str, _Way]) -> tuple[str, str] | None:
+    pairs = product(early.items(), late.items())
+    return next(((one, other) for (one, its), (other, theirs) in pairs if one != other and its.meets(theirs)), None)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from skillc_runtime.collision.arm_assembly import ArmAssembly
+from skillc_runtime.collision.arm_parts import ArmParts
 from skillc_runtime.collision.swept_space import SweptSpace, sweep_space
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.standing_bases import leaving_changes
@@ -35,6 +36,11 @@ class RefinedMotion:
     assembly: ArmAssembly
     along: bool
     tool: Pose | None = None
+
+    @property
+    def reach_m(self) -> float:
+        """From how far away from its base another part may come near to the arm at most, in m."""
+        return ArmParts(self.assembly).reach_m
 
     def sweep(self) -> SweptSpace:
         """Return the space that the arm sweeps."""
