@@ -117,10 +117,25 @@ def test_a_base_with_nothing_in_its_way_arrives() -> None:
     assert there.ground_truth.contacts() == ()
 
 
-def test_two_arms_that_meet_do_not_pass_through_each_other_and_both_are_named() -> None:
+def meeting() -> tuple[SimulatedCell, Pose, Pose]:
+    """Return a cell in which an arm stands where the other one goes, and its next two poses."""
     near = [SetProperty(LAB + "Hatch", POSITION[1], 2.05), AddRelation(LAB + "Heron-1", AT, LAB + "Hatch")]
     there = SimulatedCell(WorldModel(world("shared_eraser").with_changes(near)))
     above, at = (pose(there.world.snapshot(), LAB + "Eraser-1-" + name) for name in ("approach", "grasp"))
+    return there, above, at
+
+
+def test_an_arm_does_not_go_where_another_one_stands() -> None:
+    there, above, _ = meeting()
+    with pytest.raises(SkillFailure, match="where it shall go lab:Robotiq-1 would touch lab:Ur5e-1 forearm_link"):
+        run(there, MoveJoints(there, arm=LAB + "Iiwa-1", target=above, pace=0.3))
+    assert there.ground_truth.contacts() == ()
+
+
+def test_two_arms_that_meet_do_not_pass_through_each_other_and_both_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An arm that moves is not seen by the motions of another one."""
+    there, above, at = meeting()
+    monkeypatch.setattr(there, "find_standing_joints", lambda arm: None)
     with pytest.raises(SkillFailure, match=r"of a link|on the tool is beyond|away from where it shall be"):
         run(there, MoveJoints(there, arm=LAB + "Iiwa-1", target=above, pace=0.3))
         run(there, MoveLinear(there, arm=LAB + "Iiwa-1", target=at, speed=0.2))
