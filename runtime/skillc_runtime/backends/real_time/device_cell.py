@@ -159,7 +159,7 @@ class DeviceCell(Backend, Cell):
         """Return at which joints (nv,) in rad an arm stands; None while it moves."""
         with self._turn:
             motion = self._arms[individual].motion
-            return motion.stopping_joints() if motion.done else None
+            return motion.stopping_joints() if motion.stationary else None
 
     def gripper(self, individual: str) -> Gripper:
         """Return a gripper; KeyError if the cell has no such gripper."""

@@ -181,7 +181,7 @@ class ModelledCell(ABC, Generic[A, G]):
     def find_standing_joints(self, individual: str) -> Array | None:
         """Return at which joints (nv,) in rad an arm stands; None while it moves."""
         motion = self._drivers[individual].motion
-        return motion.stopping_joints() if motion.done else None
+        return motion.stopping_joints() if motion.stationary else None
 
     def gripper(self, individual: str) -> G:
         """Return a gripper; KeyError if the cell has no such gripper."""
