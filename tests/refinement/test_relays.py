@@ -12,6 +12,17 @@ from skillc.cli.main import skillc
 FAR_M = 1.5
 """How far apart the bases are: both arms reach the middle of the table, and neither the other half of it."""
 
+HAND_OVER = """
+use skiros
+prefix lab: <http://example.org/lab#>
+import "handling.skill"
+
+task hand_over {
+    scene "cell.ttl"
+    goal  lab:Box-A contain lab:Part-A
+}
+"""
+
 NEAR_ONE, NEAR_OTHER = (-0.35, 0.2), (0.4, -0.2)
 
 
@@ -73,6 +84,14 @@ def test_several_parts_go_over_a_tray_one_after_another(tmp_path: Path) -> None:
     answer = ask("plan", scene, goal, "--no-plan-cache")
     assert answer["space"]["checked"] == len(answer["plan"]) == 8
     assert steps(answer).count(("Place", "lab:Arm-1", "lab:Tray")) == 2
+
+
+@pytest.mark.slow
+def test_check_has_nothing_against_a_hand_over(tmp_path: Path) -> None:
+    write_two_arms(tmp_path, {"Part-A": NEAR_ONE, "Box-A": NEAR_OTHER}, FAR_M)
+    (tmp_path / "tasks.skill").write_text(HAND_OVER)
+    ran = CliRunner().invoke(skillc, ["check", str(tmp_path), "--json", "--no-cache"])
+    assert (json.loads(ran.stdout), ran.exit_code) == ([], 0)
 
 
 @pytest.mark.sim
