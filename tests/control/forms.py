@@ -127,8 +127,8 @@ def measurements(count: int) -> list[list[float]]:
         J, joints, wrench, readings = np.zeros((6, 7)), np.zeros((6, 7)), np.zeros(6), chance.uniform(-20, 20, 9)
         link, base = exp(chance.uniform(-3, 3, 3)), exp(chance.uniform(-3, 3, 3))
         axes, (centre, position, origin, weight) = chance.uniform(-1, 1, (7, 6)), chance.uniform(-1, 1, (4, 3))
-        raw, noise = chance.uniform(-20, 20, (2, 9))
-        filter_wrist(WristFilter(readings, raw, noise[None], np.zeros(1), 0.3, np.ones(1)), 0.0)
+        raw, noise, mean = chance.uniform(-20, 20, (3, 9))
+        filter_wrist(WristFilter(readings, mean, raw, noise[None], np.zeros(1), 0.3, 0.01, np.ones(1)), 0.0)
         q, dq, bias, noise = chance.uniform(-1, 1, (4, 7))
         velocity = np.zeros(3)
         sensing = ArmSensing(

@@ -54,6 +54,8 @@ class Bench:
     The plate lies `gap` m below the tool, tilted by the rotation vector `tilt`; None for no plate.
     """
 
+    mean_wrench = None
+
     def __init__(
         self, robot: str, gap: float | None = None, tilt=(0.0, 0.0, 0.0), friction=0.5, period=0.001, base=None
     ) -> None:

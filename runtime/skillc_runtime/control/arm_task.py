@@ -11,6 +11,7 @@ from skillc_runtime.control.kinematics import JOINT_RAMP_S, Kinematics
 from skillc_runtime.control.measured import MeasuredArm
 from skillc_runtime.control.period import TASK, TOOL_JUMP_M_S
 from skillc_runtime.control.setup import ArmSetup
+from skillc_runtime.control.taring import Taring
 from skillc_runtime.control.tool_task import ToolTask
 from skillc_runtime.devices.arm import ArmState, Command
 from skillc_runtime.motion.joint_reference_generator import JointReferenceGenerator
@@ -29,7 +30,8 @@ class ArmTask:
         """Hold the joints at their positions."""
         state = setup.arm.state()
         self.limits, self.period, self.speed, self.clock = setup.limits, setup.period, 1.0, np.zeros(4)
-        self._arm, self.place = setup.arm, state.tool.position.copy()
+        self.arm, self.place = setup.arm, state.tool.position.copy()
+        self.taring = Taring(setup.arm)
         self.measured = MeasuredArm(setup.base, self.contact_wrench, state)
         self.controllers = make_controllers(setup.gains, setup.limits, setup.virtual, state, setup.period)
         self.kinematics, self.workspace = Kinematics(setup.virtual), setup.safety.workspace
@@ -64,8 +66,9 @@ class ArmTask:
 
     def move_tool(self) -> ToolTask:
         """Switch from joint to tool control; the tool continues as the joints moved it."""
-        self.update_state(self._arm.state())
+        self.update_state(self.arm.state())
         if self.joints is not None:
+            self.taring.tare_first(self.measured.state.dq)
             state, reference = self.measured.state, self.joints.sample(self.now)
             tool, jacobian = self.kinematics.tool_at(reference.q, state)
             self.tool.restart_from(state, reference, tool, jacobian @ reference.dq, self.now)

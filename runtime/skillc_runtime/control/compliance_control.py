@@ -73,6 +73,10 @@ class ComplianceControl:
     def _in_contact(self) -> bool:
         return any(push.pressed_s is not None for push in self.active_pushes)
 
+    def tare(self) -> bool:
+        """Let what the force sensor feels of nothing be 0; return whether nothing is left to be waited for."""
+        return self.released or self._task.taring.tare(self._task.now)
+
     def release(self, axis: Array, stiffness: float = 0.0) -> None:
         """Release a direction (3,), which then moves with the reference tool frame; stiffness in N/m.
 

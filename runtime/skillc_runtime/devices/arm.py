@@ -173,6 +173,11 @@ class Arm(Protocol):
         """Return the flange in base for joints q (nv,) in rad by the arm's own model; None if it has none."""
         return None
 
+    @property
+    def mean_wrench(self) -> Array | None:
+        """The mean wrench (6,) N and N m of the last second or so, by which `tare` tares; None if it is not known."""
+        return None
+
     def tare(self) -> None:
         """Let the wrench that is measured now be 0 from now on, while nothing touches the tool; NotOffered."""
         raise NotOffered("the arm has no sensor that can be tared")

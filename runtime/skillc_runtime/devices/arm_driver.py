@@ -228,6 +228,13 @@ class ComplianceInterface(Protocol):
         """The force (3,) N on the tool by what it presses on, world axes, that is commanded now; NaN without a push."""
         ...
 
+    def tare(self) -> bool:
+        """Let what the force sensor, if there is one, feels of nothing be 0, before the tool yields, at rest.
+
+        Return whether nothing is left to be waited for; call it again in the next tick else.
+        """
+        ...
+
     def release(self, axis: Array, stiffness: float = 0.0) -> None:
         """Release a direction, with a remaining stiffness in N/m.
 

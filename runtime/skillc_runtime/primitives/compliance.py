@@ -50,23 +50,33 @@ class ReleaseAxis(Primitive):
     def __init__(self, cell: Cell, *, arm: str, along: Array, stiffness: float) -> None:
         super().__init__(cell)
         self.arm = cell.arm(arm)
-        self._along, self._stiffness = along, stiffness
+        self._along, self._stiffness, self._released = along, stiffness, False
 
     def start(self) -> None:
-        """Release the axis; the tool does not move."""
+        """Release the axis, once the force sensor is tared; the tool does not move."""
         raise_fault(self.arm)
+        self._try_to_release()
+
+    def tick(self) -> Status:
+        """Return SUCCESS once the axis is released."""
+        if not self._released:
+            raise_fault(self.arm)
+            self._try_to_release()
+        return Status.SUCCESS if self._released else Status.RUNNING
+
+    def release(self) -> None:
+        """Make the axis stiff again at the current position."""
+        if self._released:
+            self.arm.compliance.restore()
+
+    def _try_to_release(self) -> None:
+        if not self.arm.compliance.tare():
+            return
         try:
             self.arm.compliance.release(self._along, self._stiffness)
         except ValueError as refusal:
             raise SkillFailure(str(refusal)) from refusal
-
-    def tick(self) -> Status:
-        """Return SUCCESS."""
-        return Status.SUCCESS
-
-    def release(self) -> None:
-        """Make the axis stiff again at the current position."""
-        self.arm.compliance.restore()
+        self._released = True
 
     def pause(self) -> None:
         """Hold the tool along the axis, unless it presses on something."""

@@ -56,6 +56,10 @@ class RemoteCompliance:
         """Whether any direction is released."""
         return self._process.read().holds("released")
 
+    def tare(self) -> bool:
+        """Return True: devices are tared when they are taken under control."""
+        return True
+
     def release(self, axis: Array, stiffness: float = 0.0) -> None:
         """Release a direction, with a remaining stiffness in N/m.
 

@@ -47,6 +47,10 @@ class SimulatedArm(ModelledArm):
         """The force-torque sensor, which takes part in each step; None without one."""
         return self._wrist
 
+    @property
+    def _mean_readings(self) -> Array:
+        return super()._mean_readings if self._wrist is None else self._wrist.mean
+
     def _whole_mass(self) -> WholeMass:
         return self._physics.mass
 

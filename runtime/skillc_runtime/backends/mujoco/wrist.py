@@ -17,20 +17,26 @@ from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import bind, compiled
 from skillc_runtime.motion.pose import Array, Pose, skew
 
+MEAN_S = 0.3
+"""Time constant of the mean by which a sensor is tared: its noise counts as that of the mean of 0.6 s."""
+
 
 @dataclass(frozen=True, slots=True)
 class WristFilter:
     """The low-pass filter of a sensor.
 
-    readings (9,) move by `share` of the difference to the noisy raw ones (9,) in each step; noise (n, 9), of which
-    `used` (1,) rows are used up; started (1,): 0 before the first sample, which the readings begin with.
+    readings (9,) move by `share` of the difference to the noisy raw ones (9,) in each step, and mean (9,) by
+    `slow_share` of that to the readings; noise (n, 9), of which `used` (1,) rows are used up; started (1,): 0 before
+    the first sample, which both begin with.
     """
 
     readings: OutVector
+    mean: OutVector
     raw: Vector
     noise: Matrix
     used: OutVector
     share: float
+    slow_share: float
     started: OutVector
 
 
@@ -39,7 +45,7 @@ def filter_wrist(wrist: WristFilter, now: float) -> int:
     """Filter the readings of one step; return 1, and do nothing, if all noise is used up."""
     if wrist.started[0] == 0.0:
         for i in range(wrist.raw.size):
-            wrist.readings[i] = wrist.raw[i]
+            wrist.readings[i] = wrist.mean[i] = wrist.raw[i]
         wrist.started[0] = 1.0
         return 0
     row = int(wrist.used[0])
@@ -48,6 +54,7 @@ def filter_wrist(wrist: WristFilter, now: float) -> int:
     wrist.used[0] += 1.0
     for i in range(wrist.raw.size):
         wrist.readings[i] += wrist.share * (wrist.raw[i] + wrist.noise[row, i] - wrist.readings[i])
+        wrist.mean[i] += wrist.slow_share * (wrist.readings[i] - wrist.mean[i])
     return 0
 
 
@@ -59,7 +66,8 @@ class Wrist(OnMemory):
     t_ext = c x m s - t_S, at the tool centre point p: t_ext - p x f_ext. This removes weight and inertia, except for
     rotational inertia. It is one constant matrix until the next grasp: w = G [f; t; s], along the sensor's axes.
 
-    gain (6, 9): G; readings (9,): [f; t; s], low-passed, zeros before any sample. `step` filters one simulation step.
+    gain (6, 9): G; readings (9,): [f; t; s], low-passed, zeros before any sample; mean (9,): of these. `step` filters
+    one simulation step.
     """
 
     def __init__(
@@ -79,9 +87,12 @@ class Wrist(OnMemory):
         """
         first = model.sensor(wrist_sensor_name(gripper, "force")).adr[0]
         share = 1.0 - math.exp(-model.opt.timestep / time_constant_s) if time_constant_s > 0 else 1.0
-        self.gain, self.readings, self._noise = gain, readings, noise or make_no_noise(9)
+        slow_share = 1.0 - math.exp(-model.opt.timestep / MEAN_S)
+        self.gain, self.readings, self._noise, self.mean = gain, readings, noise or make_no_noise(9), np.zeros(9)
         raw, rows, used = data.sensordata[first : first + 9], self._noise.rows, self._noise.used
-        super().__init__(bind(filter_wrist, WristFilter(readings, raw, rows, used, share, np.zeros(1))))
+        super().__init__(
+            bind(filter_wrist, WristFilter(readings, self.mean, raw, rows, used, share, slow_share, np.zeros(1)))
+        )
         self._coupling = make_coupling(sizes)
         self._hand_mass, self._hand_centre = _hand(model, part_name(gripper, "palm"))
 

@@ -215,14 +215,18 @@ class ModelledArm(Arm):
         link, base = (find_live_body(data, body) for body in (self._link, self._base))
         return base.inverse() @ link @ self._flange
 
+    @property
+    def mean_wrench(self) -> Array | None:
+        """The mean wrench (6,) of the last second or so, along the axes of the sensor; None without one."""
+        return self._gain @ self._mean_readings - self._zero_at_tool if self._feels_force else None
+
     def tare(self) -> None:
         """Let the wrench of the force-torque sensor be 0 from now on; NotOffered without one."""
-        if not self._feels_force:
+        wrench = self.mean_wrench
+        if wrench is None:
             raise NotOffered("the arm has no force-torque sensor")
-        wrist = self._hand.in_base[3:6]
-        force, moment = wrist @ self._here.wrench[:3], wrist @ self._here.wrench[3:]
-        self._zero[:3] += force
-        self._zero[3:] += moment + np.cross(self._lever(), force)
+        self._zero[:3] += wrench[:3]
+        self._zero[3:] += wrench[3:] + np.cross(self._lever(), wrench[:3])
         self._move_zero()
 
     @property
@@ -233,6 +237,11 @@ class ModelledArm(Arm):
     def set_brakes(self, on: bool) -> None:
         """Hold the joints still from now on, or let commands take effect again."""
         self._braked = on
+
+    @property
+    def _mean_readings(self) -> Array:
+        """The readings (9,) of the force-torque sensor by whose wrench it is tared: here those of the present."""
+        return self._readings
 
     def _lever(self) -> Array:
         """Return the way (3,) in m from the flange to the tool centre point, along the axes of the flange."""

@@ -1,0 +1,67 @@
+"""Taring: what a force sensor feels of nothing counts as 0 before a tool yields to what it feels.
+
+What a sensor adds to each force and torque moves a tool that yields, and is a part of the force with which it presses.
+At rest in free space it is all that is felt, so its mean is subtracted. A force that is greater than such an error may
+be a contact, and stays.
+"""
+
+from __future__ import annotations
+
+from math import hypot
+
+from skillc_runtime.control.measured import is_still
+from skillc_runtime.devices.arm import Arm
+from skillc_runtime.motion.pose import Array
+
+REST_S = 0.9
+"""How long an arm rests before it is tared, three time constants of the mean, in s."""
+
+PATIENCE_S = 3.0
+"""After this time without rest, in s, it is not tared."""
+
+GREATEST_N = 8.0
+"""Less force on a tool at rest may be an error of the sensor: 4 N along each axis, as makers state."""
+
+LEAST_N, LEAST_N_M = 0.15, 0.02
+"""Less is the noise of the mean, and is not subtracted."""
+
+COARSE = 10.0
+"""How many times as much that is in a mean which begins while the arm was moving."""
+
+
+class Taring:
+    """Tares the force sensor of an arm: before the tool is controlled for the first time, and once it has rested."""
+
+    def __init__(self, arm: Arm) -> None:
+        self._arm, self._rested, self._is_tared = arm, 0.0, False
+        self._begun: float | None = None
+
+    def tare_first(self, dq: Array) -> None:
+        """Tare an arm with joint speeds dq (nv,) in rad/s, if it rests and never was: its tool is controlled now."""
+        if not self._is_tared and is_still(dq):
+            self._take(COARSE)
+
+    def tare(self, now: float) -> bool:
+        """Tare at `now` s if the arm has a sensor and has rested; return whether nothing is left to be waited for."""
+        if self._arm.mean_wrench is None:
+            return True
+        if self._begun is None:
+            self._begun = self._rested = now
+        if not is_still(self._arm.state().dq):
+            self._rested = now
+        has_rested = now - self._rested >= REST_S
+        if not has_rested and now - self._begun < PATIENCE_S:
+            return False
+        if has_rested:
+            self._take(1.0)
+        self._begun = None
+        return True
+
+    def _take(self, doubt: float) -> None:
+        mean = self._arm.mean_wrench
+        if mean is None:
+            return
+        force_n, torque_n_m = hypot(*mean[:3]), hypot(*mean[3:])
+        if force_n < GREATEST_N and (force_n > doubt * LEAST_N or torque_n_m > doubt * LEAST_N_M):
+            self._arm.tare()
+        self._is_tared = True

@@ -1,0 +1,88 @@
+"""What a force sensor adds counts as 0 before a tool yields; what may be a contact does not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+
+from skillc_runtime.control.taring import GREATEST_N, LEAST_N, LEAST_N_M, PATIENCE_S, REST_S, Taring
+from skillc_runtime.motion.pose import Array
+
+TICK_S = 0.01
+
+
+@dataclass
+class Hand:
+    """An arm with a sensor that feels a wrench (6,), None without one, while its joints turn with a speed in rad/s."""
+
+    mean_wrench: Array | None
+    speed: float = 0.0
+    tared: list[Array] = field(default_factory=list)
+
+    @property
+    def dq(self) -> Array:
+        return np.full(6, self.speed)
+
+    def state(self) -> Hand:
+        return self
+
+    def tare(self) -> None:
+        assert self.mean_wrench is not None
+        self.tared.append(self.mean_wrench)
+
+
+def wait(taring: Taring, hand: Hand, moves_s: float = 0.0) -> float:
+    """Call until nothing is left to be waited for, while the arm moves at first; return for how long, in s."""
+    for tick in range(1000):
+        hand.speed = 1.0 if tick * TICK_S < moves_s else 0.0
+        if taring.tare(5.0 + tick * TICK_S):
+            return tick * TICK_S
+    raise AssertionError("the wait has no end")
+
+
+def feel(force_n: float, torque_n_m: float = 0.0) -> Hand:
+    return Hand(np.array([0.0, 0.0, force_n, torque_n_m, 0.0, 0.0]))
+
+
+def test_an_arm_without_sensor_waits_for_nothing() -> None:
+    assert Taring(Hand(None)).tare(0.0)
+
+
+@pytest.mark.parametrize("hand", [feel(3.0), feel(0.0, 0.2)])
+def test_it_is_tared_once_it_has_rested(hand: Hand) -> None:
+    assert wait(Taring(hand), hand, moves_s=0.5) == pytest.approx(0.5 + REST_S, abs=2 * TICK_S)
+    assert len(hand.tared) == 1
+
+
+@pytest.mark.parametrize("hand", [feel(1.01 * GREATEST_N), feel(0.99 * LEAST_N, 0.99 * LEAST_N_M)])
+def test_a_contact_and_noise_are_not_subtracted(hand: Hand) -> None:
+    assert wait(Taring(hand), hand) == pytest.approx(REST_S, abs=2 * TICK_S)
+    assert hand.tared == []
+
+
+def test_an_arm_that_never_rests_is_not_waited_for_for_ever() -> None:
+    hand = feel(3.0)
+    assert wait(Taring(hand), hand, moves_s=100.0) == pytest.approx(PATIENCE_S, abs=2 * TICK_S)
+    assert hand.tared == []
+
+
+def test_each_wait_begins_anew() -> None:
+    hand = feel(3.0)
+    taring = Taring(hand)
+    assert [wait(taring, hand) > 0.5 * REST_S for _ in range(3)] == [True] * 3
+
+
+def test_before_its_tool_is_controlled_it_is_tared_once_and_only_of_what_is_no_rest_of_a_motion() -> None:
+    hand = feel(4 * LEAST_N)
+    taring = Taring(hand)
+    taring.tare_first(hand.dq)
+    assert hand.tared == []
+    moving, still = feel(4.0), feel(4.0)
+    Taring(moving).tare_first(np.ones(6))
+    assert moving.tared == []
+    taring = Taring(still)
+    for _ in range(3):
+        taring.tare_first(still.dq)
+    assert len(still.tared) == 1

@@ -1,0 +1,30 @@
+"""Tasks with imperfect arms: what the controllers make up for, and what a run says of it."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from skillc.cli.main import skillc
+
+pytestmark = pytest.mark.sim
+
+
+def try_task(task: str, reality: str, number: int) -> dict:
+    """Return what trials with so many seeds say."""
+    words = ["trials", task, "--reality", reality, "-n", str(number), "--jobs", "1", "--json"]
+    found = CliRunner().invoke(skillc, words)
+    assert found.exit_code in (0, 3), found.output
+    return json.loads(found.stdout)
+
+
+@pytest.mark.parametrize("reality", ["wide:forceBias,torqueBias", "wide:jointFriction"])
+def test_a_board_is_wiped_as_well_as_by_an_ideal_arm(reality: str) -> None:
+    """The wrist is tared before it touches: 4 N along each axis are more than half of what it presses with."""
+    assert try_task("clean_whiteboard", reality, 2)["passed"] == 2
+
+
+def test_no_imperfection_costs_honesty() -> None:
+    """With all of them together an arm may fail; it says so, and what is said to be clean is clean."""
+    for trial in try_task("clean_whiteboard", "typical", 2)["trials"]:
+        assert trial["false_claims"] == [], trial
