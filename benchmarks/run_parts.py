@@ -38,7 +38,7 @@ from skillc_dsl.importing import importing
 from skillc_runtime.platforms.python_modules import defer_import
 
 defer_import("glfw")
-with importing("run"):
+with importing():
     import skillc.cli.run_output, skillc.services.running
 """
 

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from skillc_dsl.garbage import gc_disabled
-from skillc_dsl.importing import keeping_code
 
 # No test depends on how fast the machine is.
 settings.register_profile("skillc", deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -83,7 +82,7 @@ def pytest_runtest_teardown(item: pytest.Item) -> None:
 @pytest.hookimpl(wrapper=True)
 def pytest_collection() -> Generator[None, object, object]:
     """Do not look for garbage while tests are imported: there is none, and it takes a fifth of the time."""
-    with gc_disabled(), keeping_code("tests"):
+    with gc_disabled():
         return (yield)
 
 

@@ -11,6 +11,6 @@ from skillc_runtime.platforms.python_modules import defer_import
 if __name__ == "__main__":
     # MuJoCo, which a cell imports, imports what opens windows, which no cell does.
     defer_import("glfw")
-    with importing("cell"):
+    with importing():
         from skillc.cells.program import serve_cell
     sys.exit(serve_cell(socket.socket(fileno=int(sys.argv[1])), socket.socket(fileno=int(sys.argv[2]))))

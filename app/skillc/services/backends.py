@@ -8,7 +8,6 @@ from importlib.metadata import EntryPoint, EntryPoints, entry_points
 from typing import TYPE_CHECKING, TypeAlias
 
 from skillc.errors import RequestError, ServiceError
-from skillc_dsl.importing import keeping_code
 from skillc_runtime.execution.pace import FAST, REAL
 
 if TYPE_CHECKING:
@@ -90,8 +89,7 @@ def _find_entry(name: str) -> EntryPoint:
 
 def _load(entry: EntryPoint) -> MakeBackend:
     try:
-        with keeping_code(f"backend-{entry.name}"):
-            make: MakeBackend = entry.load()
+        make: MakeBackend = entry.load()
     except (ImportError, AttributeError) as error:
         raise ServiceError(f"the backend {entry.name} ({entry.value}) cannot be imported: {error}") from error
     return make

@@ -37,7 +37,7 @@ sys.path[:] = pickle.load(sys.stdin.buffer)
 from skillc_dsl.importing import importing
 from skillc_runtime.platforms.python_modules import defer_import
 defer_import("glfw")
-with importing("worker"):
+with importing():
     function = pickle.load(sys.stdin.buffer)
 function()
 """

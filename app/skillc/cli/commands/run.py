@@ -54,7 +54,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     TASK is the name of a task of the project here or of a shipped one, or LIBRARY:NAME; `skillc tasks` lists them. In a
     project, TASK may be left out if the manifest names a default one.
     """
-    with importing("run"):
+    with importing():
         from skillc.cli.console import Terminal, print_json, remark_default
         from skillc.cli.film_progress import FilmProgress
         from skillc.cli.run_output import check_operable, print_results, run_with_progress

@@ -74,7 +74,7 @@ def command(
     require_server()
     if network.ros2:
         require_ros2("--ros2")
-    with importing("serve"):
+    with importing():
         from skillc.cli.console import Terminal
         from skillc.server.cells import choose_cells
         from skillc.server.log import logging_to

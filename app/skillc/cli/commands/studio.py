@@ -94,7 +94,7 @@ def _find_running(state: Path, choice: StudioChoice) -> str | None:
 
 def _serve(choice: StudioChoice, bind: str | None, state: Path, backend: BackendName, seed: int, show: Show) -> None:
     """Serve, and show the page as soon as it can be loaded, until Ctrl-C."""
-    with importing("serve"):
+    with importing():
         from skillc.cli.console import Terminal
         from skillc.client.address import ADMIN_TOKEN, read_token
         from skillc.server.cells import choose_cells
