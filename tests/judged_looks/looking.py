@@ -33,9 +33,9 @@ def judge_task(task: LoadedTask, seed: int, kind: str, search: Callable[[Simulat
         said, why = look(task)
     cell = make_ideal_cell(task)
     match said:
-        case "yes" | "from another posture":
+        case "yes":
             failure = _run(task, cell)
-            return Verdict(seed, kind, said, (failure is None) == (said == "yes"), failure or "")
+            return Verdict(seed, kind, said, failure is None, failure or "")
         case "no":
             way = search(cell)
             return Verdict(seed, kind, said, way is None, why if way is None else f"{why}; it goes {way}")
@@ -55,8 +55,7 @@ def look(task: LoadedTask) -> tuple[Said, str]:
     if found is None:
         return ("no" if isinstance(answer, Unsolvable) else "unknown"), str(getattr(answer, "why", ""))
     if found.failed is None:
-        chosen = any(motion.chosen for step in found.steps for motion in step.motions)
-        return ("from another posture" if chosen else "yes"), ""
+        return "yes", ""
     failure = found.failure
     if failure is None or not failure.is_in_space:
         return "unknown", "" if failure is None else failure.message

@@ -8,11 +8,10 @@ from typing import Final, Literal, TypeAlias
 
 import msgspec
 
-Said: TypeAlias = Literal["yes", "no", "from another posture", "unknown"]
-"""What is said before anything moves: that it goes, that it does not, that it goes from a posture that a run does not
-take, or nothing."""
+Said: TypeAlias = Literal["yes", "no", "unknown"]
+"""What is said before anything moves: that it goes, that it does not, or nothing."""
 
-JUDGED: Final[tuple[Said, ...]] = ("yes", "no", "from another posture")
+JUDGED: Final[tuple[Said, ...]] = ("yes", "no")
 """What can be judged."""
 
 

@@ -24,7 +24,7 @@ def test_a_seed_draws_the_same_layout_again_and_all_are_different() -> None:
 
 
 def test_what_is_said_not_to_go_and_goes_counts_as_not_solved() -> None:
-    said = [("yes", True), ("from another posture", True), ("no", True), ("no", False), ("unknown", None)]
+    said = [("yes", True), ("yes", True), ("no", True), ("no", False), ("unknown", None)]
     verdicts = [Verdict(seed, "plain", *each, "") for seed, each in enumerate(said)]
     assert share_solved(verdicts) == pytest.approx(2 / 3)
 

@@ -57,7 +57,7 @@ SAMPLE_M = 0.02
 """The distance of poses along a path of the tool that are looked at."""
 
 LOOKED_AT = 16
-"""How many postures of a pose are looked at; a run tries the first MOST_POSTURES."""
+"""How many postures of a pose are looked at. A run that takes none of them tries fewer, `move.MOST_POSTURES`."""
 
 ELBOWS, ELBOW_SEEDS = 12, 8
 """Towards how many other postures the elbow of a redundant arm is pulled where the first ones do not go, and from how
