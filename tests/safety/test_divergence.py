@@ -41,7 +41,7 @@ def test_a_run_whose_simulation_diverges_fails_and_tells_all_ends(scene: str) ->
     assert there.broken.startswith("the simulation diverged at 0.05")
     assert f"the acceleration of {there.scene.names[ARM[scene]]}/" in there.broken
     started = [event.node for event in told if isinstance(event, NodeStarted)]
-    assert len(started) > 5
+    assert len(started) > 2
     assert sorted(started) == sorted(event.node for event in told if isinstance(event, NodeEnded))
     assert isinstance(told[-1], TaskEnded)
     assert there.world.snapshot().value(ARM[scene], DEVICE_STATE) == "Fault"

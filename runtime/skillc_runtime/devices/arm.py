@@ -175,7 +175,10 @@ class Arm(Protocol):
 
     @property
     def mean_wrench(self) -> Array | None:
-        """The mean wrench (6,) N and N m of the last second or so, by which `tare` tares; None if it is not known."""
+        """The mean wrench (6,) in N and N m of the last second or so, along the axes of the sensor; None if not known.
+
+        `tare` lets it be 0.
+        """
         return None
 
     def tare(self) -> None:
