@@ -9,10 +9,12 @@ from skillc_runtime.execution.assignment import AchieveGoal, Assignment, Prepare
 from skillc_runtime.execution.conclusion import continue_plan
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.space_claim import ChosenPosture, SpaceClaim
-from skillc_runtime.world.state.labelled import LabelledPose
+from skillc_runtime.world.state.labelled import LabelledIri, LabelledPose
 from skillc_runtime.world.state.model import WorldModel
 
-POSTURE = ChosenPosture(1, iri("carl"), (0.1, 0.2), LabelledPose((0.4, 0.0, 0.8), (0.0, 1.0, 0.0, 0.0)))
+POSTURE = ChosenPosture(
+    1, LabelledIri(iri("carl"), "carl"), (0.1, 0.2), LabelledPose((0.4, 0.0, 0.8), (0.0, 1.0, 0.0, 0.0))
+)
 
 
 def test_the_rest_of_a_plan_has_its_postures() -> None:

@@ -8,6 +8,7 @@ from contextlib import suppress
 from functools import cache
 from importlib import import_module
 from pkgutil import walk_packages
+from typing import ClassVar
 
 import numpy as np
 
@@ -175,6 +176,9 @@ class Breaking(Primitive):
     or, where its name has an odd number of letters, with `sys.exit`.
     """
 
+    has_begun: ClassVar[bool] = False
+    """Whether one that is to break has started: ticks count from then on."""
+
     def __init__(self, cell: Cell, *, name: str) -> None:
         super().__init__(cell)
         scene, kind, *phase = name.split()
@@ -186,6 +190,7 @@ class Breaking(Primitive):
         self._error = (RuntimeError, SystemExit)[len(kind) % 2]
 
     def start(self) -> None:
+        Breaking.has_begun = Breaking.has_begun or bool(self._phase)
         with suppress(SkillFailure):
             begin(self._inner)
         self._break("start")
@@ -224,9 +229,10 @@ def run(cell: SimulatedCell, scene: str, kind: str, phase: str) -> tuple[list[Ev
 
     def interrupted() -> bool:
         nonlocal ticks
-        ticks += 1
+        ticks += Breaking.has_begun
         return phase in ("halt", "release") and ticks > TICKS
 
+    Breaking.has_begun = False
     execution = execute_task(
         prepared(cell, scene, f"{scene} {kind} {phase}"), LIBRARY, cell, (told.append,), interrupted=interrupted
     )

@@ -14,8 +14,10 @@ from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.noise import Noise
+from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.known_facts import KnownFact, format_evidence, format_unverified
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
@@ -50,13 +52,19 @@ def force_of(execution: Execution[SimulatedCell]) -> KnownFact:
     return found
 
 
-def bias(noise: Noise) -> None:
-    """In place of the noise of a wrist let there be a constant error of the force along the axis of the sensor."""
+def bias(noise: Noise, arm: CompliantArmDriver) -> None:
+    """Let a wrist have, in place of noise, a constant error of the force along its axis once the arm has yielded."""
+    error = np.array([0.0, 0.0, BIAS_N, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    release = arm.compliance.release
 
     def draw() -> None:
-        noise.rows[:], noise.used[0] = np.array([0.0, 0.0, BIAS_N, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]), 0.0
+        noise.rows[:], noise.used[0] = error * arm.compliance.released, 0.0
 
-    noise.draw = draw  # type: ignore[method-assign]
+    def yield_with_error(along: Array, stiffness: float = 0.0) -> None:
+        release(along, stiffness)
+        draw()
+
+    noise.draw, arm.compliance.release = draw, yield_with_error  # type: ignore[method-assign]
 
 
 @pytest.mark.parametrize(("task", "wanted"), [("clean_whiteboard", "8 N"), ("clean_desk", "10 N")])
@@ -71,11 +79,11 @@ def test_a_force_that_is_measured_in_its_band_is_verified(task: str, wanted: str
     assert cell.world.snapshot().value(surface.individual, CONTACT_SHARE) == pytest.approx(1.0, abs=0.02)
 
 
-def test_a_wrist_that_reads_a_newton_too_much_verifies_nothing() -> None:
+def test_a_wrist_that_reads_a_newton_too_much_after_it_was_tared_verifies_nothing() -> None:
     prepared, cell = start("clean_whiteboard")
-    (arm,) = cell.arms.values()
+    ((individual, arm),) = cell.arms.items()
     assert arm._wrist is not None
-    bias(arm._wrist._noise)
+    bias(arm._wrist._noise, cell.arm(individual))
     ended = execute_task(prepared, library(), cell)
     assert ended.status == "succeeded" and ended.verified is False
     assert format_unverified(force_of(ended)) == (

@@ -81,7 +81,20 @@ def plan_as_json(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None = 
 def describe_answer(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None) -> dict[str, object]:
     """Return status, steps with source lines, optimality, planner and space, or the reason, as plain data."""
     described = _describe(answer, loaded)
-    return described if space is None else {**described, "space": msgspec.to_builtins(space)}
+    return described if space is None else {**described, "space": _name(msgspec.to_builtins(space))}
+
+
+def _name(described: object) -> object:
+    """Return plain data with the names of individuals that people type, in place of their IRIs with labels."""
+    match described:
+        case {"iri": str(), "label": str(label)}:
+            return label
+        case dict():
+            return {name: _name(each) for name, each in described.items()}
+        case list() | tuple():
+            return [_name(each) for each in described]
+        case _:
+            return described
 
 
 def _describe(answer: Answer, loaded: LoadedTask) -> dict[str, object]:

@@ -46,5 +46,5 @@ def plan_goal_in_space(
     answer, found = plan_in_space(loaded.library, loaded.assignment.state, plan, cancel)
     if found is None or isinstance(answer, Unsolvable | GaveUp):
         return answer, None
-    claim = make_claim(found, len(answer.plan.steps))
+    claim = make_claim(found, len(answer.plan.steps), loaded.library.vocabulary)
     return keep_apart(answer, claim.apart_pairs, loaded.library, loaded.assignment.state), claim

@@ -21,6 +21,7 @@ from skillc_runtime.primitives.time_limits import approach_limit_s
 from skillc_runtime.world.state.labelled import Quantity
 
 if TYPE_CHECKING:
+    from skillc_runtime.devices.arm_driver import ArmDriver
     from skillc_runtime.devices.cell import Cell
     from skillc_runtime.world.state.values import Value
     from skillc_runtime.world.state.world_state import WorldState
@@ -39,6 +40,14 @@ FLUSH_RAD, FLUSH_S = 0.0008, 2.0
 
 MIN_ALIGN_S = 2.5
 """Before this time, a tool that hardly turns may only be starting to turn."""
+
+
+def yield_along(arm: ArmDriver, along: Array, stiffness: float) -> None:
+    """Let an arm yield along a direction (3,) in the world with a stiffness in N/m; SkillFailure if it cannot."""
+    try:
+        arm.compliance.release(along, stiffness)
+    except ValueError as refusal:
+        raise SkillFailure(str(refusal)) from refusal
 
 
 class ReleaseAxis(Primitive):
@@ -70,13 +79,9 @@ class ReleaseAxis(Primitive):
             self.arm.compliance.restore()
 
     def _try_to_release(self) -> None:
-        if not self.arm.compliance.tare():
-            return
-        try:
-            self.arm.compliance.release(self._along, self._stiffness)
-        except ValueError as refusal:
-            raise SkillFailure(str(refusal)) from refusal
-        self._released = True
+        if self.arm.compliance.tare():
+            yield_along(self.arm, self._along, self._stiffness)
+            self._released = True
 
     def pause(self) -> None:
         """Hold the tool along the axis, unless it presses on something."""

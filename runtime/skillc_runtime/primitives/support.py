@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from skillc_runtime.primitives.compliance import Push, ReleaseAxis
+from skillc_runtime.primitives.arm_motion import raise_fault
+from skillc_runtime.primitives.compliance import Push, yield_along
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.world.state.labelled import Quantity
 from skillc_runtime.world.state.labelling import label
@@ -27,6 +28,8 @@ SINKING_M_S: Final = 0.005
 
 RISE_M: Final = 0.005
 """How far a thing rises at most while it is lowered, unless it is lighter than the arm believes."""
+
+UP: Final = np.array([0.0, 0.0, 1.0])
 
 
 class PressOnSupport(Push):
@@ -68,19 +71,21 @@ class PressOnSupport(Push):
 
 
 class SupportCheck:
-    """Feels whether something carries a held `object` at `to`: the arm yields, lowers it gently and presses on it."""
+    """Feels whether something carries a held `object` at `to`: the arm yields, lowers it gently and presses on it.
+
+    Its sensor is not tared before: what carries the object may touch it already.
+    """
 
     def __init__(self, cell: Cell, arm: str, object: str, to: str) -> None:
-        up = np.array([0.0, 0.0, 1.0])
-        self._yielding = ReleaseAxis(cell, arm=arm, along=up, stiffness=0.0)
-        self._press = PressOnSupport(cell, arm=arm, along=up, object=object, to=to, force=SUPPORT_N, travel=SUPPORT_M)
+        self._press = PressOnSupport(cell, arm=arm, along=UP, object=object, to=to, force=SUPPORT_N, travel=SUPPORT_M)
         self._cell, self._arm, self._object = cell, cell.arm(arm), object
         self._runs, self._height_m = False, 0.0
 
     def start(self) -> None:
         """Begin to lower it; SkillFailure, and nothing moves, if the arm cannot yield upwards."""
         self._height_m = self._lifted_m
-        self._yielding.start()
+        raise_fault(self._arm)
+        yield_along(self._arm, UP, 0.0)
         self._runs = True
         self._press.start()
 
@@ -107,4 +112,4 @@ class SupportCheck:
         if self._runs:
             self._runs = False
             self._press.release()
-            self._yielding.release()
+            self._arm.compliance.restore()

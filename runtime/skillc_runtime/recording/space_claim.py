@@ -17,10 +17,10 @@ class UnseenCall(msgspec.Struct, frozen=True):
 
 
 class ChosenPosture(msgspec.Struct, frozen=True):
-    """The joints `q` (nv,) in rad with which an arm, by IRI, brings its tool to a pose, in a step of a plan, from 1."""
+    """The joints `q` (nv,) in rad with which an arm brings its tool to a pose, in a step of a plan, from 1."""
 
     step: int
-    arm: str
+    arm: LabelledIri
     q: tuple[float, ...]
     tool: LabelledPose
 

@@ -1603,11 +1603,11 @@ export interface components {
         };
         /**
          * ChosenPosture
-         * @description The joints `q` (nv,) in rad with which an arm, by IRI, brings its tool to a pose, in a step of a plan, from 1.
+         * @description The joints `q` (nv,) in rad with which an arm brings its tool to a pose, in a step of a plan, from 1.
          */
         ChosenPosture: {
             step: number;
-            arm: string;
+            arm: components["schemas"]["LabelledIri"];
             q: number[];
             tool: components["schemas"]["LabelledPose"];
         };

@@ -40,7 +40,7 @@ def restore_steps(recorded: Sequence[PlanStep]) -> tuple[Step, ...]:
 def restore_postures(space: SpaceClaim) -> tuple[PlannedPosture, ...]:
     """Return the postures that arms are to take, from what is known of a plan in space."""
     return tuple(
-        PlannedPosture(each.arm, Pose.of(each.tool.position_m, each.tool.quaternion_wxyz), np.array(each.q))
+        PlannedPosture(each.arm.iri, Pose.of(each.tool.position_m, each.tool.quaternion_wxyz), np.array(each.q))
         for each in space.postures
     )
 

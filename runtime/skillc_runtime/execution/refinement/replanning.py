@@ -81,7 +81,7 @@ def judge(
     library: SkillLibrary, begin: WorldState, found: PlanRefinement, steps: Sequence[Step], from_home: bool = True
 ) -> PlanLook:
     """Return what a refinement of steps from a version of the world on says, and what is in the way where it ends."""
-    claim = make_claim(found, len(steps), from_home)
+    claim = make_claim(found, len(steps), begin.vocabulary, from_home)
     if found.failed is None or found.before is None:
         return PlanLook(claim=claim)
     excluded = [find_excluded(library, begin, found.before, found.failed, claim.failure or "")]

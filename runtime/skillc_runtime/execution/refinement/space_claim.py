@@ -6,16 +6,17 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from skillc_runtime.recording.space_claim import ChosenPosture, SpaceClaim, StandAt, UnseenCall
-from skillc_runtime.world.state.labelling import label_pose
+from skillc_runtime.world.state.labelling import label, label_pose
 
 if TYPE_CHECKING:
+    from skillc_rdf.vocabulary.types import Vocabulary
     from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement
     from skillc_runtime.execution.refinement.situation import ChosenStand, RefinedMotion, Situation
     from skillc_runtime.execution.refinement.walk import Walk
 
 
-def make_claim(found: PlanRefinement, steps: int, from_home: bool = True) -> SpaceClaim:
-    """Return what a refinement of so many steps says; `from_home` if the arms begin at home."""
+def make_claim(found: PlanRefinement, steps: int, words: Vocabulary, from_home: bool = True) -> SpaceClaim:
+    """Return what a refinement of so many steps says, in these words; `from_home` if the arms begin at home."""
     failure = None
     if found.failed is not None:
         failure = "no way was found" if found.failure is None else found.failure.message
@@ -24,7 +25,7 @@ def make_claim(found: PlanRefinement, steps: int, from_home: bool = True) -> Spa
         steps=steps,
         unseen=tuple(UnseenCall(number, call) for number, each in enumerate(found.steps, 1) for call in each.unseen),
         postures=tuple(
-            each for number, step in enumerate(found.steps, 1) for each in _postures_of(number, step.motions)
+            each for number, step in enumerate(found.steps, 1) for each in _postures_of(number, step.motions, words)
         ),
         apart=found.apart,
         stands=tuple(each for number, step in enumerate(found.steps, 1) for each in _stands_of(number, step.stands)),
@@ -40,18 +41,18 @@ def claim_of_body(found: Situation | None, walk: Walk, from_home: bool) -> Space
         checked=0 if found is None else 1,
         steps=1,
         unseen=tuple(UnseenCall(1, call) for call in walk.unseen),
-        postures=() if found is None else tuple(_postures_of(1, found.motions)),
+        postures=() if found is None else tuple(_postures_of(1, found.motions, found.state.vocabulary)),
         stands=() if found is None else tuple(_stands_of(1, found.stands)),
         failure=failure,
         from_home=from_home,
     )
 
 
-def _postures_of(step: int, motions: Iterable[RefinedMotion]) -> Iterator[ChosenPosture]:
+def _postures_of(step: int, motions: Iterable[RefinedMotion], words: Vocabulary) -> Iterator[ChosenPosture]:
     """Yield the postures that were found for poses of tools, in a step of a number."""
     for each in motions:
         if each.tool is not None:
-            yield ChosenPosture(step, each.arm, tuple(each.postures[-1].tolist()), label_pose(each.tool))
+            yield ChosenPosture(step, label(each.arm, words), tuple(each.postures[-1].tolist()), label_pose(each.tool))
 
 
 def _stands_of(step: int, stands: Iterable[ChosenStand]) -> Iterator[StandAt]:
