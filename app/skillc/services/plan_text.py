@@ -74,14 +74,16 @@ def _left_out(answer: Solved | Scheduled, loaded: LoadedTask) -> Iterator[str]:
 
 
 def plan_as_json(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None = None) -> str:
-    """Return one JSON object: status, steps with source lines, optimality, planner, space, or the reason."""
-    return json.dumps(describe_answer(answer, loaded, space), indent=2)
+    """Return one JSON object, in names that people type: status, steps with source lines, optimality, planner, space, or
+    the reason.
+    """
+    return json.dumps(_name(describe_answer(answer, loaded, space)), indent=2)
 
 
 def describe_answer(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None) -> dict[str, object]:
     """Return status, steps with source lines, optimality, planner and space, or the reason, as plain data."""
     described = _describe(answer, loaded)
-    return described if space is None else {**described, "space": _name(msgspec.to_builtins(space))}
+    return described if space is None else {**described, "space": msgspec.to_builtins(space)}
 
 
 def _name(described: object) -> object:
