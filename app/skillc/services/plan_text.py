@@ -74,9 +74,7 @@ def _left_out(answer: Solved | Scheduled, loaded: LoadedTask) -> Iterator[str]:
 
 
 def plan_as_json(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None = None) -> str:
-    """Return one JSON object, in names that people type: status, steps with source lines, optimality, planner, space, or
-    the reason.
-    """
+    """Return `describe_answer` as one JSON object, with the names that people type in place of IRIs."""
     return json.dumps(_name(describe_answer(answer, loaded, space)), indent=2)
 
 
