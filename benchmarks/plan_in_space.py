@@ -1,7 +1,7 @@
 """Planning with looks in space: growth with parts and with failures, and a template cell that is checked.
 
 A part lies under others, and many more stand around. Beside it the baseline, sequential refinement without feedback:
-one plan, whose steps are refined one after another, and what does not go is told to nobody.
+one plan, whose steps are refined one after another; what does not go is not given back to the planner.
 """
 
 from __future__ import annotations

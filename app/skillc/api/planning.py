@@ -39,7 +39,7 @@ Minimise = Literal["work", "makespan"]
 PLAN_COLUMNS = ("step", "skill", "arguments", "start_s", "duration_s")
 
 
-class PlanSettings(TypedDict, total=False):
+class PlanKeywords(TypedDict, total=False):
     """How is planned, as `plan` says."""
 
     minimise: Minimise
@@ -131,7 +131,7 @@ def plan(
     goal: str | None = None,
     scene: AnyPath | None = None,
     library: AnyPath | None = None,
-    **settings: Unpack[PlanSettings],
+    **settings: Unpack[PlanKeywords],
 ) -> Plan:
     """Plan for a task, or for a goal in a scene, without running it.
 

@@ -13,7 +13,7 @@ from msgspec import structs
 
 from skillc.api.boundary import NoticeList, api_call, refusing_values
 from skillc.api.picture import Picture
-from skillc.api.planning import Plan, PlanSettings, make_plan
+from skillc.api.planning import Plan, PlanKeywords, make_plan
 from skillc.api.table import QueryResult
 from skillc.errors import RequestError
 from skillc.services import scenes
@@ -178,7 +178,7 @@ class Scene:
             box = scenes.picture_scene(self._opened.at_present())
         return Picture(self.name, svg.draw_document(box), mermaid.draw(box))
 
-    def plan(self, goal: str, **settings: Unpack[PlanSettings]) -> Plan:
+    def plan(self, goal: str, **settings: Unpack[PlanKeywords]) -> Plan:
         """Plan for a goal in the world as it is now; parameters and errors as of `skillc.plan`."""
         with api_call(self._folders):
             return make_plan(self._load(require_text(goal, "the goal"), None), **settings)

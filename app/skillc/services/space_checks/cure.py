@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from itertools import product
 
 from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
@@ -40,13 +41,11 @@ def _find_place(state: WorldState, things: Iterable[str], goes: Callable[[WorldS
     if thing is None:
         return ""
     short, before_m = state.vocabulary.short(thing), _overlap_m(state, thing)
-    for distance_m in DISTANCES_M:
-        for name, stated_m in _numbers(state, thing):
-            for way_m in (distance_m, -distance_m):
-                to_m = round(stated_m + way_m, 4)
-                there = _moved(state, thing, name, to_m)
-                if there is not None and _overlap_m(there, thing) <= before_m and _goes_about(there, thing, goes):
-                    return f"with {short} moved by {distance_m:g} m, to {local_name(name)} {to_m:g}, all steps go"
+    for distance_m, (name, stated_m), sign in product(DISTANCES_M, tuple(_numbers(state, thing)), (1.0, -1.0)):
+        to_m = round(stated_m + sign * distance_m, 4)
+        there = _moved(state, thing, name, to_m)
+        if there is not None and _overlap_m(there, thing) <= before_m and _goes_about(there, thing, goes):
+            return f"with {short} moved by {distance_m:g} m, to {local_name(name)} {to_m:g}, all steps go"
     return ""
 
 

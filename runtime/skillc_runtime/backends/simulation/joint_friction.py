@@ -39,8 +39,8 @@ DAMPING_S: Final = 0.001
 class Friction:
     """The friction of an arm's joints, (nv,) in N m, rad and rad/s.
 
-    applied: to which it is added if motors write it anew in each step, `added`, 1, else it is all of it, 0. slow: of a
-    joint that moves slowly; bent: how far bristles are bent.
+    applied: the torques that it becomes a part of. added: 1 if motors write these anew in each step, so that friction
+    is added to them; 0 if there are no others. slow: friction of a joint that moves slowly; bent: of the bristles.
     """
 
     applied: OutVector
