@@ -143,3 +143,21 @@ def test_what_robots_can_do_is_found_by_a_word(page: Page, scheme: str) -> None:
     page.get_by_label("Search in the skills").fill("")
     expect(row).to_be_visible()
     check_axe(page, f"world-skills-{scheme}")
+
+
+def test_a_new_fact_does_not_move_under_a_click_when_what_can_be_stated_is_known(page: Page) -> None:
+    late: list[Route] = []
+    page.route("**/world/terms*", lambda route: late.append(route))
+    show(page, "facts")
+    page.get_by_label("Search in the facts").fill("contain lab:crate-4")
+    page.locator(".world tbody button.link", has_text="crate-4").first.click()
+    page.get_by_role("button", name="Add", exact=True).click()
+    terms = page.get_by_label("What is stated")
+    expect(terms).to_be_disabled()
+    several = page.get_by_role("button", name="Several facts")
+    before = several.bounding_box()
+    while not late:
+        page.wait_for_timeout(10)
+    late[0].continue_()
+    expect(terms).to_be_enabled()
+    assert several.bounding_box() == before

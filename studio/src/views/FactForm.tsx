@@ -215,20 +215,21 @@ export function NewFactForm({ subject: begun }: { subject: string }) {
         }}
         words={names}
       />
-      {isThing && known === null && <Reading />}
-      {known !== null && (
+      {isThing && (
+        // It stands here before it can be used, so that what is below does not move under a click.
         <label>
           <span class="visually-hidden">What is stated</span>
           <select
             class="mono fact-term"
             value={name}
+            disabled={known === null}
             onChange={(event) => {
               setName(event.currentTarget.value);
               setValue("");
             }}
           >
-            <option value="">what is stated of it</option>
-            {known.terms.map((each) => (
+            <option value="">{known === null ? "what can be stated is read" : "what is stated of it"}</option>
+            {(known?.terms ?? []).map((each) => (
               <option key={each.iri} value={each.iri}>
                 {`${each.name}: ${each.type}`}
               </option>
