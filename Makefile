@@ -62,9 +62,13 @@ slow: .venv/.dev .venv/.studio ## run the tests that take more than a second, an
 sim: .venv/.dev  ## run whole tasks in simulation; those that take minutes are in make soak
 	$(BIN)/pytest -m "sim and not (long or $(ELSEWHERE))" $(FOUR)
 
+# Tests of other processes, of real time and of a browser wait for a limited time, and a busy machine stands still for
+# longer at times: what fails is run once more, by itself.
+TWICE = sh -c '"$$@" || { echo "what failed is run once more"; "$$@" --last-failed; }' twice
+
 # Takes less time than one after the other: tests are collected once, and nothing waits for the last ones of one kind.
 longer: .venv/.dev .venv/.studio ## run what make slow and make sim run, at once
-	$(BIN)/pytest -m "(slow or sim) and not (sim and long or $(ELSEWHERE))" $(FOUR)
+	$(TWICE) $(BIN)/pytest -o cache_dir=.pytest_cache/longer -m "(slow or sim) and not (sim and long or $(ELSEWHERE))" $(FOUR)
 
 check: .venv/.dev ## check style, types and import rules
 	$(BIN)/ruff check .
@@ -78,20 +82,19 @@ check: .venv/.dev ## check style, types and import rules
 reasoners: .venv/.dev ## check ontology, scenes, descriptions and domains with tools of other projects (some need Java)
 	$(BIN)/pytest -m reasoner -n 2
 
-# A machine that stands still for a second ends what has to keep time, so what fails is run once more, by itself.
 ARMS = -m "robot and not long" -o cache_dir=.pytest_cache/arms --ignore tests/robots/ros2
 NODES = -m "robot and not long" -o cache_dir=.pytest_cache/nodes tests/robots/ros2
 robots: arms nodes ## drive robots over the protocols of their makers, against emulators in other processes; none of them is real
 
 arms: .venv/.robots
-	$(BIN)/pytest $(ARMS) -n 2 --dist loadfile || $(BIN)/pytest $(ARMS) --last-failed
+	$(TWICE) $(BIN)/pytest $(ARMS) -n 2 --dist loadfile
 
 nodes: .tools/ros2/.made
-	.tools/ros2/bin/python -m pytest $(NODES) || .tools/ros2/bin/python -m pytest $(NODES) --last-failed
+	$(TWICE) .tools/ros2/bin/python -m pytest $(NODES)
 
 # A browser waits for a server, and both for each other, most of the time.
 browser: .venv/.dev .venv/.studio ## drive the studio in Chromium; pictures of all tests are kept in out/studio
-	$(BIN)/pytest -m browser tests/studio -n 3 --dist loadscope --no-loadscope-reorder
+	$(TWICE) $(BIN)/pytest -o cache_dir=.pytest_cache/browser -m browser tests/studio -n 3 --dist loadscope --no-loadscope-reorder
 
 wheel: .venv/.dev ## build the wheel and use it in a clean environment
 	$(BIN)/pytest -m wheel tests/distribution -n 2 --dist loadfile
