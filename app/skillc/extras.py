@@ -23,6 +23,7 @@ MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "ur": ("rtde_control", "rtde_receive", "rtde_io"),
         "franka": ("pylibfranka",),
         "cluster": ("distributed",),
+        "ontologies": ("pyhornedowl",),
     }
 )
 """The modules of each extra; the first ones are those without which it is of no use."""

@@ -15,7 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).parent
 SHEET_FOLDERS = ("robots", "grippers", "tools", "fixtures", "cameras")
 VOCABULARY_FOLDERS = ("vocabulary", *SHEET_FOLDERS)
-ENDINGS = (".ttl", ".owl", ".rdf", ".xml", ".nt", ".nq", ".trig", ".jsonld")
+ENDINGS = (".ttl", ".owl", ".rdf", ".xml", ".nt", ".nq", ".trig", ".jsonld", ".ofn", ".omn", ".owx")
 """The suffixes of files that may be vocabularies."""
 VARIABLE = "SKILLC_ONTOLOGY"
 """The environment variable that lists the user's folders, separated as in PATH."""

@@ -77,8 +77,6 @@ def test_a_problem_in_json_is_where_an_object_is_not_where_a_reference_is(tmp_pa
 
 
 UNREADABLE = {
-    "OWL/XML": ('<?xml version="1.0"?>\n<Ontology xmlns="http://www.w3.org/2002/07/owl#"/>', "this file is OWL/XML"),
-    "functional syntax": ("Prefix(:=<http://e/>)\nOntology(<http://e/>)", "OWL's functional syntax"),
     "HTML": ("<!DOCTYPE html><html></html>", "this file is HTML"),
     "entities that expand": (
         '<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa">'

@@ -83,8 +83,8 @@ def test_places_are_known_in_xml() -> None:
 @pytest.mark.parametrize(
     ("text", "name", "line"),
     [
-        ('<?xml version="1.0"?>\n<Ontology xmlns="http://www.w3.org/2002/07/owl#"/>', "unreadable-vocabulary", 1),
-        ("Prefix: t: <http://t/>\nOntology: <http://t>", "unreadable-vocabulary", 1),
+        ('<?xml version="1.0"?>\n<Ontology xmlns="http://www.w3.org/2002/07/owl#">', "unreadable-vocabulary", 2),
+        ("Prefix: t: <http://t/>\nOntology: <http://t>\nKlass: t:A", "unreadable-vocabulary", 3),
         ("<html><body>404</body></html>", "unreadable-vocabulary", 1),
         (
             '<?xml version="1.0"?>\n<rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#">\n<a',

@@ -23,9 +23,11 @@ from skillc_ontology import catalogue
 
 SHIPPED = projects.SHIPPED
 _STDIN = Path("stdin.skill")
-_IN_TURTLE = re.compile(r"^(?:<[^>\n]*>|[^#<\n])*?(?:owl:Ontology\b|<[^>\n]*owl#Ontology>)", re.MULTILINE)
+_IN_TURTLE = re.compile(
+    r"^(?:<[^>\n]*>|[^#<\n])*?(?:owl:Ontology\b|<[^>\n]*owl#Ontology>)|^\s*Ontology\s*[:(]\s*<", re.MULTILINE
+)
 _NOT_TURTLE = ("<?xml", "<!", "<rdf:", "{", "[")
-_ELSEWHERE = re.compile(r"(?:owl:|owl#|&owl;)Ontology[\"\s/>]")
+_ELSEWHERE = re.compile(r"(?:owl:|owl#|&owl;)Ontology[\"\s/>]|\bontologyIRI=")
 
 
 class LibraryFiles(NamedTuple):
@@ -171,7 +173,10 @@ def user_vocabularies() -> dict[str, Path]:
 
 
 def is_vocabulary(path: Path) -> bool:
-    """Whether a file is a vocabulary: it declares an owl:Ontology, which scenes do not, and skillc did not write it."""
+    """Whether a file is a vocabulary: it declares an owl:Ontology, which scenes do not, and skillc did not write it.
+
+    In functional and Manchester syntax, and in OWL/XML, a vocabulary is an ontology with a name.
+    """
     if path.suffix not in catalogue.ENDINGS:
         return False
     try:

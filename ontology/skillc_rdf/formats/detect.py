@@ -9,6 +9,7 @@ from typing import NamedTuple, TypeAlias
 import pyoxigraph as ox
 
 from skillc_dsl.source import Source
+from skillc_rdf.formats.owl_syntax import OwlSyntax
 
 
 class UnsupportedFormat(NamedTuple):
@@ -18,23 +19,22 @@ class UnsupportedFormat(NamedTuple):
     help: str
 
 
-Format: TypeAlias = ox.RdfFormat | UnsupportedFormat
+Format: TypeAlias = ox.RdfFormat | OwlSyntax | UnsupportedFormat
 
 CACHED = 64
 """The number of texts whose format is cached."""
-PROTEGE = "save it as Turtle or RDF/XML; Protégé and ROBOT do"
 _BY_ENDING = {".trig": ox.RdfFormat.TRIG, ".nq": ox.RdfFormat.N_QUADS, ".jsonld": ox.RdfFormat.JSON_LD}
 _COMMENTS = r"(?:\s|#[^\n]*\n)*+"
 _PROLOGUE = r"(?>\s+|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^\[>]*(?:\[.*?\]\s*)?>)*+"
 """What may stand before the first element; no part is read in two ways, so that the time is linear."""
 _FORMATS: tuple[tuple[re.Pattern[str], Format], ...] = (
-    (re.compile(rf"{_PROLOGUE}<Ontology\b", re.DOTALL), UnsupportedFormat("OWL/XML", PROTEGE)),
+    (re.compile(rf"{_PROLOGUE}<Ontology\b", re.DOTALL), OwlSyntax("OWL/XML", "owx")),
     (
         re.compile(rf"{_PROLOGUE}<(?:html|head|body)\b|\s*<!DOCTYPE\s+html\b", re.DOTALL | re.I),
         UnsupportedFormat("HTML", "download the file itself"),
     ),
-    (re.compile(rf"{_COMMENTS}(?:Prefix|Ontology)\s*\("), UnsupportedFormat("OWL's functional syntax", PROTEGE)),
-    (re.compile(rf"{_COMMENTS}(?:Prefix|Ontology):\s"), UnsupportedFormat("Manchester syntax", PROTEGE)),
+    (re.compile(rf"{_COMMENTS}(?:Prefix|Ontology)\s*\("), OwlSyntax("OWL's functional syntax", "ofn")),
+    (re.compile(rf"{_COMMENTS}(?:Prefix|Ontology):\s"), OwlSyntax("Manchester syntax", "omn")),
     (re.compile(r"\s*(?:<\?xml|<!DOCTYPE|<!ENTITY|<!--|<rdf:RDF|<[\w-]+:[\w-]+\s[^>]*xmlns)"), ox.RdfFormat.RDF_XML),
     (re.compile(r'\s*(?:\{\s*["}]|\[\s*[{\]])'), ox.RdfFormat.JSON_LD),
 )

@@ -13,10 +13,16 @@ import pyoxigraph as ox
 from skillc_dsl.source import Source, Span
 from skillc_rdf.formats import json_ld
 from skillc_rdf.formats.detect import detect_format
+from skillc_rdf.formats.owl_syntax import OwlSyntax
 from skillc_rdf.turtle.lines import Lines
 from skillc_rdf.turtle.terms import RDF
 
 _TERM = re.compile(r"<(?P<iri>[^<>\s]*)>|(?<![\w.-])(?P<name>[\w.-]*:[\w:.%-]*)")
+_OWL_TERM = re.compile(
+    rf"{_TERM.pattern}|\bIRI=\"(?P<relative>[^\"]*)\"|^\s*(?:Class|Individual|Datatype|\w+Property):\s+(?P<own>[\w.-]+)\s*$",
+    re.MULTILINE,
+)
+"""What names something in the syntaxes of OWL; frames of Manchester syntax leave the empty prefix out."""
 _XML_BASE = "http://www.w3.org/XML/1998/namespace base"
 
 
@@ -46,6 +52,10 @@ class SubjectFinder:
             case ox.RdfFormat.JSON_LD:
                 for name, place in json_ld.find_names(text).items():
                     yield self._expanded(name), lines.place(*place)
+            case OwlSyntax():
+                for term in _OWL_TERM.finditer(text):
+                    named = term["relative"] or term["iri"] or self._expanded(term["name"] or f":{term['own']}")
+                    yield urljoin(self._base, named), lines.place(*term.span(term.lastgroup or 0))
             case _:
                 for term in _TERM.finditer(text):
                     iri = term["iri"] if term["name"] is None else self._expanded(term["name"].rstrip("."))

@@ -17,7 +17,12 @@ from skillc_rdf.vocabulary.iris import BUILT_IN, KINDS, OWL, TYPE, VANN
 from skillc_rdf.vocabulary.reading import Ontology
 
 _NAME = re.compile(r"[A-Za-z]\w*")
-_DECLARED = re.compile(r"(?:@?prefix\s+([\w.-]+):\s*<([^>\s]+)>|xmlns:([\w.-]+)\s*=\s*[\"']([^\"'\s]+)[\"'])", re.I)
+_DECLARED = re.compile(
+    r"@?prefix\b(?::\s*|\s*\(\s*|\s+)(?P<name>[\w.-]+)\s*:\s*=?\s*<(?P<iri>[^>\s]+)>"
+    r"|(?:xmlns:|<prefix\s+name=[\"'])(?P<xml_name>[\w.-]+)(?:[\"']\s+IRI)?\s*=\s*[\"'](?P<xml_iri>[^\"'\s]+)[\"']",
+    re.I,
+)
+"""Declarations of Turtle, of the functional and Manchester syntaxes of OWL, of XML, and of OWL/XML."""
 
 
 def preferred_prefixes(graph: Graph) -> dict[str, str]:
@@ -70,7 +75,7 @@ def _candidates(source: Source, base: str) -> Iterator[str]:
     """Yield names for a namespace, the best first, in an infinite sequence."""
     if detect_format(source) != ox.RdfFormat.JSON_LD:
         for match in _DECLARED.finditer(source.text):
-            name, iri = match[1] or match[3], match[2] or match[4]
+            name, iri = match["name"] or match["xml_name"], match["iri"] or match["xml_iri"]
             if iri == base and _NAME.fullmatch(name):
                 yield name
     stem = re.sub(r"\W", "_", PurePath(source.path).stem)

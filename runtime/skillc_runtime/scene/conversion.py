@@ -34,8 +34,9 @@ def convert(source: Source, content: Content) -> tuple[str, Origin]:
     triples = _with_numbered_nodes(content.triples)
     body = ox.serialize(triples, format=ox.RdfFormat.N_TRIPLES)
     assert body is not None
-    subjects = (each.subject.value if isinstance(each.subject, ox.NamedNode) else "" for each in triples)
-    return "".join(head) + body.decode(), Origin(source, tuple(named.items()), (*("" for _ in head), *subjects))
+    named_subjects = (each.subject.value if isinstance(each.subject, ox.NamedNode) else "" for each in triples)
+    subjects = (*("" for _ in head), *named_subjects)
+    return "".join(head) + body.decode(), Origin(source, tuple(content.prefixes.items()), subjects)
 
 
 class SubjectLines(Lines):
