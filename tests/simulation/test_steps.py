@@ -121,3 +121,13 @@ def test_mujoco_counts_where_machine_code_reads_it() -> None:
     data.qpos[0] = np.nan
     mujoco.mj_step(model, data)
     assert data.warning.number.any() and warnings.any()
+
+
+def test_a_cell_reads_no_clock_in_its_steps_unless_it_is_given_back() -> None:
+    cell = both_ways("iiwa_table")[0]
+    cell.advance(0.01)
+    assert cell.data.timer.number.any()
+    assert not cell.data.timer.duration.any()
+    mujoco.set_mjcb_time(None)
+    cell.advance(0.01)
+    assert cell.data.timer.duration.any()

@@ -22,7 +22,7 @@ from skillc_runtime.backends.mujoco.mirror import Half, Mirror, Pull
 from skillc_runtime.backends.mujoco.model_map import map_models
 from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.backends.simulation.hold import read_hold
-from skillc_runtime.backends.simulation.machine_code import address_of, has_room, row_calling
+from skillc_runtime.backends.simulation.machine_code import address_of, has_room, row_calling, stop_timers
 from skillc_runtime.backends.simulation.model_builder import build_model
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
@@ -61,6 +61,7 @@ class Physics:
     _far_of_cell: FarBodies | None = field(init=False)
 
     def __post_init__(self) -> None:
+        stop_timers()
         self.far = self._far_of_cell = make_far_bodies(self.model, self.data)
         self.monitor, self.mass = DivergenceMonitor(self.model, self.data), WholeMass(self.model, self.data)
         # Of two hands each may grasp or release while the other one holds something; without compiled functions,

@@ -25,10 +25,27 @@ LIBRARIES = (f"libmujoco.so.{mujoco.__version__}", f"libmujoco.{mujoco.__version
 
 
 @cache
+def _find_library() -> CDLL | None:
+    found = [path for name in LIBRARIES if (path := Path(mujoco.__file__).parent / name).is_file()]
+    return CDLL(str(found[0])) if found else None
+
+
+@cache
 def address_of(function: str) -> int:
     """Return the address of a C function in the library that the Python package has loaded; 0 if it is not found."""
-    found = [path for name in LIBRARIES if (path := Path(mujoco.__file__).parent / name).is_file()]
-    return cast(getattr(CDLL(str(found[0])), function), c_void_p).value or 0 if found else 0
+    library = _find_library()
+    return cast(getattr(library, function), c_void_p).value or 0 if library is not None else 0
+
+
+def stop_timers() -> None:
+    """Let MuJoCo not measure how long the parts of its steps take; `MjData.timer` then has their numbers alone.
+
+    The Python package gives MuJoCo a clock, which is read twice for each part: a sixth of a minimal step.
+    `mujoco.set_mjcb_time(None)` gives it back.
+    """
+    library = _find_library()
+    if library is not None:
+        c_void_p.in_dll(library, "mjcb_time").value = None
 
 
 def row_calling(function: str, model: Any, data: Any) -> Rows | None:
