@@ -102,7 +102,10 @@ def test_a_wrist_has_bias_and_drift() -> None:
 
 def test_drift_goes_on_from_block_to_block() -> None:
     noise = Noise(np.zeros(2), np.random.default_rng(0), np.array([1.0, 0.0]), np.array([0.0, 0.5]))
-    samples = [noise.distort(np.zeros(2)) for _ in range(2 * BLOCK)]
+    samples = []
+    for _ in range(2):
+        noise.draw()
+        samples += noise.rows.tolist()
     np.testing.assert_allclose(samples, [(1.0, 0.5 * number) for number in range(2 * BLOCK)])
 
 

@@ -10,7 +10,7 @@ import pytest
 from cells import ARM, GRIPPER, world
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.machine_code import find_counts, find_warnings
+from skillc_runtime.backends.simulation.machine_code import find_counts, find_geoms, find_warnings
 from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.devices.disturbances import Push
 from skillc_runtime.motion.numerics.compiled import COMPILES
@@ -131,3 +131,20 @@ def test_a_cell_reads_no_clock_in_its_steps_unless_it_is_given_back() -> None:
     mujoco.set_mjcb_time(None)
     cell.advance(0.01)
     assert cell.data.timer.duration.any()
+
+
+def test_machine_code_reads_which_geoms_are_in_contact() -> None:
+    falling = "".join(f'<body pos="0 {y} 1"><freejoint/><geom size=".1"/></body>' for y in range(3))
+    model = mujoco.MjModel.from_xml_string(
+        f'<mujoco><worldbody><geom type="plane" size="9 9 1"/>{falling}</worldbody></mujoco>'
+    )
+    data = mujoco.MjData(model)
+    seen = set[tuple[int, ...]]()
+    for down in ([0], [1], [0, 1], [2, 1], [0, 2], [0, 1, 2]):
+        data.qpos[2::7] = [0.09 if ball in down else 1.0 for ball in range(3)]
+        mujoco.mj_forward(model, data)
+        assert data.ncon == len(down)
+        found = find_geoms(data)
+        assert found[: len(down), :2].tobytes().count(data.contact.geom[0].tobytes()) == 1
+        seen.add(tuple(found[: len(down), :2].ravel().tolist()))
+    assert len(seen) == 6

@@ -145,9 +145,13 @@ class CellLoop:
     @property
     def is_computing(self) -> bool:
         """Whether time stands still until what skills compute is done."""
-        moving = [run for run in self.runs if run.needs_time]
-        stands = self.backend.capabilities.lock_step is not None
-        return stands and bool(moving) and all(run.computing for run in moving)
+        computing = False
+        for run in self.runs:  # a loop, as in each tick: generators cost more than what they ask
+            if run.computing:
+                computing = True
+            elif run.needs_time:
+                return False
+        return computing and self.backend.capabilities.lock_step is not None
 
     def tick(self) -> bool:
         """Do one tick; return whether anything happened. If not, at most planning goes on, and time stands still.
@@ -162,10 +166,15 @@ class CellLoop:
         for run in self.runs:
             happened |= run.tick(self.ticks)
         self._commit()
-        if any(run.needs_time for run in self.runs):
-            self._advance()
-            happened = True
-        self.runs = [run for run in self.runs if not run.ended]
+        for run in self.runs:
+            if run.needs_time:
+                self._advance()
+                happened = True
+                break
+        for run in self.runs:
+            if run.end is not None:
+                self.runs = [each for each in self.runs if not each.ended]
+                break
         self.ticks += happened
         return happened
 

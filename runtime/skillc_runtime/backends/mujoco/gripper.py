@@ -49,7 +49,7 @@ class SimulatedGripper(ModelledGripper):
         self._still_since, self._limit_n = 0.0, float(model.actuator_forcerange[self._actuator, 1])
         self._grip: Grip | None = None
         self.may_be_lost = bind(
-            may_be_lost, LossWatch(self._sensor.values, self._length, self._held, model.opt.timestep)
+            may_be_lost, LossWatch(self._sensor.opening, self._length, self._held, model.opt.timestep)
         )
 
     @property

@@ -21,6 +21,9 @@ from skillc_runtime.motion.numerics.program import Rows
 USED_SHARE = 0.5
 """The share of the arena up to which steps have room: more than any step needs suddenly."""
 
+CONTACTS, ITEM = 64, 8
+"""How many contacts `find_geoms` has, and the bytes of one of its numbers."""
+
 LIBRARIES = (f"libmujoco.so.{mujoco.__version__}", f"libmujoco.{mujoco.__version__}.dylib", "mujoco.dll")
 
 
@@ -76,6 +79,16 @@ def find_counts(data: Any) -> NDArray[np.int64]:
     """
     last = data.timer.number[-1:].__array_interface__["data"][0]
     return _view(last + 8, 1)
+
+
+def find_geoms(data: Any) -> NDArray[np.int64]:
+    """Return a view (CONTACTS, n) of what MuJoCo has of contacts, a row each; there has to be one now.
+
+    The first two columns have the numbers of its geoms, of 32 bits each, and what is beside them, which they decide.
+    """
+    geoms = data.contact.geom
+    address, width = geoms.__array_interface__["data"][0], geoms.strides[0] // ITEM
+    return _view(address - address % ITEM, CONTACTS * width).reshape(CONTACTS, width)
 
 
 def _view(address: int, count: int) -> NDArray[np.int64]:

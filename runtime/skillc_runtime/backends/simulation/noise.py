@@ -43,14 +43,6 @@ class Noise:
             self._mean += BLOCK * self._drift
         self.used[0] = 0.0
 
-    def distort(self, sample: Array) -> Array:
-        """Return a sample (m,) plus the next row; as an `Imperfection`, its generator is its own."""
-        if self.used[0] == len(self.rows):
-            self.draw()
-        self.used[0] += 1.0
-        noisy: Array = sample + self.rows[int(self.used[0]) - 1]
-        return noisy
-
 
 def make_joint_noise(arm: ArmSpec, seed: int) -> Noise:
     """Return the noise of an arm's joint speeds (nv,) rad/s."""

@@ -8,25 +8,25 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from skillc_runtime.backends.simulation.contact_bits import HANDLE, LINK
 from skillc_runtime.backends.simulation.contacts import Contacts
-from skillc_runtime.backends.simulation.machine_code import find_counts
+from skillc_runtime.backends.simulation.machine_code import find_counts, find_geoms
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.steps import OnMemory
 from skillc_runtime.devices.ground_truth import Touching
 from skillc_runtime.motion.arrays import Integers, OutVector
-from skillc_runtime.motion.numerics.compiled import Bound, bind, compiled
+from skillc_runtime.motion.numerics.compiled import bind, compiled
 from skillc_runtime.motion.numerics.program import Rows
 from skillc_runtime.motion.pose import Array
-
-STEPS_PER_LOOK = 20
-"""Greatest number of steps between looks for new contacts; those that were found are measured in each step."""
 
 SAME_TOUCH_S, LEAST_N = 0.1, 0.5
 """A shorter interruption does not end a contact; a contact with a smaller force does not count."""
 
 FLOOR = "the floor"
+
+NO_GEOMS = np.zeros((0, 2), dtype=np.int64)
 
 
 @dataclass(slots=True)
@@ -38,27 +38,36 @@ class OngoingTouch:
     peak_force_n: float | None
 
 
-STEPS, COUNT, TOUCHED = range(3)
-"""Entries of `ContactWatch.last`: steps since the last look, contacts then, 1 if something counted."""
+COUNT, TOUCHED = range(2)
+"""Entries of `ContactWatch.last`: contacts at the last look, 1 if something counted."""
 
 
 @dataclass(frozen=True, slots=True)
 class ContactWatch:
-    """counts (1, 1): the number of contacts in the lower 32 bits; last (3,): see above."""
+    """counts (1, 1): the number of contacts in the lower 32 bits; last (2,): see above.
+
+    geoms (n, m): as of `find_geoms`, a row for each contact; seen (n, 2): those of the last look.
+    """
 
     counts: Integers
     last: OutVector
+    geoms: Integers
+    seen: Integers
 
 
 @compiled
 def wants_look(watch: ContactWatch, now: float) -> int:
-    """Count a step; return 1 if there are contacts, and they may have changed."""
-    last, count = watch.last, float(watch.counts[0, 0] & 0xFFFFFFFF)
-    if count == 0.0:
-        last[STEPS], last[COUNT], last[TOUCHED] = 0.0, 0.0, 0.0
+    """Return 1 if there are contacts, and they count, or are others than at the last look."""
+    last, count, geoms, seen = watch.last, int(watch.counts[0, 0] & 0xFFFFFFFF), watch.geoms, watch.seen
+    if count == 0:
+        last[COUNT], last[TOUCHED] = 0.0, 0.0
         return 0
-    last[STEPS] += 1.0
-    return 1 if last[TOUCHED] != 0.0 or last[COUNT] != count or last[STEPS] >= STEPS_PER_LOOK else 0
+    if last[TOUCHED] != 0.0 or last[COUNT] != count or count > seen.shape[0]:
+        return 1
+    for row in range(count):
+        if geoms[row, 0] != seen[row, 0] or geoms[row, 1] != seen[row, 1]:
+            return 1
+    return 0
 
 
 class TouchRecorder(OnMemory):
@@ -72,8 +81,9 @@ class TouchRecorder(OnMemory):
         self, scene: SceneSpec, model: Any, contacts: Contacts, held: Callable[[], Sequence[tuple[str, str]]]
     ) -> None:
         self._model, self._present, self._names, self._held = model, contacts, scene.names, held
-        self._last, self._counted = np.zeros(3), contacts.data
-        super().__init__(self._count_contacts())
+        self._last, self._counted = np.zeros(2), contacts.data
+        self._compare_with(NO_GEOMS)
+        super().__init__(self._compute)
         grippers = [arm.gripper.individual for arm in scene.arms if arm.gripper is not None]
         self._grippers = {scene.names[each] for each in grippers}
         self._robots = {scene.names[arm.individual] for arm in scene.arms} | self._grippers
@@ -106,10 +116,15 @@ class TouchRecorder(OnMemory):
 
     def act(self, events: int, now: float) -> bool:
         """Look at the contacts of the step that begins at `now` s, once their forces are computed."""
-        touching = self._present.geoms.ravel().tolist()
-        touched = not self._watched.isdisjoint(touching) and self._measure(now)
-        self._last[:] = 0.0, self._present.data.ncon, touched
-        return False
+        geoms = self._present.geoms
+        touched = not self._watched.isdisjoint(geoms.ravel().tolist()) and self._measure(now)
+        self._last[:] = len(geoms), touched
+        here = find_geoms(self._present.data)
+        moved = here.ctypes.data != self._memory.geoms.ctypes.data
+        if moved:
+            self._compare_with(here)
+        self._memory.seen[: len(geoms)] = here[: len(geoms), :2]
+        return moved
 
     def add(self, part: str, other: str, now: float, force_n: float | None) -> None:
         """Add a contact of two parts at `now` s with a force in N, None if it is not known."""
@@ -121,12 +136,16 @@ class TouchRecorder(OnMemory):
             touches[-1].peak_force_n = max(touches[-1].peak_force_n or 0.0, force_n)
 
     def _follow(self) -> None:
-        """Count contacts where they are computed now."""
+        """Watch contacts where they are computed now."""
         if self._counted is not self._present.data:
-            self._counted, self._compute = self._present.data, self._count_contacts()
+            self._counted, self._last[COUNT] = self._present.data, 0.0
+            self._compare_with(NO_GEOMS)
 
-    def _count_contacts(self) -> Bound[[float], int]:
-        return bind(wants_look, ContactWatch(find_counts(self._present.data), self._last))
+    def _compare_with(self, geoms: NDArray[np.int64]) -> None:
+        """Compare from now on the geoms of contacts, which are in this memory."""
+        seen = np.zeros((len(geoms), 2), dtype=np.int64)
+        self._memory = ContactWatch(find_counts(self._counted), self._last, geoms, seen)
+        self._compute = bind(wants_look, self._memory)
 
     def _measure(self, now: float) -> bool:
         """Add the present contacts with their forces; tell whether there are any."""

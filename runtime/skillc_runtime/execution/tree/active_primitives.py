@@ -19,8 +19,11 @@ class ActivePrimitives:
     @property
     def prompts(self) -> tuple[Prompt, ...]:
         """What they ask operators, with the numbers of their nodes."""
-        asking = [(self._nodes[each], each.prompt) for each in self._started if each.prompt is not None]
-        return tuple([replace(prompt, id=node) for node, prompt in asking])
+        found: tuple[Prompt, ...] = ()
+        for each in self._started:
+            if each.prompt is not None:
+                found = (*found, replace(each.prompt, id=self._nodes[each]))
+        return found
 
     @property
     def only_ask(self) -> bool:

@@ -27,7 +27,7 @@ class Computations:
     @property
     def pending(self) -> bool:
         """Whether a computation goes on that has no result yet."""
-        return any(each.poll() is None for each in self._running.values())
+        return bool(self._running) and any(each.poll() is None for each in self._running.values())
 
     def wait(self, seconds: float) -> None:
         """Wait for up to `seconds` of wall time for a result, or until the time of a computation is up."""
