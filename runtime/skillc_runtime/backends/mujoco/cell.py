@@ -8,7 +8,7 @@ from functools import cached_property, partial
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.mujoco.cargo import InertialCargo
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
-from skillc_runtime.backends.mujoco.parts import DivergenceWatch, HalfStep, SlipWatch
+from skillc_runtime.backends.mujoco.parts import HalfStep, SlipWatch
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.stillness import lie_still
 from skillc_runtime.backends.simulation.cell import ModelledCell
@@ -95,7 +95,6 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
     def _parts(self) -> Iterator[Part]:
         yield from (arm.friction for arm in self.arms.values() if arm.friction is not None)
         yield HalfStep(self.physics, "mj_step2")
-        yield DivergenceWatch(self.physics)
         yield from (arm.wrist for arm in self.arms.values() if arm.wrist is not None)
         yield self._touches
         yield from self._buttons.values()
@@ -106,7 +105,6 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
             yield OnMemory(gripper.may_be_lost, partial(self._look_for_loss, arm))
         yield ForItself(self._drive, self._bases_rest)
         yield HalfStep(self.physics, "mj_step1")
-        yield DivergenceWatch(self.physics)
 
     def _look_for_loss(self, arm: str, events: int, now: float) -> bool:
         return self._notice_loss(arm)

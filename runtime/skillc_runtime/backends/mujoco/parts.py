@@ -9,44 +9,25 @@ from skillc_runtime.motion.numerics.program import IDLE, Rows, row_of
 
 
 class HalfStep:
-    """A half of a step of the physics."""
+    """A half of a step of the physics, which ends the cell if it diverges."""
 
     def __init__(self, physics: Physics, half: Half) -> None:
         self._physics, self._half = physics, half
 
     @property
     def rows(self) -> Rows | None:
-        """The function of MuJoCo, and what shows its results."""
+        """The function of MuJoCo, what shows its results, and what looks for warnings."""
         return self._physics.find_rows(self._half)
 
     def step(self, now: float) -> bool:
-        """Run it."""
+        """Run it; raise SimulationDiverged if there are warnings."""
         match self._half:
             case "mj_step1":
                 self._physics.compute_places()
             case "mj_step2":
                 self._physics.move()
+        self._physics.monitor.step(now)
         return True
-
-    def act(self, events: int, now: float) -> bool:
-        """Do nothing: it tells of nothing."""
-        return False
-
-
-class DivergenceWatch:
-    """Ends the cell if the physics that is stepped diverges."""
-
-    def __init__(self, physics: Physics) -> None:
-        self._physics = physics
-
-    @property
-    def rows(self) -> Rows | None:
-        """The function that looks for warnings."""
-        return self._physics.monitor.rows
-
-    def step(self, now: float) -> bool:
-        """Raise SimulationDiverged if there are any."""
-        return self._physics.monitor.step(now)
 
     def act(self, events: int, now: float) -> bool:
         """Raise SimulationDiverged."""

@@ -121,8 +121,8 @@ class Physics:
         mirror, far = self._mirror, self.far
         rows = row_calling(half, self.model, self.data) if mirror is None else row_of(mirror.halves[half])
         if half == "mj_step2" or far is None:
-            return rows
-        return join(row_of(far.leave_out), rows, row_of(far.take_in))
+            return join(rows, self.monitor.rows)
+        return join(row_of(far.leave_out), rows, row_of(far.take_in), self.monitor.rows)
 
     def _run(self, half: Half) -> None:
         far = self.far if half == "mj_step1" else None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from operator import is_not
 from typing import Any
 
 from skillc_runtime.backends.simulation.arm import ModelledArm
@@ -50,9 +49,12 @@ def _places_of(arms: Sequence[tuple[ModelledArm, CompliantArmDriver]], sensors: 
 
     def find() -> Places:
         nonlocal known, places
-        references = [motion.live_reference for motion in motions]
-        if not known or any(map(is_not, references, known)):
-            known = references
+        for motion, reference in zip(motions, known, strict=False):  # a loop, as before each run of steps
+            if motion.live_reference is not reference:
+                known = []
+                break
+        if not known:
+            known = [motion.live_reference for motion in motions]
             of_arms = (array for pair in arms for array in _arrays_of(*pair))
             places = tuple(map(_place_of, (*of_arms, sensors)))
         return places

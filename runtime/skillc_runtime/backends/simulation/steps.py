@@ -31,7 +31,12 @@ SOME_ROWS = 64
 
 
 class OnMemory:
-    """A part that is one function on memory; subclasses do what it asks for."""
+    """A part that is one function on memory; subclasses do what it asks for.
+
+    is_fixed: whether it is the same function on the same memory for ever.
+    """
+
+    is_fixed = True
 
     def __init__(self, compute: Bound[[float], int], act: Callable[[int, float], bool] | None = None) -> None:
         self._compute = compute
@@ -109,6 +114,9 @@ class Steps:
         self._extent[0, program.STEPS_PER_PERIOD] = self._per_period = steps_per_period
         self._cursor, self._step_s, self._phase = np.zeros(4), step_s, 0
         self._make_table(SOME_ROWS)
+        self._changing = [
+            number for number, part in enumerate(self._parts) if not (isinstance(part, OnMemory) and part.is_fixed)
+        ]
         self._found: list[Rows | None] = []
         self._starts, self._owners = [0], list[int]()
         self.runs_program = COMPILES
@@ -144,15 +152,25 @@ class Steps:
         self._run = bind(run_program, Program(self._rows, self._extent, self._cursor, self._step_s))
 
     def _write(self) -> None:
-        """Write the program as things are now, and the first row of each part, and of what would come after."""
-        found = [part.rows for part in self._parts]
-        if found != self._found:
-            rows = [(NO_FUNCTION,) if each is None else each for each in found]
-            self._starts = list(accumulate(map(len, rows), initial=0))
-            self._owners = [number for number, each in enumerate(rows) for _ in each]
-            written = [row for each in rows for row in each]
-            if len(written) > len(self._rows):
-                self._make_table(2 * len(written))
-            self._rows[: len(written)] = np.array(written, dtype=np.int64).reshape(-1, 3)
-            self._extent[0, : program.STEPS_PER_PERIOD] = len(written), self._starts[self._controlling]
-            self._found = found
+        """Write the program as things are now."""
+        if not self._found:
+            self._found = [part.rows for part in self._parts]
+            self._lay_out()
+        parts, found, is_new = self._parts, self._found, False
+        for number in self._changing:  # a loop, as in each tick
+            rows = parts[number].rows
+            if rows is not found[number]:
+                found[number], is_new = rows, True
+        if is_new:
+            self._lay_out()
+
+    def _lay_out(self) -> None:
+        """Write the rows that were found, and the first one of each part, and of what would come after."""
+        rows = [(NO_FUNCTION,) if each is None else each for each in self._found]
+        self._starts = list(accumulate(map(len, rows), initial=0))
+        self._owners = [number for number, each in enumerate(rows) for _ in each]
+        written = [row for each in rows for row in each]
+        if len(written) > len(self._rows):
+            self._make_table(2 * len(written))
+        self._rows[: len(written)] = np.array(written, dtype=np.int64).reshape(-1, 3)
+        self._extent[0, : program.STEPS_PER_PERIOD] = len(written), self._starts[self._controlling]

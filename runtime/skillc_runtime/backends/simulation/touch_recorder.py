@@ -77,6 +77,8 @@ class TouchRecorder(OnMemory):
     holds; both are IRIs.
     """
 
+    is_fixed = False
+
     def __init__(
         self, scene: SceneSpec, model: Any, contacts: Contacts, held: Callable[[], Sequence[tuple[str, str]]]
     ) -> None:
