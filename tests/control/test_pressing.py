@@ -72,7 +72,10 @@ def test_it_presses_as_hard_as_it_shall(robot):
     force = forces(bench, normal)
     assert force[-200:].mean() == pytest.approx(FORCE_N[robot], rel=0.02)
     assert force.max() < 2 * FORCE_N[robot]
-    assert bench.driver.measured.wrench[:3] @ normal == pytest.approx(FORCE_N[robot], rel=0.03)
+    measured = bench.driver.measured
+    assert measured.wrench[:3] @ normal == pytest.approx(FORCE_N[robot], rel=0.03)
+    assert measured.pressing_n == pytest.approx(-measured.wrench[:3] @ measured.pose.rotation[:, 2], rel=1e-12)
+    assert measured.pressing_n > 0.95 * FORCE_N[robot]
 
 
 @pytest.mark.sim

@@ -47,6 +47,13 @@ class MeasuredArm:
         return self._in_world(self._find_contact_wrench()) if felt is None else felt
 
     @property
+    def pressing_n(self) -> float:
+        """The force in N with which the tool presses along its axis, by `wrench`; it is the same in all axes."""
+        felt = self.felt_wrench()
+        wrench = self._find_contact_wrench() if felt is None else felt
+        return -float(wrench[:3] @ self.state.tool.rotation[:, 2])
+
+    @property
     def contact_wrench(self) -> Array:
         """The wrench (6,) of the environment on the tool as the control law knows it, N and N m, base axes."""
         return self._find_contact_wrench()

@@ -58,6 +58,11 @@ class ArmMeasurements(Protocol):
         ...
 
     @property
+    def pressing_n(self) -> float:
+        """The force in N with which the tool presses along its axis, by `wrench`."""
+        ...
+
+    @property
     def felt(self) -> Array | None:
         """The wrench (6,) that a sensor or the torques of the joints measure, N and N m; None if nothing does."""
         ...

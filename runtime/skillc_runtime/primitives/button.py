@@ -43,8 +43,7 @@ class AwaitSwitch(Primitive):
         raise_fault(self.arm)
         if self._switched_at is None and self._switch.switched:
             self._switched_at, self._forces = self.cell.now, []
-        measured = self.arm.measured
-        self._forces.append(-float(measured.wrench[:3] @ measured.pose.rotation[:, 2]))
+        self._forces.append(self.arm.measured.pressing_n)
         if self._switched_at is not None and self.cell.now - self._switched_at >= PRESS_HOLD_S:
             self._note()
             return Status.SUCCESS

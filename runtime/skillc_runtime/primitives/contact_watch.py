@@ -43,7 +43,7 @@ class KeepContact(Primitive):
     def tick(self) -> Status:
         """Measure once; SkillFailure if contact was lost for too long."""
         now = self.cell.now
-        pressed = -float(self.arm.measured.wrench[:3] @ self.arm.measured.pose.rotation[:, 2]) >= self._least_n
+        pressed = self.arm.measured.pressing_n >= self._least_n
         self._samples, self._contacts = self._samples + 1, self._contacts + pressed
         if not pressed:
             self._lost.append((now, now - self._before))

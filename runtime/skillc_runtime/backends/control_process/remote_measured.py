@@ -39,6 +39,11 @@ class RemoteMeasured:
         return self._now().wrench
 
     @property
+    def pressing_n(self) -> float:
+        """The force in N with which the tool presses along its axis, by `wrench`."""
+        return self._now().pressing_n
+
+    @property
     def felt(self) -> Array | None:
         """The wrench (6,) by a sensor or by the torques of the joints, N and N m, world axes; None without either."""
         return self._now().felt

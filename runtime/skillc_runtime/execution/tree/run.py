@@ -104,7 +104,7 @@ class TreeRun:
     @property
     def computing(self) -> bool:
         """Whether primitives wait for what they compute beside the ticks, and the run is not paused."""
-        return self.status is RUNNING and not self.paused and self._context.computations.pending
+        return self.status is RUNNING and self._context.computations.pending and not self.paused
 
     @property
     def withdrawn(self) -> bool:
@@ -247,8 +247,7 @@ class TreeRun:
         self._guard(self._pause.end)
 
     def _send_heartbeat(self) -> None:
-        cell = self._context.cell
-        if not cell.watchdog.beat(self, cell.now):
+        if not self._context.cell.watchdog.beat(self, self._context.time):
             raise WatchdogTimeout("the tree was not ticked for too long, so everything was stopped")
 
     def _find_contradiction(self) -> str | None:
