@@ -30,6 +30,8 @@ def test_shipped_plans_are_checked_whole(task):
     postures = answer["space"].pop("postures")
     moving = [number for number, each in enumerate(answer["plan"], 1) if each["skill"] != "Drive"]
     assert {each["step"] for each in postures} == set(moving)
+    put_down = [number for number, each in enumerate(answer["plan"], 1) if each["skill"] == "Place"]
+    assert [each["step"] for each in answer["space"].pop("places")] == put_down
     assert answer["space"] == {
         "checked": len(answer["plan"]),
         "steps": len(answer["plan"]),

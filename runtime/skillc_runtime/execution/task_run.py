@@ -26,7 +26,7 @@ from skillc_runtime.execution.success_facts import collect_forces
 from skillc_runtime.execution.task_state import Ending, RefusedCommand, refusal
 from skillc_runtime.execution.tree.context import EPSILON_S
 from skillc_runtime.execution.tree.gate import format_breakpoints, read_breakpoint
-from skillc_runtime.execution.world_edit import recorded_changes, write_stands
+from skillc_runtime.execution.world_edit import recorded_changes, write_choices
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.primitives.time_limits import describe_slowness
@@ -195,8 +195,8 @@ class TaskRun(RunStatus):
             self._emit(event)
             if event.space is not None and event.space.stopped:
                 context.emit_notes([f"the plan is {event.space.summary}"])
-        if event is not None and event.space is not None and event.space.stands:
-            state = write_stands(context.backend.cell.world, event.space, self._emit, self._now)
+        if event is not None and event.space is not None:
+            state = write_choices(context.backend.cell.world, event.space, self._emit, self._now)
             prepared = replace(prepared, assignment=replace(prepared.assignment, state=state))
         context.gate.forget_waiting()
         self._pause = PauseControl(context.gate, context.backend.clock)

@@ -6,10 +6,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from skillc_runtime.execution.tree.event_factory import make_change_event
+from skillc_runtime.motion.pose import Pose
 from skillc_runtime.recording.commands import EditWorld
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.space_claim import SpaceClaim
+from skillc_runtime.world.space.chosen_places import reservation_changes
 from skillc_runtime.world.space.stands import stand_changes
+from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.labelled_reading import change_of
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
@@ -20,13 +23,22 @@ def edit_world(world: WorldModel, edit: EditWorld) -> None:
     world.commit([change_of(each) for each in edit.changes], f"{edit.who}: {edit.why}", None)
 
 
-def write_stands(world: WorldModel, space: SpaceClaim, emit: Listener, now: float) -> WorldState:
-    """Write where a plan lets bases stand, at the time `now` in s of the cell; return the world after that."""
-    changes = [
+def write_choices(world: WorldModel, space: SpaceClaim, emit: Listener, now: float) -> WorldState:
+    """Write where a plan lets bases and things stand, at the time `now` in s of the cell; return the world after that.
+
+    Of several places of a thing at one place that is the first, which is over once the thing is there.
+    """
+    state = world.snapshot()
+    changes: list[Change] = [
         change for each in space.stands for change in stand_changes(each.place.iri, each.x_m, each.y_m, each.yaw_rad)
     ]
+    for each in {(one.thing, one.place): one for one in reversed(space.places)}.values():
+        at = Pose.of(each.at.position_m, each.at.quaternion_wxyz)
+        changes += reservation_changes(state, each.thing.iri, each.place.iri, each.support.iri, at)
+    if not changes:
+        return state
     with recorded_changes(world, emit, now):
-        world.commit(changes, "the plan lets bases stand there")
+        world.commit(changes, "the plan lets bases and things stand there")
     return world.snapshot()
 
 

@@ -16,6 +16,7 @@ from skillc_runtime.primitives.space_needs import Hold, Leave, SpaceNeed
 from skillc_runtime.primitives.support import SupportCheck
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.space.cargo import cargo_changes
+from skillc_runtime.world.space.chosen_places import end_of_reservation
 from skillc_runtime.world.space.frame_tree import FrameError, frame_tree_of
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
 from skillc_runtime.world.space.grasp_geometry import is_sideways
@@ -227,10 +228,12 @@ class Release(Primitive):
         self._freed = True
         world = self.cell.world
         world.commit([RemoveRelation(self._hand, CONTAIN, self._object)], "Release", "sensed")
+        state = world.snapshot()
         world.commit(
             (
-                *put_down_changes(world.snapshot(), self._object, left_at, self._to),
+                *put_down_changes(state, self._object, left_at, self._to),
                 AddRelation(self._to, CONTAIN, self._object),
+                *end_of_reservation(state, self._object, self._to),
             ),
             "Release",
             "assumed",

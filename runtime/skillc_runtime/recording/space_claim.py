@@ -54,13 +54,39 @@ class StandAt(msgspec.Struct, frozen=True):
         return f"step {self.step}: {self.robot} stands at {at}, since an arm does not get to its work from there"
 
 
+class PlaceAt(msgspec.Struct, frozen=True):
+    """Where a thing is put down at a place in a step of a plan, from 1: `at` is its pose as a tool, on a support.
+
+    That is in the frame of the support, which is the place, furniture in it, or a placing pose if it is stated. board:
+    of a shelf, 0 for all else.
+    """
+
+    step: int
+    thing: LabelledIri
+    place: LabelledIri
+    support: LabelledIri
+    at: LabelledPose
+    board: int = 0
+    stated: bool = False
+
+    @property
+    def text(self) -> str:
+        """It as a sentence."""
+        if self.stated:
+            return f"step {self.step}: {self.thing} is put down at {self.support}"
+        x_m, y_m, _ = (round(each, 2) + 0.0 for each in self.at.position_m)
+        on = f"board {self.board} of {self.support}" if self.board else f"{self.support}"
+        return f"step {self.step}: {self.thing} is put down at ({x_m:.2f}, {y_m:.2f}) m from the middle of {on}"
+
+
 class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
     """How many steps of a plan go in space, of how many, and why the next does not; None if it does or is not known.
 
     unseen: the calls in these steps that were not looked at. postures: those in which arms bring their tools to poses,
     in the order of the steps, which a run takes as well. apart: the steps that do not run at the same time, since arms
-    would meet. stands: where bases stand beside where a place wants them. stopped: why the look ended before it was
-    through; empty if it was. from_home: whether the arms begin at home; else where they were when the plan was made.
+    would meet. stands: where bases stand beside where a place wants them. places: where things are put down, which a
+    run does as well. stopped: why the look ended before it was through; empty if it was. from_home: whether the arms
+    begin at home; else where they were when the plan was made.
     """
 
     checked: int
@@ -69,6 +95,7 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
     postures: tuple[ChosenPosture, ...] = ()
     apart: tuple[StepsApart, ...] = ()
     stands: tuple[StandAt, ...] = ()
+    places: tuple[PlaceAt, ...] = ()
     failure: str | None = None
     stopped: str = ""
     from_home: bool = True
@@ -95,6 +122,7 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
         lines = [f"{self.summary}: reach, joints, torques, paths, room; the arms begin {begin}"]
         lines += (f"step {each.step}: nobody says what {each.what} needs of space" for each in self.unseen)
         lines += (each.text for each in self.stands)
+        lines += (each.text for each in self.places)
         lines += (
             f"steps {each.one} and {each.other} do not run at the same time: {' and '.join(each.arms)} would meet"
             for each in self.apart

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
+from skillc_runtime.world.space.chosen_places import list_places
 from skillc_runtime.world.space.frames import pose, size
-from skillc_runtime.world.space.free_places import free_hand_pose, pose_in_hand
 from skillc_runtime.world.space.grasp_geometry import APPROACH_M
 from skillc_runtime.world.space.grasps import find_grasp, stated_pose
 from skillc_runtime.world.space.grip_force import grasp_force_n
-from skillc_runtime.world.space.placing_poses import find_placing_pose
+from skillc_runtime.world.space.held_load import pose_in_hand
 from skillc_runtime.world.space.supports import clearance_m
 from skillc_runtime.world.state.terms import APPROACH_POSE, HELD_SIDEWAYS
 
@@ -55,15 +55,11 @@ def grasp_force(state: WorldState, gripper: str, thing: str) -> float:
 
 
 def place_pose(state: WorldState, arm: str, gripper: str, thing: str, to: str) -> Pose:
-    """Return where the held thing, the tool, stands at a place: at the first stated pose that is free.
+    """Return where the held thing, the tool, stands at a place: where that was chosen, or at a stated pose, if free.
 
-    If none is stated, free beside what is known to be there. PlaceError if it cannot be put down there.
+    If neither is, free beside what is known to be there. PlaceError if it cannot be put down there.
     """
-    stated = find_placing_pose(state, thing, to)
-    if stated is not None:
-        return pose(state, stated)
-    hand = free_hand_pose(state, arm, gripper, thing, to)
-    return hand @ pose_in_hand(state, gripper, thing) @ working_face(size(state, thing))
+    return next(list_places(state, arm, gripper, thing, to)).tool
 
 
 def hand_pose(state: WorldState, gripper: str, thing: str, at: Pose) -> Pose:

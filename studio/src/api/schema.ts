@@ -1572,8 +1572,9 @@ export interface components {
          *
          *         unseen: the calls in these steps that were not looked at. postures: those in which arms bring their tools to poses,
          *         in the order of the steps, which a run takes as well. apart: the steps that do not run at the same time, since arms
-         *         would meet. stands: where bases stand beside where a place wants them. stopped: why the look ended before it was
-         *         through; empty if it was. from_home: whether the arms begin at home; else where they were when the plan was made.
+         *         would meet. stands: where bases stand beside where a place wants them. places: where things are put down, which a
+         *         run does as well. stopped: why the look ended before it was through; empty if it was. from_home: whether the arms
+         *         begin at home; else where they were when the plan was made.
          */
         SpaceClaim: {
             checked: number;
@@ -1586,6 +1587,8 @@ export interface components {
             apart?: components["schemas"]["StepsApart"][];
             /** @default [] */
             stands?: components["schemas"]["StandAt"][];
+            /** @default [] */
+            places?: components["schemas"]["PlaceAt"][];
             /** @default null */
             failure?: string | null;
             /** @default  */
@@ -1636,6 +1639,24 @@ export interface components {
             x_m: number;
             y_m: number;
             yaw_rad: number;
+        };
+        /**
+         * PlaceAt
+         * @description Where a thing is put down at a place in a step of a plan, from 1: `at` is its pose as a tool, on a support.
+         *
+         *         That is in the frame of the support, which is the place, furniture in it, or a placing pose if it is stated. board:
+         *         of a shelf, 0 for all else.
+         */
+        PlaceAt: {
+            step: number;
+            thing: components["schemas"]["LabelledIri"];
+            place: components["schemas"]["LabelledIri"];
+            support: components["schemas"]["LabelledIri"];
+            at: components["schemas"]["LabelledPose"];
+            /** @default 0 */
+            board?: number;
+            /** @default false */
+            stated?: boolean;
         };
         /**
          * PlanMade

@@ -21,6 +21,7 @@ from skillc_runtime.world.state.terms import (
     OPENING,
     ORIENTATION,
     POSITION,
+    RESERVED_FOR,
 )
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -38,13 +39,18 @@ def stands_elsewhere(fact: FactPattern, before: WorldState, after: WorldState) -
     """Whether something stands elsewhere, or is held by another, by a fact in which versions of the world differ."""
     if fact.term in (AT, CONTAIN):
         return True
-    if fact.term not in WHERE or fact.subject is None:
+    if fact.term not in WHERE or fact.subject is None or _is_reserved(fact.subject, before, after):
         return False
     one, other = _find_pose(before, fact.subject), _find_pose(after, fact.subject)
     if one is None or other is None:
         return one is not other
     between = log(other.rotation @ one.rotation.T)
     return bool(np.linalg.norm(other.position - one.position) > MOVED_M or np.linalg.norm(between) > TURNED_RAD)
+
+
+def _is_reserved(individual: str, *states: WorldState) -> bool:
+    """Whether something is only a place that is kept for a thing."""
+    return any(RESERVED_FOR in each.facts and each.objects(individual, RESERVED_FOR) for each in states)
 
 
 def _find_pose(state: WorldState, individual: str) -> Pose | None:

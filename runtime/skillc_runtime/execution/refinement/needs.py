@@ -41,6 +41,7 @@ from skillc_runtime.primitives.space_needs import (
     Take,
 )
 from skillc_runtime.world.space.cargo import cargo_changes, lies_on
+from skillc_runtime.world.space.chosen_places import end_of_reservation
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
 from skillc_runtime.world.space.grasp_geometry import is_sideways
@@ -193,7 +194,8 @@ def _leave(need: Leave, here: Situation) -> Situation:
     left_at = view_arm(here, need.arm).tool @ working_face(size(state, need.thing)).inverse()
     there = here.with_changes(put_down_changes(state, need.thing, left_at, need.to))
     down = Pose(left_at.position - np.array([0.0, 0.0, _gap_m(there, need.thing)]), left_at.rotation)
-    return here.with_changes(put_down_changes(state, need.thing, down, need.to))
+    left = put_down_changes(state, need.thing, down, need.to)
+    return here.with_changes([*left, *end_of_reservation(state, need.thing, need.to)])
 
 
 def _lying_on(here: Situation, thing: str) -> Iterator[str]:

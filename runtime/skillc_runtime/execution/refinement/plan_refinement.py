@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.meetings import find_steps_apart
 from skillc_runtime.execution.refinement.scope import call_of
-from skillc_runtime.execution.refinement.situation import ChosenStand, RefinedMotion, Situation, begin_at_home
+from skillc_runtime.execution.refinement.situation import (
+    ChosenPlace,
+    ChosenStand,
+    RefinedMotion,
+    Situation,
+    begin_at_home,
+)
 from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import apply_effects
@@ -25,15 +31,16 @@ RETRIES, WITH_BASES = 4, 40
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RefinedStep:
-    """A step that goes, with the motions of the arms in it, and where bases stand beside where places want them.
+    """A step that goes, with the motions of the arms in it, and where bases and things are let stand.
 
-    `unseen` are calls in it that nobody could look at.
+    `stands` are those beside where places want bases. `unseen` are calls in it that nobody could look at.
     """
 
     step: Step
     motions: tuple[RefinedMotion, ...]
     unseen: tuple[str, ...]
     stands: tuple[ChosenStand, ...] = ()
+    places: tuple[ChosenPlace, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -85,8 +92,9 @@ class _Refiner:
             return
         step, walk = left[0], Walk(self._library)
         for after in walk.go(call_of(step, self._library), here, Scope({})):
-            motions = after.motions[len(here.motions) :]
-            refined = RefinedStep(step, motions, tuple(walk.unseen), after.stands[len(here.stands) :])
+            motions, stands = after.motions[len(here.motions) :], after.stands[len(here.stands) :]
+            places = after.places[len(here.places) :]
+            refined = RefinedStep(step, motions, tuple(walk.unseen), stands, places)
             yield from self._go(left[1:], self._with_effects(step, after), (*done, refined))
             if self._left <= 0:
                 return
@@ -100,4 +108,4 @@ class _Refiner:
             state = apply_effects(step, self._library, after.state)
         except (EvaluationError, WorldError):
             return after
-        return Situation(state, after.postures, after.openings, motions=after.motions, stands=after.stands)
+        return replace(after, state=state, forces={}, spreads={})

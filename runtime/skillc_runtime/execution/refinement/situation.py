@@ -59,11 +59,26 @@ class ChosenStand:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class ChosenPlace:
+    """Where a thing was let stand at a place: the pose of the thing, as a tool, in the frame of a support.
+
+    board, stated: as of `PossiblePlace`.
+    """
+
+    thing: LabelledIri
+    place: LabelledIri
+    support: LabelledIri
+    at: Pose
+    board: int
+    stated: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Situation:
     """The world as it is believed to be then, and the devices in it.
 
     postures: of arms, (nv,) in rad; openings: of grippers, in m; forces: of tools that press, (3,) in N in the world;
-    spreads: offsets (n, 3) in m in the world of tools with a motion that is added; motions, stands: all so far.
+    spreads: offsets (n, 3) in m in the world of tools with a motion that is added; motions, stands, places: all so far.
     """
 
     state: WorldState
@@ -73,6 +88,7 @@ class Situation:
     spreads: Mapping[str, Array] = field(default_factory=dict)
     motions: tuple[RefinedMotion, ...] = ()
     stands: tuple[ChosenStand, ...] = ()
+    places: tuple[ChosenPlace, ...] = ()
 
     def with_changes(self, changes: tuple[Change, ...] | list[Change]) -> Situation:
         """Return the situation after changes of the world; WorldError if they contradict it.

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from skillc_runtime.recording.space_claim import ChosenPosture, SpaceClaim, StandAt, UnseenCall
+from msgspec import structs
+
+from skillc_runtime.recording.space_claim import ChosenPosture, PlaceAt, SpaceClaim, StandAt, UnseenCall
 from skillc_runtime.world.state.labelling import label, label_pose
 
 if TYPE_CHECKING:
     from skillc_rdf.vocabulary.types import Vocabulary
     from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement
-    from skillc_runtime.execution.refinement.situation import ChosenStand, RefinedMotion, Situation
+    from skillc_runtime.execution.refinement.situation import ChosenPlace, ChosenStand, RefinedMotion, Situation
     from skillc_runtime.execution.refinement.walk import Walk
 
 
@@ -29,6 +31,7 @@ def make_claim(found: PlanRefinement, steps: int, words: Vocabulary, from_home: 
         ),
         apart=found.apart,
         stands=tuple(each for number, step in enumerate(found.steps, 1) for each in _stands_of(number, step.stands)),
+        places=tuple(each for number, step in enumerate(found.steps, 1) for each in _places_of(number, step.places)),
         failure=failure,
         from_home=from_home,
     )
@@ -43,6 +46,7 @@ def claim_of_body(found: Situation | None, walk: Walk, from_home: bool) -> Space
         unseen=tuple(UnseenCall(1, call) for call in walk.unseen),
         postures=() if found is None else tuple(_postures_of(1, found.motions, found.state.vocabulary)),
         stands=() if found is None else tuple(_stands_of(1, found.stands)),
+        places=() if found is None else tuple(_places_of(1, found.places)),
         failure=failure,
         from_home=from_home,
     )
@@ -59,3 +63,10 @@ def _stands_of(step: int, stands: Iterable[ChosenStand]) -> Iterator[StandAt]:
     """Yield where bases were let stand, in a step of a number."""
     for each in stands:
         yield StandAt(step, each.robot, each.place, each.x_m, each.y_m, each.yaw_rad)
+
+
+def _places_of(step: int, places: Iterable[ChosenPlace]) -> Iterator[PlaceAt]:
+    """Yield where things were let stand, in a step of a number."""
+    for each in places:
+        at = structs.replace(label_pose(each.at), frame=each.support.label)
+        yield PlaceAt(step, each.thing, each.place, each.support, at, each.board, each.stated)

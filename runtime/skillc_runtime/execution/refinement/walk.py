@@ -18,6 +18,7 @@ from skillc_runtime.cancellation import check_current
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.meetings import find_meeting_arms
 from skillc_runtime.execution.refinement.needs import meet
+from skillc_runtime.execution.refinement.placing import list_values
 from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
@@ -178,16 +179,18 @@ class Walk:
     ) -> Iterator[Situation]:
         """Yield the situations after an implementation with bound parameters."""
         try:
-            for let in implementation.lets:
-                values[let.name] = value_of(let.value, here.state, values)
+            for there, known in list_values(implementation.lets, here, values):
+                yield from self._run_body(implementation, known, there, scope)
         except EvaluationError as why:
             self._fail(_without_value(why), here, scope)
-            return
+
+    def _run_body(
+        self, implementation: Implementation, values: dict[str, Value], here: Situation, scope: Scope
+    ) -> Iterator[Situation]:
         match implementation.body:
             case Compound(node=node):
-                if len(scope.within) > len(self.library.skills):
-                    return  # a skill that calls itself
-                yield from self.go(node, here, replace(scope, values=values))
+                if len(scope.within) <= len(self.library.skills):  # else a skill that calls itself
+                    yield from self.go(node, here, replace(scope, values=values))
             case Primitive(python=python):
                 yield from self._primitive(implementation, python, values, here, scope)
             case _:

@@ -1,70 +1,53 @@
-"""A free place for a held thing on or in a carrier, beside what is known to be there."""
+"""Free places for a held thing on or in a carrier, beside what is known to be there."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import chain
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.bodies import read_shape
-from skillc_runtime.world.space.frame_tree import frame_tree_of
 from skillc_runtime.world.space.frames import pose
-from skillc_runtime.world.space.grasp_geometry import APPROACH_M
-from skillc_runtime.world.space.hand_shape import RELEASE_CLEARANCES_M, HandShape, read_hand_shape
+from skillc_runtime.world.space.held_load import Load, read_loads
 from skillc_runtime.world.space.no_place import NEAR_BASE_M, REACH_SHARE, Neighbour, PlaceError, WantedRoom
 from skillc_runtime.world.space.occupants import Occupant, read_occupants
-from skillc_runtime.world.space.oriented_box import CORNERS
 from skillc_runtime.world.space.overhead import HAND_ABOVE_M, roof_problem
-from skillc_runtime.world.space.shapes import solids_of
-from skillc_runtime.world.space.solids import Solid
-from skillc_runtime.world.space.supports import QUARTERS, Support, face_away, find_supports, name_support, tilt_problem
+from skillc_runtime.world.space.place_sampling import PITCH_M, choose_pitch_m, interleave, spread_out
+from skillc_runtime.world.space.supports import Support, face_away, find_supports, name_support, tilt_problem
 from skillc_runtime.world.state.data_sheet import sheet_of
-from skillc_runtime.world.state.terms import HELD_SIDEWAYS
 from skillc_runtime.world.state.world_state import WorldState
 
 GAP_M = 0.01
 """How far from what is beside it a thing is put down."""
 
-FINGER_M = 0.03
-"""How much room a finger gets beside a thing when it lets go."""
-
-FINGER_SLACK_M = 0.003
-"""How much wider a finger may be on each side than its data sheet says, where there is less room."""
-
-PALM_SLACK_M = 0.003
-"""How much higher a palm may be than its data sheet says."""
-
-HAND_M = 0.035
-"""Half the width of a hand across the direction in which it closes."""
-
-PITCH_M = 0.01
-"""How far from each other the places are that are tried."""
-
-SIDEWAYS = tuple(np.array([[0.0, s, c], [0.0, -c, s], [1.0, 0.0, 0.0]]) for c, s in ((1, 0), (0, 1), (0, -1)))
-"""The rotations (3, 3) of a horizontal hand with its x upwards, in the frame of a support: first as its x points."""
-
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Load:
-    """A held thing: its corners (n, 3) in m and those of the room (8, 3) in m of fingers and palm, in the hand's frame.
+class FreePlace:
+    """Where the hand is in the world that puts a held thing down on a support."""
 
-    turns: the rotations (3, 3) of the hand, in the frame of a support, in which it puts the thing down.
-    """
-
-    corners: Array
-    fingers: Array
-    palm: Array
-    turns: tuple[Array, ...]
+    support: Support
+    hand: Pose
 
 
 def free_hand_pose(state: WorldState, arm: str, gripper: str, thing: str, to: str) -> Pose:
     """Return the pose of the hand, in the world, in which a held thing stands free on or in a carrier.
 
+    Errors as of `list_free_places`.
+    """
+    return next(list_free_places(state, arm, gripper, thing, to)).hand
+
+
+def list_free_places(state: WorldState, arm: str, gripper: str, thing: str, to: str) -> Iterator[FreePlace]:
+    """Return places in which a held thing stands free on or in a carrier: first where it is put if nothing else counts.
+
+    That is as near to the middle as it can be, between walls in rows. The others are nearby first and sparser farther
+    away, also with the hand turned; always the same. What stands at one is within the edges of the support.
+
     PlaceError if nothing there carries it, it does not fit, everything is taken, or it is out of reach. FrameError,
     MissingFact or SheetError if facts are missing.
     """
-    short, loads = state.vocabulary.short, [_read_load(state, gripper, thing, room) for room in (_ample, _narrow)]
+    short, loads = state.vocabulary.short, read_loads(state, gripper, thing)
     supports = [face_away(each, pose(state, arm).position) for each in find_supports(state, to)]
     tilted = next(filter(None, (tilt_problem(state, each) for each in supports)), None)
     if tilted is not None:
@@ -76,36 +59,30 @@ def free_hand_pose(state: WorldState, arm: str, gripper: str, thing: str, to: st
             "size",
         )
     others = [each for each in read_occupants(state) if each.individual != thing]
-    failures = []
+    found, failures = list[Iterator[FreePlace]](), list[PlaceError]()
     for support in supports:
         neighbours = [
             solid for each in others if each.individual != support.individual for solid in _in_frame(each, support)
         ]
-        found = _best_of(state, arm, support, loads, neighbours)
-        if isinstance(found, Pose):
-            return found
-        failures.append(found)
+        there = _list_with_room(state, arm, support, loads, neighbours)
+        if isinstance(there, PlaceError):
+            failures.append(there)
+        else:
+            found.append(there)
+    if found:
+        return interleave(found)
     why = "; ".join(dict.fromkeys(map(str, failures)))
     raise PlaceError(f"{short(thing)} cannot be put down: {why}", failures[-1].lack)
 
 
-def pose_in_hand(state: WorldState, gripper: str, thing: str) -> Pose:
-    """Return the pose of a held thing in the frame of the hand; PlaceError if the hand does not hold it."""
-    space = frame_tree_of(state)
-    if space.carrier(thing) != gripper:
-        short = state.vocabulary.short
-        raise PlaceError(f"{short(gripper)} does not hold {short(thing)}")
-    return space.own_pose(thing)
-
-
-def _best_of(
+def _list_with_room(
     state: WorldState, arm: str, support: Support, loads: Iterable[Load], neighbours: list[Neighbour]
-) -> Pose | PlaceError:
-    """Return the best hand pose on a support: with less room around the hand only if it is too small for more."""
-    found: Pose | PlaceError | None = None
+) -> Iterator[FreePlace] | PlaceError:
+    """Return the free places on a support: with less room around the hand only if it is too small for more."""
+    found: Iterator[FreePlace] | PlaceError | None = None
     for load in loads:
-        found = _roof_problem(state, support, load) or _best(state, arm, support, load, neighbours)
-        if isinstance(found, Pose) or found.lack != "room":
+        found = _roof_problem(state, support, load) or _list_free(state, arm, support, load, neighbours)
+        if not isinstance(found, PlaceError) or found.lack != "room":
             break
     assert found is not None, "there is a load"
     return found
@@ -118,52 +95,6 @@ def _roof_problem(state: WorldState, support: Support, load: Load) -> PlaceError
     return None if found is None else PlaceError(f"on {name_support(state, support)}, {found}", "headroom")
 
 
-def _ample(_hand: HandShape) -> tuple[float, float]:
-    """Return the room in m that fingers get: on each side, across the direction in which they close and along it."""
-    return HAND_M, FINGER_M
-
-
-def _narrow(hand: HandShape) -> tuple[float, float]:
-    """Return the least room in m that fingers need, as above."""
-    return hand.finger_width_m / 2 + FINGER_SLACK_M, hand.finger_thickness_m + RELEASE_CLEARANCES_M[-1] / 2
-
-
-def _read_load(
-    state: WorldState, gripper: str, thing: str, room_of: Callable[[HandShape], tuple[float, float]]
-) -> Load:
-    in_hand = pose_in_hand(state, gripper, thing)
-    corners = np.concatenate([_corners(each, in_hand) for each in solids_of(read_shape(state, thing))])
-    width_m = float(np.abs(corners[:, 1]).max())
-    hand = read_hand_shape(state, gripper)
-    across_m, beside_m = room_of(hand)
-    if state.value(thing, HELD_SIDEWAYS) is True:
-        room = _room_of_horizontal(hand, width_m + beside_m)
-        return Load(corners, room, room, SIDEWAYS)
-    fingers = CORNERS * np.array([across_m, width_m + beside_m, hand.tip_m])
-    behind = np.array([0.0, 0.0, hand.depth_m + PALM_SLACK_M])
-    palm = CORNERS * np.array([hand.palm_thickness_m, hand.palm_width_m, 0.0]) / 2 - behind
-    return Load(corners, fingers, palm, QUARTERS)
-
-
-def _corners(solid: Solid, place: Pose) -> Array:
-    """Return the corners (8, 3) in m of the box around a solid whose frame is at a pose, along the axes of the hand."""
-    axes = np.eye(3)
-    low, high = (np.array([sign * solid.reach(sign * axis, place) for axis in axes]) for sign in (-1, 1))
-    corners: Array = (low + high) / 2 + CORNERS * (high - low) / 2
-    return corners
-
-
-def _room_of_horizontal(hand: HandShape, half_open_m: float) -> Array:
-    """Return the corners (8, 3) in m of the room that a horizontal hand needs, in its frame, until it has withdrawn.
-
-    half_open_m: how far from its middle its open fingers reach.
-    """
-    behind_m = hand.depth_m + APPROACH_M
-    half = np.array([hand.half_height_m, max(half_open_m, hand.palm_width_m / 2), (hand.tip_m + behind_m) / 2])
-    corners: Array = CORNERS * half + np.array([0.0, 0.0, (hand.tip_m - behind_m) / 2])
-    return corners
-
-
 def _in_frame(other: Occupant, support: Support) -> Iterator[Neighbour]:
     """Yield the solids of what takes up room, in the frame of a support."""
     for box in other.boxes:
@@ -173,22 +104,31 @@ def _in_frame(other: Occupant, support: Support) -> Iterator[Neighbour]:
         yield Neighbour(other.individual, low, high, other.movable and over)
 
 
-def _best(state: WorldState, arm: str, support: Support, load: Load, neighbours: list[Neighbour]) -> Pose | PlaceError:
-    """Return the free hand pose nearest to the middle of a support, or why there is none."""
+def _list_free(
+    state: WorldState, arm: str, support: Support, load: Load, neighbours: list[Neighbour]
+) -> Iterator[FreePlace] | PlaceError:
+    """Return the free places on a support, first the nearest to its middle, or why there is none."""
     sheet, base = sheet_of(state, arm), pose(state, arm)
     reach_m, shoulder = sheet.number("reach"), base.apply(np.array([0.0, 0.0, sheet.number("shoulderHeight")]))
+
+    def is_in_reach(hand: Pose) -> bool:
+        far_m = float(np.linalg.norm(hand.position - shoulder))
+        return far_m < REACH_SHARE * reach_m and np.hypot(*(hand.position - base.position)[:2]) > NEAR_BASE_M
+
     blockers: list[Neighbour] = []
     distances_m: list[float] = []
-    for hand in _hands(support, load):
+    for hand in _hands(support, load, PITCH_M):
         blocker = _find_blocker(hand, load, neighbours)
         if blocker is not None:
             blockers.append(blocker)
             continue
-        found = support.middle @ hand
-        away = found.position - base.position
-        distances_m.append(float(np.linalg.norm(found.position - shoulder)))
-        if distances_m[-1] < REACH_SHARE * reach_m and np.hypot(*away[:2]) > NEAR_BASE_M:
-            return found
+        first = support.middle @ hand
+        if is_in_reach(first):
+            coarse = _hands(support, load, choose_pitch_m(support.half))
+            free = (support.middle @ each for each in coarse if _find_blocker(each, load, neighbours) is None)
+            others = spread_out(first, filter(is_in_reach, free))
+            return (FreePlace(support, each) for each in chain((first,), others))
+        distances_m.append(float(np.linalg.norm(first.position - shoulder)))
     room = WantedRoom(state, support, np.ptp(load.corners, axis=0)[:2], _needed(support, load))
     if distances_m:
         return room.describe_distance(arm, reach_m, distances_m)
@@ -202,15 +142,15 @@ def _needed(support: Support, load: Load) -> Array:
     return min(sides, key=lambda each: float(np.maximum(each - 2.0 * support.half, 0.0).sum()))
 
 
-def _hands(support: Support, load: Load) -> Iterator[Pose]:
-    """Yield the hand poses in the frame of a support whose load stands within its edges.
+def _hands(support: Support, load: Load, pitch_m: float) -> Iterator[Pose]:
+    """Yield the hand poses in the frame of a support whose load stands within its edges, so far from each other.
 
     Between walls first in rows, so that many things fit; then, and without walls at once, from the middle outwards.
     """
     if support.rim_m > 0.0:
         yield from (hand for hand in _rows(support, load) if _is_within_walls(support, load.palm, hand))
     turns = [(rotation, *_room(support, load, rotation)) for rotation in load.turns]
-    for x, y in _grid(support.half):
+    for x, y in _grid(support.half, pitch_m):
         for rotation, height_m, low, high in turns:
             if (np.array([x, y]) + low >= -support.half).all() and (np.array([x, y]) + high <= support.half).all():
                 yield Pose(np.array([x, y, height_m]), rotation)
@@ -258,9 +198,9 @@ def _is_within_walls(support: Support, palm: Array, hand: Pose) -> bool:
     return bool((middle + least[:2] >= -support.half).all() and (middle + most[:2] <= support.half).all())
 
 
-def _grid(half: Array) -> list[tuple[float, float]]:
+def _grid(half: Array, pitch_m: float) -> list[tuple[float, float]]:
     """Return points in m on a grid over a rectangle with half sides (2,) in m, in order of distance from its middle."""
-    xs, ys = (np.arange(-int(each / PITCH_M), int(each / PITCH_M) + 1) * PITCH_M for each in half.tolist())
+    xs, ys = (np.arange(-int(each / pitch_m), int(each / pitch_m) + 1) * pitch_m for each in half.tolist())
     points = [(float(x), float(y)) for x in xs for y in ys]
     return sorted(points, key=lambda each: (round(each[0] ** 2 + each[1] ** 2, 9), each))
 

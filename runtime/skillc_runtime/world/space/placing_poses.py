@@ -11,25 +11,35 @@ from skillc_runtime.world.space.hand_shape import overlaps
 from skillc_runtime.world.space.no_place import PlaceError
 from skillc_runtime.world.space.occupants import Occupant, read_occupants
 from skillc_runtime.world.space.oriented_box import OrientedBox
-from skillc_runtime.world.state.terms import HAS_A, IS_TAKEN, PLACING_POSE
+from skillc_runtime.world.state.terms import HAS_A, IS_TAKEN, PLACING_POSE, RESERVED_FOR
 from skillc_runtime.world.state.world_state import WorldState
 
 
 def find_placing_pose(state: WorldState, thing: str, to: str) -> str | None:
-    """Return the first free placing pose of a place, in order of IRI; None if it states none.
+    """Return the first free placing pose of a place for a thing, in order of IRI; None if it states none for any thing.
 
-    PlaceError if all are taken.
+    Those that are reserved for the thing come first; those that are for other things do not count. PlaceError if all
+    that are for any thing are taken.
     """
+    return next(iter(list_placing_poses(state, thing, to)), None)
+
+
+def list_placing_poses(state: WorldState, thing: str, to: str) -> list[str]:
+    """Return the free placing poses of a place for a thing, as of `find_placing_pose`; PlaceError as there."""
     stated = sorted(each for each in state.objects(to, HAS_A) if state.is_a(each, PLACING_POSE))
     if not stated:
-        return None
+        return []
     others = [each for each in read_occupants(state) if each.movable and each.individual != thing]
-    reasons = []
+    reserved = {each: state.objects(each, RESERVED_FOR) for each in stated}
+    own = [each for each in stated if thing in reserved[each] and _why_taken(state, thing, each, others) is None]
+    reasons, free = list[str](), list[str]()
     for each in stated:
-        taken = _why_taken(state, thing, each, others)
-        if taken is None:
-            return each
-        reasons.append(taken)
+        if not reserved[each]:
+            taken = _why_taken(state, thing, each, others)
+            free += [each] if taken is None else []
+            reasons += [] if taken is None else [taken]
+    if own or free or not reasons:
+        return [*own, *free]
     short = state.vocabulary.short
     raise PlaceError(f"{short(thing)} cannot be put down at {short(to)}: {'; '.join(reasons)}", "free room")
 
