@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from skillc_runtime.control.watchdog import HeartbeatWatchdog
-from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
+from skillc_runtime.primitives.primitive import Primitive, SkillFailure, SpaceLacking, Status
 from skillc_runtime.world.state.model import WorldModel
 from tree.library import world
 
 PERIOD_S = 0.1
 
-Ending = Literal["success", "fail", "crash", "refuse", "crash at start", "exit"]
+Ending = Literal["success", "fail", "crash", "refuse", "crash at start", "exit", "cramped"]
 
 
 @dataclass(frozen=True)
@@ -82,6 +82,8 @@ class Scripted(Primitive):
             return Status.RUNNING
         if self.script.ending == "fail":
             raise SkillFailure(f"{self.name} failed")
+        if self.script.ending == "cramped":
+            raise SpaceLacking(f"{self.name} has no room")
         if self.script.ending == "exit":
             raise SystemExit(0)
         if self.script.ending == "crash":

@@ -50,8 +50,15 @@ class ArmParts:
 
     def list_obstacles(self, q: Array, base: Pose) -> Iterator[SolidObstacle]:
         """Yield the geoms at joints q (nv,) in rad as solids, with the base at a pose."""
+        yield from self._list(q, base, self._geoms.tolist())
+
+    def list_hand(self, q: Array, base: Pose) -> Iterator[SolidObstacle]:
+        """Yield the geoms of the hand and of what it holds, as `list_obstacles`."""
+        yield from self._list(q, base, [each for each in self._geoms.tolist() if each not in self._body.links])
+
+    def _list(self, q: Array, base: Pose, geoms: list[int]) -> Iterator[SolidObstacle]:
         self._move(q)
-        for geom in self._geoms.tolist():
+        for geom in geoms:
             at = Pose(self._data.geom_xpos[geom], self._data.geom_xmat[geom].reshape(3, 3))
             kind, half, middle, points = self._read_solid(geom)
             there = base @ at @ Pose(middle, np.eye(3))

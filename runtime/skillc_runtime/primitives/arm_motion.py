@@ -62,6 +62,7 @@ class ArmMotion(Primitive):
 
     def note_touch(self) -> None:
         """Write what follows from a touch on the way to the world model."""
+        self._guard.note_unknown(type(self).__name__)
 
     def start_motion(self) -> Computing:
         """Find the motion and give it to the arm; SkillFailure before anything moves."""

@@ -13,6 +13,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.contradiction import contradict, contradict_place
 from skillc_runtime.primitives.pose_consensus import agreeing_estimates, mean_pose
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
+from skillc_runtime.primitives.touched_obstacles import find_explained
 from skillc_runtime.world.space.bounding_boxes import bounding_box
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import move_changes, pose
@@ -116,7 +117,7 @@ class Locate(Primitive):
         """Write where the object was seen, and what follows from that."""
         world = self.cell.world
         before = world.snapshot()
-        world.commit(self._placement(in_camera), type(self).__name__, "sensed")
+        self._write_place(in_camera)
         left = self._places_left(before)
         if left:
             world.commit(left, type(self).__name__, "sensed")
@@ -137,6 +138,13 @@ class Locate(Primitive):
         assumed = search_changes(self.cell.world.snapshot(), self._object, places)
         if assumed:
             self.cell.world.commit(assumed, type(self).__name__, "assumed")
+
+    def _write_place(self, in_camera: Pose) -> None:
+        """Write where the object is, and that nothing else was touched there; SkillFailure as of `_placement`."""
+        world = self.cell.world
+        world.commit(self._placement(in_camera), type(self).__name__, "sensed")
+        if explained := find_explained(world.snapshot(), self._object):
+            world.commit(explained, type(self).__name__, "sensed")
 
     def _placement(self, in_camera: Pose) -> list[Change]:
         """Return the changes that place the object; SkillFailure if the world model cannot say where that is."""
@@ -195,7 +203,7 @@ class ConfirmPlaced(Locate):
     def _conclude(self, in_camera: Pose) -> None:
         world = self.cell.world
         before = world.snapshot()
-        world.commit(self._placement(in_camera), "ConfirmPlaced", "sensed")
+        self._write_place(in_camera)
         try:
             problem = lying_problem(world.snapshot(), self._object, self._place)
         except FrameError as error:

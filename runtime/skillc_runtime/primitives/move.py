@@ -175,7 +175,8 @@ class MoveLinear(ArmMotion):
         return float(np.linalg.norm(self.arm.measured.pose.position - self._target.position)) < ARRIVED_M
 
     def note_touch(self) -> None:
-        """Write that placing poses are taken to which something held was to go."""
+        """Write as well that placing poses are taken to which something held was to go."""
+        super().note_touch()
         state = self.cell.world.snapshot()
         holds = any(self.cell.gripper(each).holding for each in state.objects(self._individual, HAS_GRIPPER))
         taken = [SetProperty(each, IS_TAKEN, True) for each in _placing_poses_at(state, self._target)] if holds else []

@@ -10,7 +10,8 @@ import numpy as np
 
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.working_face import working_face
-from skillc_runtime.primitives.primitive import SkillFailure
+from skillc_runtime.primitives.primitive import SkillFailure, SpaceLacking
+from skillc_runtime.primitives.touched_obstacles import note_obstacle
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.space.hand_shape import read_hand_shape
@@ -19,7 +20,7 @@ from skillc_runtime.world.space.oriented_box import CORNERS
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.labelled import LabelledValue, Quantity
 from skillc_runtime.world.state.labelling import label
-from skillc_runtime.world.state.terms import HAS_GRIPPER
+from skillc_runtime.world.state.terms import HAS_GRIPPER, TOUCHED_OBSTACLE
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
@@ -48,6 +49,7 @@ class TouchGuard:
     def __init__(self, cell: Cell, arm: str, limit_n: float) -> None:
         self._cell, self._individual, self._arm, self._limit_n = cell, arm, cell.arm(arm), limit_n
         self._way: Array = np.zeros(3)
+        self._unknown: Array | None = None
 
     def find_touch(self) -> SkillFailure | None:
         """Stop the arm if something resists, and return what is touched; else None."""
@@ -57,11 +59,17 @@ class TouchGuard:
         speed = hypot(*velocity.tolist())
         if speed > MOVING_M_S:
             self._way = velocity / speed
-        resistance_n = -float(self._arm.measured.wrench[:3] @ self._way)
+        force = self._arm.measured.wrench[:3].copy()
+        resistance_n = -float(force @ self._way)
         if resistance_n <= self._limit_n:
             return None
         self._hold_here()
-        return self._describe(resistance_n)
+        return self._describe(resistance_n, -force / np.linalg.norm(force))
+
+    def note_unknown(self, origin: str) -> None:
+        """Write to the world model what was touched if nothing is known to be there."""
+        if self._unknown is not None:
+            note_obstacle(self._cell, self._individual, self._unknown, origin)
 
     def _hold_here(self) -> None:
         """Hold the tool where it is along its way, so that it does not press on what it touches."""
@@ -69,8 +77,10 @@ class TouchGuard:
         self._arm.compliance.release(self._way)
         self._arm.compliance.restore()
 
-    def _describe(self, resistance_n: float) -> SkillFailure:
-        words = self._cell.world.snapshot().vocabulary
+    def _describe(self, resistance_n: float, into: Array) -> SkillFailure:
+        """Return the failure of a motion that something resists in the direction `into`, a unit vector (3,)."""
+        state = self._cell.world.snapshot()
+        words = state.vocabulary
         thing = next(filter(None, (self._cell.gripper(each).holding for each in self._grippers)), None)
         points = self._tips if thing is None else self._corners_of(thing)
         ahead = points @ self._way
@@ -81,9 +91,13 @@ class TouchGuard:
             there = "nothing is known to be there"
         else:
             there, named = "{other} is believed to be {far:.0f mm} from there", {"other": label(nearest, words)}
-        if thing is not None and self._way[2] > UPWARDS:
+        may_weigh = thing is not None and self._way[2] > UPWARDS
+        if may_weigh:
             there += ", or it weighs more than is known"
-        return SkillFailure(
+        elif far_m > KNOWN_M or state.is_a(nearest, TOUCHED_OBSTACLE):
+            self._unknown = into
+        failure = SkillFailure if may_weigh else SpaceLacking
+        return failure(
             "{touching} touches something at a height of {height:.3f} and meets {force:.0f}: " + there,
             touching=label(thing or next(iter(self._grippers), self._individual), words),
             height=Quantity(height_m, "m"),

@@ -119,12 +119,12 @@ class FailedSteps:
         return tuple(found)
 
     def _has_changed(self, failed: FailedStep, state: WorldState) -> bool:
-        found = find_changed_facts(failed.state, state)
         if failed.failure.lacks_space:
             # Whoever only plans needs no numpy.
-            from skillc_runtime.execution.plans.standing import stands_elsewhere
+            from skillc_runtime.planning.moved_things import has_moved
 
-            return any(stands_elsewhere(each, failed.state, state) for each in found)
+            return has_moved(failed.state, state)
+        found = find_changed_facts(failed.state, state)
         changed = [each for each in found if not _is_noise(each, failed.state, state)]
         about = set(failed.step.arguments.values())
         return any(

@@ -11,6 +11,7 @@ from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
+from skillc_runtime.planning.moved_things import has_moved
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.eval.conditions import evaluate
@@ -60,10 +61,13 @@ class LoopNode(Node):
 
 
 class RetryNode(LoopNode):
-    """Repeats the child until it succeeds, at most `count` times."""
+    """Repeats the child until it succeeds, at most `count` times.
+
+    A child that lacked space is not repeated unless something stands elsewhere than when its round began.
+    """
 
     kind: ClassVar[str] = "retry"
-    __slots__ = ("count",)
+    __slots__ = ("_began", "count")
 
     def __init__(self, context: TreeContext, node: tree.Retry, child: Node) -> None:
         super().__init__(context, node.source, child, f"retry {node.count}")
@@ -73,12 +77,21 @@ class RetryNode(LoopNode):
         return self.child.dry_start(freed)
 
     def next_round(self) -> Status:
+        self._began = self.context.state
         return self.start_round()
 
     def on_child_ended(self, status: Status) -> Status:
         if status is SUCCESS:
             return self.succeed()
-        return RUNNING if self.rounds < self.count else self.fail(self.child.failure)
+        return RUNNING if self.rounds < self.count and self._may_succeed() else self.fail(self.child.failure)
+
+    def _may_succeed(self) -> bool:
+        """Whether there is a reason why another round may end differently."""
+        failure = self.child.failure
+        if failure is None or not failure.lacks_space or has_moved(self._began, self.context.cell.world.snapshot()):
+            return True
+        self.context.note("not again: it would lack the same space, nothing stands elsewhere", self.id, self.source)
+        return False
 
     def remains_satisfied(self) -> bool:
         return self.status is SUCCESS and self.child.remains_satisfied()

@@ -6,6 +6,7 @@ import numpy as np
 
 from skillc_model.read_write import FactPattern
 from skillc_runtime.motion.pose import Pose, log
+from skillc_runtime.planning.world_changes import find_changed_facts
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.terms import (
@@ -16,6 +17,7 @@ from skillc_runtime.world.state.terms import (
     BOARD,
     CONTAIN,
     FACE,
+    IS_TAKEN,
     OFFSET,
     ON,
     OPENING,
@@ -36,8 +38,11 @@ WHERE = frozenset((*POSITION, *ORIENTATION, *ANGLES, *OFFSET, BASE_FRAME_ID, ANC
 
 
 def stands_elsewhere(fact: FactPattern, before: WorldState, after: WorldState) -> bool:
-    """Whether something stands elsewhere, or is held by another, by a fact in which versions of the world differ."""
-    if fact.term in (AT, CONTAIN):
+    """Whether something stands elsewhere, or is held by another, by a fact in which versions of the world differ.
+
+    A place that is taken counts as well.
+    """
+    if fact.term in (AT, CONTAIN, IS_TAKEN):
         return True
     if fact.term not in WHERE or fact.subject is None or _is_reserved(fact.subject, before, after):
         return False
@@ -51,6 +56,11 @@ def stands_elsewhere(fact: FactPattern, before: WorldState, after: WorldState) -
 def _is_reserved(individual: str, *states: WorldState) -> bool:
     """Whether something is only a place that is kept for a thing."""
     return any(RESERVED_FOR in each.facts and each.objects(individual, RESERVED_FOR) for each in states)
+
+
+def has_moved(before: WorldState, after: WorldState) -> bool:
+    """Whether anything stands elsewhere, or is held by another, in a version of the world than in an earlier one."""
+    return any(stands_elsewhere(each, before, after) for each in find_changed_facts(before, after))
 
 
 def _find_pose(state: WorldState, individual: str) -> Pose | None:
