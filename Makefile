@@ -25,7 +25,7 @@ KILLS := 200
 REQUESTS := 500
 # How many random surfaces for each of three arms are judged: whether what a look in space says of wiping them is so.
 SURFACES := 200
-# How many random layouts of each of six kinds (stacks, crowds, slots, shelves, ...) are judged in the same way.
+# How many random layouts of each of eleven kinds (stacks, slots, shelves, two arms, bases, ...) are judged in the same way.
 LAYOUTS := 50
 # How many random sequences of edits are analysed in `make soak`, after each edit from nothing and with what was known.
 SEQUENCES := 5000

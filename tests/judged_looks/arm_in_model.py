@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 from typing import Any
 
 import mujoco
 import numpy as np
 
+from skillc_runtime.backends.simulation.contact_bits import CARRIES, PAD
 from skillc_runtime.motion.pose import Array, log
 
 DEEP_M = 0.001
-"""How deep bodies overlap where they touch by more than is left by resting on each other."""
+"""How deep bodies overlap where they touch by more than is left by resting on each other; a hand rests on nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,10 +68,21 @@ class ArmInModel:
         return None
 
 
+def copy_with_solid_pads(model: Any) -> Any:
+    """Return a copy of a model in which the pads of fingers touch what is fixed, too, not parts alone."""
+    solid = copy(model)
+    solid.geom_conaffinity[model.geom_contype == PAD] |= CARRIES
+    return solid
+
+
 def touching_bodies(model: Any, data: Any) -> list[tuple[str, str]]:
     """Return the names of the bodies that overlap as they are placed in `data`."""
     mujoco.mj_kinematics(model, data)
     mujoco.mj_collision(model, data)
-    deep = [each for each in data.contact[: data.ncon] if each.dist < -DEEP_M]
-    names = [[model.body(model.geom_bodyid[geom]).name for geom in each.geom] for each in deep]
-    return [(one, other) for one, other in names]
+    found = list[tuple[str, str]]()
+    for each in data.contact[: data.ncon]:
+        one, other = (model.body(model.geom_bodyid[geom]).name for geom in each.geom)
+        may_rest = not any(body.startswith("lab:Hand-") for body in (one, other))
+        if each.dist < (-DEEP_M if may_rest else 0.0):
+            found.append((one, other))
+    return found

@@ -21,7 +21,7 @@ from skillc_runtime.recording.failure_text import describe_failure
 from skillc_runtime.world.state.model import WorldModel
 
 LIMIT_S = 120.0
-"""How long plans for a task are looked at."""
+"""How long plans for a task are looked at, by the look that is judged and in a run, also on a busy machine."""
 
 
 def judge_task(task: LoadedTask, seed: int, kind: str, search: Callable[[SimulatedCell], str | None]) -> Verdict:
@@ -69,7 +69,7 @@ def make_ideal_cell(task: LoadedTask) -> SimulatedCell:
 
 def _run(task: LoadedTask, cell: SimulatedCell) -> str | None:
     """Run the task with a plan that is looked at; return why it failed, None if it did not."""
-    prepared = prepare_task(task.assignment, task.library, look=SpaceLook())
+    prepared = prepare_task(task.assignment, task.library, cancel=CancelToken(LIMIT_S), look=SpaceLook())
     if isinstance(prepared, NotStarted):
         return prepared.reason
     execution = execute_task(prepared, task.library, cell)

@@ -9,7 +9,7 @@ from pathlib import Path
 from judged_looks.series import judge_series
 from judged_looks.verdict import format_table, share_solved, share_that_is_so
 from random_layouts.drawing import KINDS
-from random_layouts.judging import judge
+from random_layouts.judging import TILTED, judge
 
 
 def main() -> int:
@@ -19,7 +19,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0, help="the seed of the first layout")
     parser.add_argument("--out", type=Path, default=Path("out/soak/layouts"), help="where cells and results are kept")
     options = parser.parse_args()
-    wanted = [(options.seed + number, kind) for number in range(options.layouts) for kind in KINDS]
+    wanted = [(options.seed + number, kind) for number in range(options.layouts) for kind in (*KINDS, TILTED)]
     found = judge_series(wanted, judge, options.out)
     print(format_table(found))
     print(f"{100 * share_solved(found):.1f} % of what can be done was said to go")

@@ -10,18 +10,19 @@ from typing import Final
 
 from random_cells.drawing import BIN_PLACES, PART_PLACES, TABLE_M, ArmName, Bin, Cell, Part, Point
 from random_cells.writing import ARMS, HANDS, format_scene
+from random_layouts.stations import Station, draw_stations, format_stations, spot_on
 
 ARM_NAMES: Final[tuple[ArmName, ...]] = ("iiwa14", "ur5e", "panda")
 
 PARTS_NEAR: Final = PART_PLACES[:9]
 
-SECOND_ARM_M: Final = (0.0, 1.15, TABLE_M)
-"""Where the second arm stands: beside the first one, as its table beside the other."""
+SECOND_ARM: Final = (0.0, 1.15, TABLE_M, 0.0)
+"""Where the second arm stands, in m and degrees: beside the first one, as its table beside the other."""
 
 ARM = """lab:Robot-2 a skillc:FixedRobot ; skiros:FrameId "robot2" ; skiros:at lab:Cell ; skillc:hasArm lab:Arm-2 .
 
 {arm}    skiros:FrameId "arm2" ; skiros:BaseFrameId "robot2" ; skillc:deviceState "Idle" ;
-    skiros:PositionX {at[0]} ; skiros:PositionY {at[1]} ; skiros:PositionZ {at[2]} .
+    skiros:PositionX {at[0]} ; skiros:PositionY {at[1]} ; skiros:PositionZ {at[2]} ; skillc:yaw {at[3]} .
 
 lab:Hand-2 a {hand} ; skiros:FrameId "hand2" ; skillc:deviceState "Idle" .
 """
@@ -29,10 +30,15 @@ lab:Hand-2 a {hand} ; skiros:FrameId "hand2" ; skillc:deviceState "Idle" .
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """A cell, of which the part of the first goal is to be moved, and the arm that stands beside the first one."""
+    """A cell, of which the part of the first goal is to be moved, and a second arm: at x, y, z in m, yaw in degrees.
+
+    With `stations` the first arm stands on a mobile base, which drives from one of them to another.
+    """
 
     cell: Cell
     second_arm: ArmName | None = None
+    second_at: tuple[float, float, float, float] = SECOND_ARM
+    stations: tuple[Station, ...] = ()
 
     @property
     def arms(self) -> int:
@@ -47,11 +53,13 @@ def draw_layout(seed: int, kind: str) -> Layout:
 
 def format_layout(layout: Layout, library: str) -> str:
     """Return the scene of a layout as Turtle."""
+    if layout.stations:
+        return format_stations(layout.cell, layout.stations, library)
     text = format_scene(layout.cell, library)
     if layout.second_arm is None:
         return text
     arm = ARMS[layout.second_arm].replace("-1", "-2").replace("sheet-2", "sheet")
-    return text + "\n" + ARM.format(arm=arm, hand=HANDS[layout.second_arm], at=SECOND_ARM_M)
+    return text + "\n" + ARM.format(arm=arm, hand=HANDS[layout.second_arm], at=layout.second_at)
 
 
 def _draw_part(rng: Random, name: str, place: tuple[float, float], on_m: float = TABLE_M) -> Part:
@@ -133,8 +141,8 @@ def _shelf(rng: Random) -> Layout:
 def _two_arms(rng: Random) -> Layout:
     """Draw two arms side by side; part, bin and, often, a bin between are each in reach of one arm, both or none."""
     cell = _base(rng)
-    width = {"at": (0.5, SECOND_ARM_M[1], TABLE_M), "size": (0.68, 1.0, TABLE_M)}
-    boxes = [("Table-2", width["size"], width["at"]), ("Pedestal-2", (0.3, 0.3, TABLE_M), SECOND_ARM_M)]
+    width = {"at": (0.5, SECOND_ARM[1], TABLE_M), "size": (0.68, 1.0, TABLE_M)}
+    boxes = [("Table-2", width["size"], width["at"]), ("Pedestal-2", (0.3, 0.3, TABLE_M), SECOND_ARM[:3])]
 
     def place() -> tuple[float, float]:
         return round(rng.uniform(0.3, 0.65), 3), round(rng.uniform(-0.45, 1.55), 3)
@@ -155,7 +163,89 @@ def _two_arms(rng: Random) -> Layout:
     return Layout(replace(cell, parts=(part,), bins=bins, boxes=tuple(boxes)), rng.choice(ARM_NAMES))
 
 
+def _rack(rng: Random) -> Layout:
+    """Draw the part in a compartment of a rack, with a board above it and walls, from which it is taken sideways."""
+    cell = _base(rng)
+    x, y, floor = round(rng.uniform(0.5, 0.62), 3), round(rng.uniform(-0.4, -0.1), 3), rng.choice((0.0, 0.15, 0.3))
+    part = _draw_part(rng, "Part-1", (x, y), TABLE_M + floor)
+    wide, deep, high = (round(rng.uniform(*each), 3) for each in ((0.18, 0.4), (0.1, 0.2), (0.12, 0.35)))
+    top, back = TABLE_M + floor + high, round(x + deep / 2 + 0.04, 3)
+    boxes = [("Board-above", (deep, wide, 0.015), (x, y, round(top + 0.015, 3)))]
+    if floor:
+        boxes.append(("Board-below", (deep, wide, 0.015), (x, y, TABLE_M + floor)))
+    if rng.random() < 0.6:
+        boxes.append(("Wall-back", (0.015, wide, round(high + floor, 3)), (back, y, round(top, 3))))
+    for name, side in rng.sample([("left", 0.5), ("right", -0.5)], rng.randint(0, 2)):
+        at = (x, round(y + side * (wide + 0.02), 3), round(top, 3))
+        boxes.append((f"Wall-{name}", (deep, 0.015, round(high + floor, 3)), at))
+    return Layout(replace(cell, parts=(part,), boxes=tuple(boxes)))
+
+
+def _full(rng: Random) -> Layout:
+    """Draw a bin in which other parts stand already, so that there may be no more room, and perhaps another one."""
+    size = (round(rng.uniform(0.07, 0.155), 3), round(rng.uniform(0.07, 0.155), 3))
+    cell = _base(rng)
+    bins = _draw_bins(rng, rng.randint(1, 2), size)
+    (x, y, _), inside = bins[0].at, list[Part]()
+    for number in range(2, rng.randint(3, 5)):
+        one = _draw_part(rng, f"Part-{number}", (0.0, 0.0), TABLE_M + 0.0045)
+        room = [(each - side) / 2 - 0.01 for each, side in zip(size, one.size, strict=False)]
+        at = tuple(round(middle + rng.uniform(-each, each), 4) for middle, each in zip((x, y), room, strict=True))
+        if all(abs(at[i] - each.at[i]) > (one.size[i] + each.size[i]) / 2 for each in inside for i in (0, 1)):
+            inside.append(replace(one, at=(*at, one.at[2])))
+    contained = tuple((each.name, "Bin-1") for each in inside)
+    return Layout(replace(cell, parts=(*cell.parts, *inside), bins=bins, contained=contained))
+
+
+def _opposite(rng: Random) -> Layout:
+    """Draw two arms that face each other across the table, one higher than the other, so that their reach differs."""
+    cell = _base(rng)
+    second = (
+        round(rng.uniform(1.05, 1.4), 2),
+        round(rng.uniform(-0.4, 0.4), 2),
+        round(rng.uniform(0.4, 0.9), 2),
+        180.0,
+    )
+    pedestal = ("Pedestal-2", (0.3, 0.3, second[2]), second[:3])
+    stand = (0.2, 0.2, round(rng.uniform(0.1, 0.35), 2))
+    spots = list[tuple[float, float]]()
+    while len(spots) < 3:
+        spot = (round(rng.uniform(0.27, 0.72), 3), round(rng.uniform(-0.5, 0.5), 3))
+        if all((spot[0] - x) ** 2 + (spot[1] - y) ** 2 > 0.25**2 for x, y in spots):
+            spots.append(spot)
+    high = rng.random() < 0.5
+    on_m = TABLE_M + (stand[2] if high else 0.0)
+    boxes = [pedestal, *([("Stand-1", stand, (*spots[0], round(on_m, 3)))] if high else [])]
+    part = _draw_part(rng, "Part-1", spots[0], on_m)
+    bins = tuple(
+        Bin(f"Bin-{number}", (0.155, 0.155, 0.04), (*spot, TABLE_M + 0.02))
+        for number, spot in enumerate(spots[1 : rng.choice((2, 3))], 1)
+    )
+    return Layout(replace(cell, parts=(part,), bins=bins, boxes=tuple(boxes)), rng.choice(ARM_NAMES), second)
+
+
+def _bases(rng: Random) -> Layout:
+    """Draw a base with an arm, and two or three workstations, on whose tables part and bins are."""
+    cell = _base(rng)
+    stations = draw_stations(rng, rng.randint(2, 3))
+    first, second = rng.sample(stations, 2)
+    part = replace(cell.parts[0], at=(*spot_on(rng, first), cell.parts[0].at[2]))
+    bin_ = Bin("Bin-1", (0.155, 0.155, 0.04), (*spot_on(rng, second), TABLE_M + 0.02))
+    return Layout(replace(cell, parts=(part,), bins=(bin_,)), stations=stations)
+
+
 KINDS: Final[Mapping[str, Callable[[Random], Layout]]] = MappingProxyType(
-    {"plain": _plain, "stack": _stack, "crowd": _crowd, "slot": _slot, "shelf": _shelf, "two-arms": _two_arms}
+    {
+        "plain": _plain,
+        "stack": _stack,
+        "crowd": _crowd,
+        "slot": _slot,
+        "shelf": _shelf,
+        "two-arms": _two_arms,
+        "rack": _rack,
+        "full": _full,
+        "opposite": _opposite,
+        "bases": _bases,
+    }
 )
 """The kinds of layouts, by name."""

@@ -6,17 +6,19 @@ more ways than there are.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import pairwise, product
 
 import mujoco
 import numpy as np
 
-from judged_looks.arm_in_model import ArmInModel, Frame, touching_bodies
+from judged_looks.arm_in_model import ArmInModel, Frame, copy_with_solid_pads, touching_bodies
 from random_cells.drawing import TABLE_M, Bin, Part
 from random_layouts.drawing import Layout
+from random_layouts.stations import BASE_M, TABLE_SIDES_M, Station
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.simulation.names import base_body_name
 from skillc_runtime.motion.pose import Array, exp
 
 MOST_MOVES = 3
@@ -24,6 +26,12 @@ STARTS = 12
 """From how many random postures each posture is searched for."""
 
 APPROACH_M, LINE_M, LIFT_M = 0.10, 0.02, 0.05
+SIDEWAYS_LIFT_M = 0.02
+"""How far what is grasped from the side is lifted before the hand goes back."""
+
+STANDS, STAND_M, STAND_RAD = 40, 0.45, 0.5
+"""How many places of a base at a workstation are tried, and how far from where that wants it, in m and rad."""
+
 FLOOR_M = 0.004
 """How thick the floor of a bin is."""
 
@@ -39,7 +47,9 @@ AHEAD = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 """The axes (3, 3) of a hand that points down, its fingers along y, and of one that points along x."""
 
 Poses = Mapping[str, Frame]
-"""Where the middles of parts are, by name."""
+"""Where the middles of parts are, and the base at BASE, by name."""
+
+BASE = "Robot-1"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,13 +69,15 @@ def find_way(cell: SimulatedCell, layout: Layout) -> str | None:
 
 class _Search:
     def __init__(self, cell: SimulatedCell, layout: Layout) -> None:
-        self.model, self.data = cell.model, mujoco.MjData(cell.model)
+        self.model = model = copy_with_solid_pads(cell.model)
+        self.data = mujoco.MjData(model)
         self.data.qpos[:] = cell.data.qpos
-        self.arms = [ArmInModel(cell.model, self.data, number + 1) for number in range(layout.arms)]
+        self.arms = [ArmInModel(model, self.data, number + 1) for number in range(layout.arms)]
         self.homes = [(each.q_at, cell.data.qpos[each.q_at].copy()) for each in self.arms]
         self.parts = {each.name: each for each in layout.cell.parts}
         self.bins = {each.name: each for each in layout.cell.bins}
-        self.goal = layout.cell.goal[0]
+        self.goal, self.stations = layout.cell.goal[0], layout.stations
+        self.base = int(cell.model.body(base_body_name(f"lab:{BASE}")).mocapid[0]) if layout.stations else -1
         self.rng = np.random.default_rng(0)
 
     def find(self) -> str | None:
@@ -94,11 +106,26 @@ class _Search:
         return None
 
     def _move(self, poses: Poses, arm: ArmInModel, part: Part, bin_: Bin) -> Poses | None:
-        for grasp in self._grasps(poses, arm, part):
-            for spot in self._spots(part, bin_):
-                if self._puts(poses, grasp, part, spot):
-                    return {**poses, part.name: spot}
+        for there in self._stands(poses, poses[part.name]):
+            for grasp in self._grasps(there, arm, part):
+                for spot in self._spots(part, bin_):
+                    at = next((each for each in self._stands(there, spot) if self._puts(each, grasp, part, spot)), None)
+                    if at is not None:
+                        return {**at, part.name: spot}
         return None
+
+    def _stands(self, poses: Poses, to: Frame) -> Iterator[Poses]:
+        """Yield where all is if the base, if there is one, stands at the workstation where something is."""
+        if not self.stations:
+            yield poses
+            return
+        station = min(self.stations, key=lambda each: float(np.hypot(*(_find_table(each)[0] - to.position[:2]))))
+        offsets = self.rng.uniform(-1.0, 1.0, (STANDS, 3)) * (STAND_M, STAND_M, STAND_RAD)
+        for ahead, left, turned in (np.zeros(3), *offsets):
+            turn = np.radians(station.yaw_deg) + turned
+            base = Frame(np.array([*station.place(ahead, left), 0.0]), exp(np.array([0.0, 0.0, turn])))
+            if not any(_is_in_table(base, each) for each in self.stations):
+                yield {**poses, BASE: base}
 
     def _grasps(self, poses: Poses, arm: ArmInModel, part: Part) -> Iterator[Grasp]:
         """Yield the grasps from which the part can be lifted."""
@@ -111,8 +138,8 @@ class _Search:
                 q = self._reach(poses, arm, hand, width + ROOM_M, None)
                 if q is None:
                     continue
-                lifted = Frame(hand.position + np.array([0.0, 0.0, LIFT_M]), axes)
-                if self._follow(poses, arm, q, (hand, lifted), width, part.name):
+                lifts = (hand, *_lift(hand))
+                if self._follow(poses, arm, q, lifts, width, part.name):
                     yield Grasp(arm, hand, width, q)
 
     def _spots(self, part: Part, bin_: Bin) -> Iterator[Frame]:
@@ -153,16 +180,14 @@ class _Search:
         return None
 
     def _follow(
-        self, poses: Poses, arm: ArmInModel, q: Array, line: tuple[Frame, Frame], opening_m: float, held: str | None
+        self, poses: Poses, arm: ArmInModel, q: Array, corners: Sequence[Frame], opening_m: float, held: str | None
     ) -> bool:
-        """Whether the hand goes along a line from a posture (nv,), with what it holds, and touches nothing."""
-        begin, end = line
+        """Whether the hand goes along lines from a posture (nv,), with what it holds, and touches nothing."""
+        begin = corners[0]
         relative: Frame | None = None
         if held is not None:
             relative = Frame(begin.axes.T @ (poses[held].position - begin.position), begin.axes.T @ poses[held].axes)
-        count = max(1, round(float(np.linalg.norm(end.position - begin.position)) / LINE_M))
-        for share in np.linspace(0.0, 1.0, count + 1):
-            target = Frame(begin.position + share * (end.position - begin.position), begin.axes)
+        for target in _sample(corners):
             found = arm.descend(q, target, 20)
             if found is None or np.abs(found - q).max() > 0.5:
                 return False
@@ -187,13 +212,52 @@ class _Search:
         return True
 
     def _place(self, poses: Poses) -> None:
-        """Put all parts where they are, and all arms home."""
+        """Put all parts, and the base, where they are, and all arms home."""
         for q_at, home in self.homes:
             self.data.qpos[q_at] = home
         for name, pose in poses.items():
+            if name == BASE:
+                self.data.mocap_pos[self.base] = pose.position
+                mujoco.mju_mat2Quat(self.data.mocap_quat[self.base], np.ascontiguousarray(pose.axes).ravel())
+                continue
             start = int(self.model.joint(f"lab:{name}/free").qposadr[0])
             self.data.qpos[start : start + 3] = pose.position
             mujoco.mju_mat2Quat(self.data.qpos[start + 3 : start + 7], np.ascontiguousarray(pose.axes).ravel())
+
+
+def _lift(hand: Frame) -> tuple[Frame, ...]:
+    """Return where the hand lifts what it has grasped: up, and back out if it is horizontal."""
+    if hand.axes[2, 2] < -0.5:
+        return (Frame(hand.position + np.array([0.0, 0.0, LIFT_M]), hand.axes),)
+    up = hand.position + np.array([0.0, 0.0, SIDEWAYS_LIFT_M])
+    return Frame(up, hand.axes), Frame(up - APPROACH_M * hand.axes[:, 2], hand.axes)
+
+
+def _sample(corners: Sequence[Frame]) -> Iterator[Frame]:
+    """Yield poses LINE_M apart on the lines through corners, turned as the first one."""
+    yield corners[0]
+    for one, other in pairwise(corners):
+        count = max(1, round(float(np.linalg.norm(other.position - one.position)) / LINE_M))
+        for index in range(1, count + 1):
+            yield Frame(one.position + index / count * (other.position - one.position), corners[0].axes)
+
+
+def _find_table(station: Station) -> tuple[Array, Array]:
+    """Return the middle (2,) in m and the axes (2, 2) of the table of a station."""
+    turn = np.radians(station.yaw_deg)
+    axes = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    return np.array(station.place(station.away_m + TABLE_SIDES_M[0] / 2, 0.0)), axes
+
+
+def _is_in_table(base: Frame, station: Station) -> bool:
+    """Whether a base stands in a table: no axis of either rectangle separates them (S. Gottschalk 1996)."""
+    (middle, axes), turned = _find_table(station), base.axes[:2, :2]
+    between = middle - base.position[:2]
+    for axis in (*axes.T, *turned.T):
+        half = np.abs(axis @ turned) @ np.array(BASE_M[:2]) / 2 + np.abs(axis @ axes) @ np.array(TABLE_SIDES_M) / 2
+        if abs(axis @ between) > half:
+            return False
+    return True
 
 
 def _heights(part: Part, axes: Array) -> tuple[float, ...]:

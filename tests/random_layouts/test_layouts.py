@@ -19,7 +19,7 @@ from skillc_runtime.recording.run_spec import RunSpec
 def test_a_seed_draws_the_same_layout_again_and_all_are_different() -> None:
     drawn = [draw_layout(seed, kind) for seed in range(10) for kind in KINDS]
     assert drawn == [draw_layout(seed, kind) for seed in range(10) for kind in KINDS]
-    assert len({format_layout(each, "cell") for each in drawn}) == 60
+    assert len({format_layout(each, "cell") for each in drawn}) == 10 * len(KINDS)
     assert {each.arms for each in drawn} == {1, 2}
 
 
@@ -27,6 +27,16 @@ def test_what_is_said_not_to_go_and_goes_counts_as_not_solved() -> None:
     said = [("yes", True), ("yes", True), ("no", True), ("no", False), ("unknown", None)]
     verdicts = [Verdict(seed, "plain", *each, "") for seed, each in enumerate(said)]
     assert share_solved(verdicts) == pytest.approx(2 / 3)
+
+
+def test_bases_have_a_way_between_stations_and_racks_have_a_board_above_the_part() -> None:
+    bases = [draw_layout(seed, "bases") for seed in range(10)]
+    assert all(
+        2 <= len(each.stations) <= 3 and "lab:Station-1 a skillc:Workstation" in format_layout(each, "cell")
+        for each in bases
+    )
+    racks = [draw_layout(seed, "rack").cell for seed in range(10)]
+    assert all(each.boxes[0][2][2] > each.parts[0].at[2] + each.parts[0].size[2] / 2 for each in racks)
 
 
 @pytest.mark.slow
@@ -50,16 +60,16 @@ def test_the_search_takes_what_is_above_first_and_finds_nothing_out_of_reach(
 @pytest.mark.parametrize(
     ("seed", "kind", "said"),
     [
-        (0, "plain", "yes"),
+        (0, "bases", "yes"),
         (1, "stack", "yes"),
         (0, "crowd", "yes"),
-        (1, "slot", "yes"),
+        (0, "opposite", "yes"),
         (2, "slot", "yes"),
         (3, "shelf", "no"),
         (0, "two-arms", "yes"),
     ],
 )
 def test_what_is_said_of_moving_a_part_is_so(seed: int, kind: str, said: str, tmp_path: Path) -> None:
-    """In the first slot fingers that open as far as elsewhere clamp the walls; the second has room for slim ones."""
+    """In the slot there is room for slim fingers alone."""
     verdict = judge(seed, kind, tmp_path)
     assert (verdict.said, verdict.is_so) == (said, True), verdict.why

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, radians, sin
 from random import Random
 from typing import Final, get_args
 
 import numpy as np
 
-from random_cells.drawing import ArmName
+from random_cells.drawing import ArmName, Point
 from random_cells.writing import ARMS, HANDS
 from skillc_runtime.motion.pose import Array, exp
 
@@ -42,7 +42,7 @@ SCENE = """@prefix lab:    <http://example.org/lab#> .
 lab:Scene-1 a skiros:Scene ; skiros:contain lab:Cell .
 
 lab:Cell a skillc:Workstation ; skillc:on lab:Scene-1 ;
-    skiros:contain lab:Pedestal, lab:SideTable, lab:Eraser-1, lab:Desk-1 .
+    skiros:contain lab:Pedestal, lab:SideTable, lab:Eraser-1, lab:Desk-1{boxes} .
 
 lab:Pedestal a skillc:Furniture ; skillc:on lab:Cell ;
     skiros:SizeX 0.30 ; skiros:SizeY 0.30 ; skiros:SizeZ 0.60 .
@@ -78,11 +78,26 @@ lab:Desk-1 a wiping:TableTop ;
 """
 
 
+BOX = """
+lab:Box-{number} a skillc:Furniture ; skiros:FrameId "box{number}" ; skiros:BaseFrameId "map" ;
+    skiros:SizeX {size[0]} ; skiros:SizeY {size[1]} ; skiros:SizeZ {size[2]} ;
+    skiros:PositionX {at[0]} ; skiros:PositionY {at[1]} ; skiros:PositionZ {at[2]} .
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A box that cannot be moved: its size (3,) and the position (3,) of the middle of its top in m in the world."""
+
+    size: Point
+    at: Point
+
+
 @dataclass(frozen=True, slots=True)
 class Surface:
     """A surface: its size (2,) in m, the middle (3,) of its face in m, roll, pitch and yaw in degrees, the force in N.
 
-    `held_deg` is how the hand around the eraser is turned about the vertical, in degrees.
+    `held_deg` is how the hand around the eraser is turned about the vertical, in degrees; `boxes` stand around.
     """
 
     arm: ArmName
@@ -91,6 +106,7 @@ class Surface:
     turn: tuple[float, float, float]
     force_n: float
     held_deg: int
+    boxes: tuple[Box, ...] = ()
 
     @property
     def rotation(self) -> Array:
@@ -109,11 +125,47 @@ def draw_surface(seed: int, arm: ArmName) -> Surface:
             return found
 
 
+def draw_crowded_surface(seed: int) -> Surface:
+    """Draw the surface of a seed, in reach of an arm, with boxes before and beside it that may be in the way."""
+    rng = Random(f"crowded surfaces:{seed}")
+    arm = rng.choice(ARM_NAMES)
+    while True:
+        found = _draw(rng, arm)
+        if _is_free(found) and _greatest_distance(found) < FAR_M:
+            boxes = [_draw_box(rng, found) for _ in range(rng.randint(1, 3))]
+            return replace(found, boxes=tuple(boxes))
+
+
+def _draw_box(rng: Random, surface: Surface) -> Box:
+    """Draw a box near a surface, which neither lies in that nor where no surface may be."""
+    while True:
+        size = (rng.uniform(0.04, 0.2), rng.uniform(0.04, 0.2), rng.uniform(0.04, 0.4))
+        aside = [rng.uniform(-each / 2 - 0.2, each / 2 + 0.2) for each in surface.size]
+        x, y, z = surface.rotation @ np.array([*aside, rng.uniform(-0.2, 0.4)]) + surface.at
+        box = Box((round(size[0], 3), round(size[1], 3), round(size[2], 3)), (round(x, 3), round(y, 3), round(z, 3)))
+        low = np.array([x - size[0] / 2, y - size[1] / 2, z - size[2]]) - 0.01
+        high = np.array([x + size[0] / 2, y + size[1] / 2, z]) + 0.01
+        taken = any((low < most).all() and (high > least).all() for least, most in TAKEN)
+        if low[2] > 0.0 and not taken and not _meets(surface, low, high):
+            return box
+
+
+def _meets(surface: Surface, low: Array, high: Array) -> bool:
+    """Whether the body of a surface, seen at points 1 cm apart, lies between two corners (3,) in m."""
+    sides = [np.linspace(-each / 2, each / 2, round(each / 0.01) + 1) for each in (*surface.size, THICK_M)]
+    x, y, z = np.meshgrid(*sides)
+    points = np.column_stack([x.ravel(), y.ravel(), z.ravel() - THICK_M / 2]) @ surface.rotation.T + surface.at
+    return bool(((points > low) & (points < high)).all(axis=1).any())
+
+
 def format_scene(surface: Surface) -> str:
     """Return the scene of a surface as Turtle, in which nothing is other than it says."""
     sensor = " ; skillc:forceNoise 0.5 ; skillc:torqueNoise 0.02"
     force = surface.force_n
-    return SCENE.format(
+    boxes = "".join(
+        BOX.format(number=number, size=each.size, at=each.at) for number, each in enumerate(surface.boxes, 1)
+    )
+    text = SCENE.format(
         arm=ARMS[surface.arm].replace(sensor, ""),
         hand=HANDS[surface.arm],
         tool=TOOL_M,
@@ -125,7 +177,9 @@ def format_scene(surface: Surface) -> str:
         turn=surface.turn,
         force=force,
         least=force / 2,
+        boxes="".join(f", lab:Box-{number + 1}" for number in range(len(surface.boxes))),
     )
+    return text + boxes
 
 
 def _draw(rng: Random, arm: ArmName) -> Surface:

@@ -28,13 +28,17 @@ def load_library() -> SkillLibrary:
 
 def judge(seed: int, arm: ArmName, folder: Path) -> Verdict:
     """Judge what is said of the surface of a seed; its scene is written into a folder."""
-    surface = draw_surface(seed, arm)
+    return judge_surface(draw_surface(seed, arm), seed, arm, folder)
+
+
+def judge_surface(surface: Surface, seed: int, kind: str, folder: Path) -> Verdict:
+    """Judge what is said of a surface; its scene is written into a folder."""
 
     def search(cell: SimulatedCell) -> str | None:
         start = DenseSearch(cell, surface).solves()
         return None if start is None else f"from {start.round(2).tolist()}"
 
-    return judge_task(load_surface(surface, folder / f"{arm}_{seed}.ttl"), seed, arm, search)
+    return judge_task(load_surface(surface, folder / f"{kind}_{seed}.ttl"), seed, kind, search)
 
 
 def load_surface(surface: Surface, scene: Path) -> LoadedTask:

@@ -12,7 +12,7 @@ from judged_looks.looking import look, make_ideal_cell
 from judged_looks.verdict import Verdict, format_table, share_that_is_so
 from random_cells.drawing import ArmName
 from random_surfaces.dense_search import RADIUS_M, STEP_M, DenseSearch, wiping_path
-from random_surfaces.drawing import ARM_NAMES, Surface, draw_surface, format_scene
+from random_surfaces.drawing import ARM_NAMES, THICK_M, Surface, draw_crowded_surface, draw_surface, format_scene
 from random_surfaces.judging import judge, load_surface
 
 
@@ -27,6 +27,18 @@ def test_a_seed_draws_the_same_surface_again_and_all_are_different() -> None:
     assert all(0.2 <= side <= 0.8 for each in drawn for side in each.size)
     standing = [abs(each.rotation[2, 2]) < 0.7 for each in drawn]
     assert any(standing) and not all(standing)
+
+
+def test_boxes_around_a_surface_neither_lie_in_it_nor_where_the_arm_stands() -> None:
+    drawn = [draw_crowded_surface(seed) for seed in range(20)]
+    assert drawn == [draw_crowded_surface(seed) for seed in range(20)]
+    assert all(1 <= len(each.boxes) <= 3 and format_scene(each).count("lab:Box-1") == 2 for each in drawn)
+    for surface in drawn:
+        for box in surface.boxes:
+            middle = np.array(box.at) - np.array([0.0, 0.0, box.size[2] / 2])
+            x, y, z = (middle - surface.at) @ surface.rotation
+            inside = abs(x) < surface.size[0] / 2 and abs(y) < surface.size[1] / 2 and -THICK_M < z < 0
+            assert not inside and np.hypot(*box.at[:2]) > 0.2
 
 
 def test_the_path_that_is_searched_comes_near_every_point_of_the_surface_and_has_no_gaps() -> None:
