@@ -106,3 +106,19 @@ def test_the_arm_rides_along_in_its_posture() -> None:
     np.testing.assert_allclose(arm.measured.q, before, atol=1e-3)
     relative = there.base(HERON).pose.inverse() @ arm.measured.pose
     assert np.linalg.norm(relative.position[:2]) < 1.0
+
+
+def test_a_base_that_was_free_stops_at_what_gets_into_its_way_meanwhile() -> None:
+    there = cell("ur5e_whiteboard")
+    base, model = there.base(HERON), there.model
+    base.drive_to(base.pose @ Pose.of((1.5, 0.0, 0.0)))
+    there.advance(1.0)
+    assert not base.at_rest
+    ahead = base.pose.apply(np.array([0.9, 0.0, 0.0]))
+    body = model.body("lab:StoreTable").id
+    model.body_pos[body] = [*ahead[:2], 0.66]
+    there.refresh()
+    while not base.at_rest:
+        there.advance(0.05)
+    assert base.fault == "its bumper touched something"
+    assert not base.done

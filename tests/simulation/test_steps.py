@@ -16,7 +16,7 @@ from skillc_runtime.devices.disturbances import Push
 from skillc_runtime.motion.numerics.compiled import COMPILES
 from skillc_runtime.motion.overlays import Circle, Spiral
 from skillc_runtime.motion.path import path_through
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.pose import Pose, rotation_from_quaternion
 from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.recording.mcap.signal_tap import SampledBlock, SignalTap
 from skillc_runtime.world.state.model import WorldModel
@@ -148,3 +148,24 @@ def test_machine_code_reads_which_geoms_are_in_contact() -> None:
         assert found[: len(down), :2].tobytes().count(data.contact.geom[0].tobytes()) == 1
         seen.add(tuple(found[: len(down), :2].ravel().tolist()))
     assert len(seen) == 6
+
+
+def test_a_base_drives_in_both_ways_alike_and_machine_code_makes_most_of_its_steps() -> None:
+    found, by_python = [], []
+    for cell in both_ways("ur5e_whiteboard"):
+        (base,) = cell._bases.values()
+        goal = Pose.of((0.3, -0.2, 0.0), (np.cos(0.6), 0.0, 0.0, np.sin(0.6)))
+        base.drive_to(base.pose @ goal)
+        made, way = base.step, []
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(base, "step", lambda period_s, made=made: by_python.append(period_s) or made(period_s))
+            while not base.at_rest:
+                cell.advance(0.01)
+                places = cell.data.mocap_pos, cell.data.mocap_quat, base.pose.rotation
+                way.append([each.tobytes() for each in places])
+        assert base.done
+        turned = rotation_from_quaternion(cell.data.mocap_quat[0])
+        np.testing.assert_allclose(base.pose.rotation, turned, atol=1e-12)
+        found.append((digest(cell, []), way))
+    assert found[0] == found[1]
+    assert 100 < len(by_python) / 2 < 0.25 * len(found[0][1]) * 10

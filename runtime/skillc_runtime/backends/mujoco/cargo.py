@@ -17,14 +17,12 @@ from typing import Any
 import numpy as np
 
 from skillc_runtime.backends.simulation.base import BaseStep
+from skillc_runtime.backends.simulation.base_drive import STEPS_PER_LOOK
 from skillc_runtime.backends.simulation.cargo import Cargo
 from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.backends.simulation.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.motion.pose import Array, Pose, log
-
-STEPS_PER_LOOK = 10
-"""Number of steps between looks at what stands on the base."""
 
 AT_REST = BaseStep(Pose.of((0.0, 0.0, 0.0)), Pose.of((0.0, 0.0, 0.0)))
 
@@ -40,7 +38,7 @@ class InertialCargo(Cargo):
         contacts: Contacts,
     ) -> None:  # fmt: skip
         super().__init__(scene, robot, hands, model, data, contacts)
-        self._period_s, self._steps, self._driving = float(model.opt.timestep), 0, False
+        self._period_s, self._driving = float(model.opt.timestep), False
         self._parts = {block: np.flatnonzero(model.body_rootid == block).tolist() for block in self._blocks.values()}
         self._members: list[int] = []
         self._velocities: dict[int, Array] = {}
@@ -51,15 +49,19 @@ class InertialCargo(Cargo):
         """Whether nothing is left to be done while the base is at rest."""
         return not self._driving and not self._members
 
+    @property
+    def is_empty(self) -> bool:
+        return self._driving and not self._members and not self._hands_carry
+
     def move(self, step: BaseStep | None) -> None:
         """Move the cargo with the base; None while that is at rest."""
         if step is None and not self._driving:
             self._unload(list(self._members), AT_REST)
             return
+        begins = not self._driving
         step, self._driving = step or AT_REST, step is not None
-        if self._steps % STEPS_PER_LOOK == 0:
+        if begins or step.number % STEPS_PER_LOOK == 0:
             self._update_members(step)
-        self._steps = self._steps + 1 if self._driving else 0
         for hand in self._own:
             hand.move_with_base(step)
         for block in self._members:

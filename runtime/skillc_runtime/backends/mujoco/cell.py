@@ -8,7 +8,7 @@ from functools import cached_property, partial
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.mujoco.cargo import InertialCargo
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
-from skillc_runtime.backends.mujoco.parts import HalfStep, SlipWatch
+from skillc_runtime.backends.mujoco.parts import Drive, HalfStep, SlipWatch
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.stillness import lie_still
 from skillc_runtime.backends.simulation.cell import ModelledCell
@@ -17,7 +17,7 @@ from skillc_runtime.backends.simulation.observer import Carrier
 from skillc_runtime.backends.simulation.parts import HeldTool
 from skillc_runtime.backends.simulation.saved_cell import read_scene_again
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
-from skillc_runtime.backends.simulation.steps import ForItself, OnMemory
+from skillc_runtime.backends.simulation.steps import OnMemory
 from skillc_runtime.backends.simulation.variation import Variation, draw_variation
 from skillc_runtime.devices.backend import BackendStart
 from skillc_runtime.motion.numerics.program import Part
@@ -103,7 +103,7 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
             yield SlipWatch(gripper)
         for arm, gripper in self._hands.items():
             yield OnMemory(gripper.may_be_lost, partial(self._look_for_loss, arm))
-        yield ForItself(self._drive, self._bases_rest)
+        yield Drive(self._bases, self._cargo, self.physics, self._drive)
         yield HalfStep(self.physics, "mj_step1")
 
     def _look_for_loss(self, arm: str, events: int, now: float) -> bool:

@@ -131,9 +131,14 @@ class SimulatedGripper(ModelledGripper):
         pull = self._physics.pull_on(self._carried)
         return self._grip.is_due if pull is None else self._grip.watch(self._palm_axes, pull)
 
+    @property
+    def needs_base_motion(self) -> bool:
+        """Whether it carries an object that is no part of the hand."""
+        return super().needs_base_motion and self._physics.pull_on(self._carried) is None
+
     def move_with_base(self, step: BaseStep) -> None:
         """Move a carried object with the base of the arm, unless it is a part of the hand, with which it moves."""
-        if self._physics.pull_on(self._carried) is None:
+        if self.needs_base_motion:
             super().move_with_base(step)
 
     def loses(self, events: int, now: float) -> bool:

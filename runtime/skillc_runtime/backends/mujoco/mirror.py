@@ -28,7 +28,7 @@ from skillc_runtime.backends.mujoco.model_map import ModelMap
 from skillc_runtime.backends.simulation.machine_code import address_of, address_of_time
 from skillc_runtime.motion.arrays import Integers, Vector
 from skillc_runtime.motion.numerics.compiled import Bound, bind, compiled, inlined
-from skillc_runtime.motion.numerics.copying import Copies, copy, copy_pieces
+from skillc_runtime.motion.numerics.copying import Copies, copy_pieces
 from skillc_runtime.motion.numerics.places import call_entry
 
 
@@ -76,6 +76,13 @@ def run_half(step: HalfStep, now: float) -> int:
     return 0
 
 
+@compiled
+def take(copies: Copies, now: float) -> int:
+    """Take over what was changed before the rest of the step that begins at `now` s."""
+    copy_pieces(copies)
+    return 0
+
+
 class Mirror:
     """Steps the tight model, and shows its state in the data of the free one.
 
@@ -101,7 +108,7 @@ class Mirror:
             "mj_step1": bind(run_half, HalfStep(copies(), first, placed, held)),
             "mj_step2": bind(run_half, HalfStep(copies(*forces), second, moved, nothing)),
         }
-        self.take_changes = bind(copy, copies(taken(rows, CHANGES, free, tight)))
+        self.take_changes = bind(take, copies(taken(rows, CHANGES, free, tight)))
         called = np.array([[address_of("mj_rnePostConstraint"), tight_model._address, tight._address]])
         self.pulls = [Pull(tight.cfrc_int[rows.bodies[block], 3:], called) for block in blocks]
 

@@ -29,7 +29,7 @@ from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation import Variation
 from skillc_runtime.backends.simulation.whole_mass import WholeMass
 from skillc_runtime.motion.numerics.compiled import COMPILES
-from skillc_runtime.motion.numerics.program import Rows, join, row_of
+from skillc_runtime.motion.numerics.program import IDLE, Rows, join, row_of
 from skillc_runtime.world.state.data_sheet import SheetError
 
 
@@ -89,7 +89,7 @@ class Physics:
         """Take over what was changed in the model or the data of the cell between two steps."""
         if self._mirror is not None:
             self._mirror.rows.renew(self.model, self._mirror.tight_model)
-            self._mirror.take_changes()
+            self._mirror.take_changes(self.data.time)
         if self.far is not None:
             self.far.renew()
         self.compute_places()
@@ -143,7 +143,12 @@ class Physics:
     def take_changes(self) -> None:
         """Take over where things were put in the data of the cell between two half steps."""
         if self._mirror is not None:
-            self._mirror.take_changes()
+            self._mirror.take_changes(self.data.time)
+
+    @property
+    def taking(self) -> Rows | None:
+        """What takes over these places."""
+        return IDLE if self._mirror is None else row_of(self._mirror.take_changes)
 
     def pull_on(self, thing: str) -> Pull | None:
         """Return what computes the force of a hand on a thing that is a part of it; None if it is none."""

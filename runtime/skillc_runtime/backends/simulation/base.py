@@ -9,14 +9,24 @@ from typing import Any
 
 import numpy as np
 
+from skillc_runtime.backends.simulation.base_drive import (
+    DURATION,
+    FREE,
+    PROFILE,
+    SIZE,
+    STEPS,
+    STEPS_PER_CHECK,
+    TIME,
+    TURN,
+    DrivenLeg,
+    drive,
+)
 from skillc_runtime.backends.simulation.bumper import Bumper
 from skillc_runtime.backends.simulation.names import base_body_name
 from skillc_runtime.backends.simulation.scene_spec import BaseSpec
+from skillc_runtime.motion.numerics.compiled import bind
 from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_from_rotation
 from skillc_runtime.motion.profile import Profile, trapezoidal_profile
-
-STEPS_PER_CHECK = 5
-"""Number of steps between looks at the bumper."""
 
 NEAR_M = 1e-3
 """Shorter motions, in m or rad, are left out."""
@@ -49,10 +59,11 @@ class Leg:
 
 @dataclass(frozen=True)
 class BaseStep:
-    """One step of a base that moves, by its poses in the world before and after it."""
+    """One step of a base that moves: its poses in the world before and after it, and its number in the drive."""
 
     before: Pose
     after: Pose
+    number: int = 0
 
     @cached_property
     def motion(self) -> Pose:
@@ -61,23 +72,29 @@ class BaseStep:
 
 
 class SimulatedBase:
-    """One mobile base of a simulated cell, implementing `MobileBase`; `touched` is what stopped it, ground truth."""
+    """One mobile base of a simulated cell, implementing `MobileBase`; `touched` is what stopped it, ground truth.
+
+    `drive` makes a step of a base that moves, or returns 1 where `step` has to.
+    """
 
     def __init__(self, facts: BaseSpec, name: str, model: Any, data: Any) -> None:
         mocap = int(model.body_mocapid[model.body(base_body_name(name)).id])
         self._position, self._quaternion = data.mocap_pos[mocap], data.mocap_quat[mocap]
-        self._facts, self._pose, self._time = facts, facts.pose, 0.0
+        self._facts, self._pose = facts, facts.pose
         self._turned_to: Array | None = None
         self._done, self._stopped, self._speed = True, False, 1.0
         self._legs: list[Leg] = []
-        self._bumper, self._steps = Bumper(base_body_name(name), model, data), 0
+        self._bumper = Bumper(base_body_name(name), model, data)
+        self._leg, self._start, self._turned, self._along = np.zeros(SIZE), np.zeros(3), np.zeros(4), np.zeros(3)
+        places = self._start, self._turned, self._along, self._position, self._quaternion
+        self.drive = bind(drive, DrivenLeg(self._leg, *places, model.opt.timestep))
         self._fault: str | None = None
         self.touched: str | None = None
 
     @property
     def pose(self) -> Pose:
         """The pose of the base."""
-        return self._pose
+        return self._legs[0].at(self._leg[TIME]) if self._legs else self._pose
 
     @property
     def done(self) -> bool:
@@ -118,7 +135,8 @@ class SimulatedBase:
         if not (np.isfinite(goal.position).all() and np.isfinite(goal.rotation).all()):
             raise ValueError("a base cannot drive to a pose that has a part which is no number")
         self.stop()
-        start = self._legs[0].end if self._legs else self._pose
+        here = self.pose
+        start = self._legs[0].end if self._legs else here
         way = (goal.position - start.position) * [1.0, 1.0, 0.0]
         distance = float(np.linalg.norm(way))
         heading = math.atan2(way[1], way[0]) if distance > NEAR_M else _heading(goal)
@@ -128,37 +146,58 @@ class SimulatedBase:
         self._legs += [leg for leg in (first, straight, last) if leg.profile.length > NEAR_M]
         self._stopped, self._done = False, not self._legs
         self._fault = self.touched = None
-        self._bumper.begin(self._pose)
+        self._bumper.begin(here)
+        self._leg[STEPS] = 0.0
+        self._begin_leg(self._leg[TIME])
 
     def stop(self) -> None:
         """Brake on the present leg and drop the others."""
         self._stopped, self._done = True, False
         if self._legs and self._legs[0].profile.length > 0:
             leg = self._legs[0]
-            way, speed, _ = leg.profile.at(self._time)
+            way, speed, _ = leg.profile.at(self._leg[TIME])
             peak, brake = leg.profile.peak, leg.profile.deceleration
             self._legs = [replace(leg, profile=trapezoidal_profile(way + speed * speed / (2 * brake), peak, brake))]
+            self._begin_leg(self._leg[TIME])
 
     def step(self, period_s: float) -> BaseStep | None:
         """Advance by one step; return it, None when at rest."""
         if not self._legs:
             return None
-        self._time, self._steps = self._time + period_s, self._steps + 1
-        leg, before = self._legs[0], self._pose
-        pose = leg.at(self._time)
-        if self._steps % STEPS_PER_CHECK == 0 and self._is_blocked(pose):
+        leg, before = self._legs[0], self.pose
+        self._leg[TIME] += period_s
+        self._leg[STEPS] += 1.0
+        time, number = float(self._leg[TIME]), int(self._leg[STEPS])
+        pose = leg.at(time)
+        if number % STEPS_PER_CHECK == 0 and self._is_blocked(leg, time):
+            self.place(before)
             return None
         self.place(pose)
-        if self._time >= leg.profile.duration:
-            self._legs, self._time = self._legs[1:], 0.0
+        if time >= leg.profile.duration:
+            self._legs = self._legs[1:]
+            self._begin_leg(0.0)
             self._done = not self._legs and not self._stopped
-        return BaseStep(before, pose)
+        return BaseStep(before, pose, number)
 
-    def _is_blocked(self, pose: Pose) -> bool:
-        """Stop at once if the base would touch something at a pose; tell whether it would."""
-        self.touched = self._bumper.touched(pose)
+    def _begin_leg(self, time: float) -> None:
+        """Let `drive` move along the leg that is the first one now, from `time` s after its start."""
+        self._leg[TIME], self._leg[FREE] = time, 0.0
+        if self._legs:
+            leg = self._legs[0]
+            self._leg[[TURN, DURATION]] = leg.sign, leg.profile.duration
+            self._leg[PROFILE:] = leg.profile.coefficients[:5]
+            self._start[:], self._along[:] = leg.start.position, leg.direction
+            self._turned[:] = quaternion_from_rotation(leg.start.rotation)
+
+    def _is_blocked(self, leg: Leg, time: float) -> bool:
+        """Stop at once if the base would touch something `time` s after the start of a leg; tell whether it would."""
+        way = leg.profile.at(time)[0]
+        if way < self._leg[FREE] and self._bumper.obstacles_stand:
+            return False
+        self.touched = self._bumper.touched(leg.at(time))
+        self._leg[FREE] = way + self._bumper.free_m / (self._bumper.reach_m if leg.sign else 1.0)
         if self.touched is not None:
-            self._legs, self._time, self._stopped = [], 0.0, True
+            self._legs, self._leg[TIME], self._stopped = [], 0.0, True
             self._fault = "its bumper touched something"
         return self.touched is not None
 

@@ -8,14 +8,20 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.backends.simulation.contact_bits import CARRIES
-from skillc_runtime.motion.pose import Pose, rotation_from_quaternion
+from skillc_runtime.motion.pose import Array, Pose, rotation_from_quaternion
 
 DEPTH_M = 0.002
 """How far the bumper gives way; what overlaps more than at the start of a drive counts as touched."""
 
+SEEN_M = 0.5
+"""Up to which distance obstacles are told apart."""
+
 
 class Bumper:
     """Compares the box of one base with furniture, drawers and fixtures; MuJoCo computes no contacts between the two.
+
+    reach_m: of the box from the axis about which the base turns. free_m: how far the base could go, when it was
+    compared last, before it touches anything.
 
     It writes where the box is in `data`, which the next step of the simulation computes again.
     """
@@ -32,6 +38,8 @@ class Bumper:
         turn = rotation_from_quaternion(model.geom_quat[self._box])
         self._in_base = Pose(model.geom_pos[self._box].copy(), turn)
         self._allowed = dict.fromkeys(self._obstacles, 0.0)
+        self.reach_m = float(np.linalg.norm(self._in_base.position) + np.linalg.norm(model.geom_size[self._box]))
+        self.free_m, self._seen = 0.0, self._find_obstacles()
 
     def begin(self, pose: Pose) -> None:
         """Allow what overlaps with the base at its pose in the world, at the start of a drive."""
@@ -41,10 +49,21 @@ class Bumper:
     def touched(self, pose: Pose) -> str | None:
         """Return what the base would touch at a pose in the world, by the name of its body; None for nothing."""
         self._put(pose)
+        self.free_m, self._seen = SEEN_M, self._find_obstacles()
         for each in self._obstacles:
-            if self._distance(each) < self._allowed[each] - DEPTH_M:
+            free_m = self._distance(each) - self._allowed[each] + DEPTH_M
+            if free_m < 0:
                 return str(self._model.body(self._model.geom_bodyid[each]).name)
+            self.free_m = min(self.free_m, free_m)
         return None
+
+    @property
+    def obstacles_stand(self) -> bool:
+        """Whether obstacles are where they were when the base was compared last: bases and drawers move as well."""
+        return np.array_equal(self._find_obstacles(), self._seen)
+
+    def _find_obstacles(self) -> Array:
+        return np.hstack([self._data.geom_xpos[self._obstacles], self._data.geom_xmat[self._obstacles]])
 
     def _put(self, pose: Pose) -> None:
         """Put the box where it is with the base at a pose in the world."""
@@ -52,4 +71,4 @@ class Bumper:
         self._data.geom_xpos[self._box], self._data.geom_xmat[self._box] = box.position, box.rotation.ravel()
 
     def _distance(self, obstacle: int) -> float:
-        return float(mujoco.mj_geomDistance(self._model, self._data, self._box, obstacle, DEPTH_M, None))
+        return float(mujoco.mj_geomDistance(self._model, self._data, self._box, obstacle, SEEN_M, None))

@@ -34,6 +34,15 @@ class Cargo:
         """Whether nothing is left to be done while the base is at rest."""
         return self._loaded is None
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether the base drives, and nothing has to be moved with it before the next look at what stands on it."""
+        return self._loaded == [] and not self._hands_carry
+
+    @property
+    def _hands_carry(self) -> bool:
+        return any(hand.needs_base_motion for hand in self._own)
+
     def move(self, step: BaseStep | None) -> None:
         """Move the cargo with the base; None while that is at rest."""
         if step is None:

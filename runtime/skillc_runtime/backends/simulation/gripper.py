@@ -262,6 +262,11 @@ class ModelledGripper(ABC):
         """Whether the fingers have closed so far since they took hold that what they held is not between them."""
         return has_closed_further(self.opening_m, float(self._held[HELD_AT]))
 
+    @property
+    def needs_base_motion(self) -> bool:
+        """Whether it carries an object that has to be moved with the base of the arm."""
+        return bool(self._carried)
+
     def move_with_base(self, step: BaseStep) -> None:
         """Move a carried object with the base of the arm."""
         if self._carried:

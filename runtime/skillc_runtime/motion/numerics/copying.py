@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from skillc_runtime.motion.arrays import Matrix
-from skillc_runtime.motion.numerics.compiled import compiled, inlined
+from skillc_runtime.motion.numerics.compiled import inlined
 from skillc_runtime.motion.numerics.places import call_entry
 
 MEMMOVE: Final = float(ctypes.cast(ctypes.memmove, ctypes.c_void_p).value or 0)
@@ -28,9 +28,3 @@ def copy_pieces(copies: Copies) -> None:
     memmove = int(copies.memmove)
     for row in range(copies.pieces.shape[0]):
         call_entry(memmove, int(copies.pieces[row, 0]), int(copies.pieces[row, 1]), int(copies.pieces[row, 2]))
-
-
-@compiled
-def copy(copies: Copies) -> None:
-    """Copy all pieces in order."""
-    copy_pieces(copies)
