@@ -1,9 +1,11 @@
 """Operations of a cell look at their plans in space from where its arms are measured."""
 
+import shutil
 from contextlib import closing
 from pathlib import Path
 
 import pytest
+from msgspec import structs
 
 from refinement.scenes import write_door
 from skillc.cells.host import CellHost, open_cell
@@ -86,3 +88,24 @@ def test_a_preview_says_why_the_arm_cannot_carry_it_out_unless_nobody_looks(tmp_
     assert found.status == "gave-up" and "joint 4 would be at -3." in found.failure
     unseen = preview_plan(PreviewPlan(None, GOAL, {}, "work", 30.0, geometry=False), known)
     assert (unseen.status, unseen.space) == ("solved", None)
+
+
+@pytest.mark.slow
+def test_what_goes_on_after_an_interruption_takes_the_postures_of_its_plan(tmp_path: Path) -> None:
+    """Not all lanes of the door go from the posture nearest to home."""
+    settings = settings_of(tmp_path / "cell", write_door(tmp_path, 0.5, -20.0, 0.75))
+    with open_cell(settings, SilentReporter()) as host:
+        host.submit("first", OperationRequest(goal=GOAL))
+        wait_for(host, "first", "running")
+        for _ in range(200):
+            host.tick()
+        shutil.copytree(tmp_path / "cell", tmp_path / "image")
+    again = structs.replace(settings, folder=str(tmp_path / "image"))
+    with open_cell(again, SilentReporter()) as host, closing(JournalReader(again.journal)) as journal:
+        host.submit("second", OperationRequest(continues="first", decision="retry"))
+        ended = wait_for(host, "second", *ENDS)
+        events = [each.event for each in journal.envelopes("second", 0)]
+    assert ended.state == "succeeded", ended.reason
+    (plan,) = [each for each in events if isinstance(each, PlanMade)]
+    assert plan.space is not None and plan.space.postures
+    assert plan.space.summary == "not checked in space: it goes on after an interruption"

@@ -17,7 +17,6 @@ from skillc_runtime.planning.validation import PlanError, compute_effects
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact
-from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.recording.states import EndState
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.model import WorldError, WorldModel
@@ -145,5 +144,5 @@ def _prepare_steps(
     solved, space = last.prepared.planned.solved, last.prepared.space
     rest = replace(solved, plan=solved.plan.keep(steps))
     if space is not None:
-        space = SpaceClaim(checked=0, steps=len(steps), stopped="it goes on after a failure", postures=space.postures)
+        space = space.carry_over(len(steps), "it goes on after a failure")
     return arrange_prepared(replace(last.prepared.assignment, state=state), rest, library, space)

@@ -19,6 +19,9 @@ from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 
+INTERRUPTED = "it goes on after an interruption"
+"""Why nobody has looked in space at what is left of a plan or a body."""
+
 
 @dataclass(frozen=True, slots=True)
 class Continuation:
@@ -53,9 +56,10 @@ def continue_run(
     PlanError if what is left is not possible any more.
     """
     match remainder:
-        case BodyRemainder(body) if body is not None:
+        case BodyRemainder(body, space) if body is not None:
             rest = replace(assignment, objective=ExecuteBody(body))
-            return Continuation(rest, _check(PreparedTask(rest, body, None), library))
+            known = None if space is None else space.carry_over(1, INTERRUPTED)
+            return Continuation(rest, _check(PreparedTask(rest, body, None, known), library))
         case PlanRemainder() if decision == "retry":
             return Continuation(
                 assignment, _arrange(assignment, remainder, (*remainder.begun, *remainder.waiting), library)
@@ -82,7 +86,8 @@ def _arrange(
     """Return the steps that would not be skipped as a task that can start; PlanError if it cannot."""
     kept = _drop_achieved(steps, library, assignment.state)
     solved = replace(left.solved, plan=left.solved.plan.keep(kept))
-    return _check(arrange_prepared(assignment, solved, library), library)
+    space = None if left.space is None else left.space.carry_over(len(kept), INTERRUPTED)
+    return _check(arrange_prepared(assignment, solved, library, space), library)
 
 
 def _check(prepared: PreparedTask, library: SkillLibrary) -> PreparedTask:

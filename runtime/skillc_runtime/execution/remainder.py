@@ -11,27 +11,42 @@ from skillc_model import tree
 from skillc_model.traversal import find_calls
 from skillc_runtime.execution.plans.plan_record import restore_steps
 from skillc_runtime.planning.plan import Optimal, Plan, Solved, Step
-from skillc_runtime.recording.events import Event, ImplementationChosen, NodeEnded, NodeStarted, PlanMade, TaskStarted
+from skillc_runtime.recording.events import (
+    Event,
+    ImplementationChosen,
+    NodeEnded,
+    NodeStarted,
+    PlanArrived,
+    PlanMade,
+    TaskStarted,
+)
+from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.labelled import LabelledIri
 
 
 @dataclass(frozen=True, slots=True)
 class PlanRemainder:
-    """The steps of a plan that had begun and not succeeded, and those that had not begun, in the order of the plan."""
+    """The steps of a plan that had begun and not succeeded, and those that had not begun, in the order of the plan.
+
+    `space` is what was known of the plan in space, None if nobody had looked.
+    """
 
     solved: Solved
     begun: tuple[Step, ...]
     waiting: tuple[Step, ...]
+    space: SpaceClaim | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class BodyRemainder:
     """The part of a body that has not succeeded: a sequence from its first step that has not, or else all of it.
 
-    None if it needs what a step has computed that has succeeded.
+    None if it needs what a step has computed that has succeeded. `space` is what was known of the body in space, None
+    if nobody had looked.
     """
 
     body: tree.Node | None
+    space: SpaceClaim | None = None
 
 
 def read_remainder(events: Sequence[Event]) -> PlanRemainder | BodyRemainder | None:
@@ -39,7 +54,8 @@ def read_remainder(events: Sequence[Event]) -> PlanRemainder | BodyRemainder | N
     started = events[0]
     assert isinstance(started, TaskStarted), "the first event of a run"
     if started.body is not None:
-        return BodyRemainder(_find_rest_of_body(started.body, events))
+        looks = [each.space for each in events if isinstance(each, PlanArrived)]
+        return BodyRemainder(_find_rest_of_body(started.body, events), looks[-1] if looks else None)
     plans = [number for number, event in enumerate(events) if isinstance(event, PlanMade)]
     return _read_plan(events[plans[-1] :]) if plans else None
 
@@ -62,7 +78,7 @@ def _read_plan(events: Sequence[Event]) -> PlanRemainder:
             begun[_name(step)] -= 1
     apart = made.space.apart_pairs if made.space is not None else frozenset[tuple[int, int]]()
     solved = Solved(Plan(steps, made.cost, apart), cast(Optimal, made.optimal), made.planner)
-    return PlanRemainder(solved, tuple(left[True]), tuple(left[False]))
+    return PlanRemainder(solved, tuple(left[True]), tuple(left[False]), made.space)
 
 
 def _find_outermost_calls(events: Sequence[Event]) -> Iterator[tuple[ImplementationChosen, str]]:

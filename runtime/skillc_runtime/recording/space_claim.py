@@ -100,6 +100,13 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
     stopped: str = ""
     from_home: bool = True
 
+    def carry_over(self, steps: int, why: str) -> SpaceClaim:
+        """Return what is known of the last so many steps, which go on for a reason: only in which postures.
+
+        Nobody has looked from where the arms are now.
+        """
+        return SpaceClaim(checked=0, steps=steps, stopped=why, postures=self.postures, from_home=False)
+
     @property
     def apart_pairs(self) -> frozenset[tuple[int, int]]:
         """The steps that do not run at the same time, by index, the earlier one first."""
