@@ -10,6 +10,7 @@ import msgspec
 from hypothesis import HealthCheck, event, given, settings
 from msgspec import structs
 
+from skillc.services.story_text import overview_lines
 from skillc_model import tree
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.run import TreeRun
@@ -19,6 +20,7 @@ from skillc_runtime.recording.events import (
     ImplementationChosen,
     NodeEnded,
     NodeStarted,
+    Note,
     PlanMade,
     PlanStep,
     Replanned,
@@ -28,6 +30,7 @@ from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.history import RecordedCall, RunHistory
 from skillc_runtime.recording.history_builder import listen_to, read_history
 from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labelled import LabelledIri
 from tree.library import FLAGS, ON, Library, act, check, here, par, seq, world
@@ -189,6 +192,20 @@ def test_plans_that_number_their_nodes_anew_are_told_apart() -> None:
         ("3", "success"),
     ]
     assert [attempt.replaces for attempt in story.attempts] == ["", "stuck"]
+
+
+def test_what_was_noted_is_told_with_the_plan_but_not_twice() -> None:
+    claim = SpaceClaim(checked=0, steps=1, stopped="it goes on after an interruption")
+    before, other = Note(time=0.0, message=f"the plan is {claim.summary}"), "the arm goes where nobody had looked"
+    plan = PlanMade(time=0.0, planner="test", optimal="", cost=1.0, steps=(GO,), space=claim)
+    run = (plan, before, node(1, 0, "call"), chose(1, B), Note(time=1.44, message=other), ended(1))
+    story = known(read_history([BEGIN, *run]))
+    assert [each.message for each in story.attempts[0].notes] == [before.message, other]
+    lines = overview_lines(story)
+    assert lines[lines.index("noted:") :][1] == f"  at 1.4 s: {other}"
+    assert sum(claim.summary in each for each in lines) == 1
+    quiet = known(read_history([BEGIN, *(each for each in run if not isinstance(each, Note))]))
+    assert "noted:" not in overview_lines(quiet)
 
 
 def test_a_recording_that_stops_has_no_status_and_says_what_ran() -> None:

@@ -93,6 +93,16 @@ def _attempt(attempt: Attempt) -> Iterator[str]:
     for step in attempt.steps:
         yield _line(step)
         yield from _indented(filter(None, [_arguments(step)]), 7)
+    yield from _notes(attempt)
+
+
+def _notes(attempt: Attempt) -> Iterator[str]:
+    """Yield what was noted meanwhile, without what the plan says already."""
+    known = "" if attempt.space is None else attempt.space.summary
+    notes = [each for each in attempt.notes if not known or not each.message.endswith(known)]
+    if notes:
+        yield "noted:"
+    yield from _indented(f"at {each.time:.1f} s: {each.message}" for each in notes)
 
 
 def _arguments(call: RecordedCall) -> str:

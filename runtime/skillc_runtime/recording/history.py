@@ -118,12 +118,19 @@ class RecordedCall(_Part, frozen=True, kw_only=True):
             yield from call.all
 
 
+class RecordedNote(_Part, frozen=True, kw_only=True):
+    """What a run told its users, and when, in s of the cell."""
+
+    time: float
+    message: str
+
+
 class Attempt(_Part, frozen=True, kw_only=True):
     """A plan and its steps in order of time, or those of a body that was given, which has no `planner`.
 
     Steps that were not started come last. `planned` is how many steps the plan has.
     `quality` is how good the plan is known to be, `space` what is known of it in space, None if nobody has looked;
-    `replaces` is why the previous plan was abandoned.
+    `replaces` is why the previous plan was abandoned. `notes` were told meanwhile: they had no effect on the run.
     """
 
     steps: tuple[RecordedCall, ...]
@@ -134,6 +141,7 @@ class Attempt(_Part, frozen=True, kw_only=True):
     space: SpaceClaim | None = None
     cost: float | None = None
     replaces: str = ""
+    notes: tuple[RecordedNote, ...] = ()
 
 
 class RunHistory(_Part, frozen=True, kw_only=True):

@@ -14,7 +14,7 @@ from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording import events
 from skillc_runtime.recording.attempt_steps import collect_steps, failure_chain
 from skillc_runtime.recording.events import Event
-from skillc_runtime.recording.history import Attempt, RecordedFact, RunHistory
+from skillc_runtime.recording.history import Attempt, RecordedFact, RecordedNote, RunHistory
 from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.recording.node_records import AttemptRecord, NodeRecords
 from skillc_runtime.recording.reasons import WrittenExpression
@@ -70,9 +70,15 @@ class HistoryBuilder:
                 self._record_pause(event)
             case events.TaskEnded():
                 self._ended = event
-            case events.StateChanged() | events.Requested() | events.Disturbed() | events.PlanArrived():
-                pass
-            case events.PromptsChanged() | events.Note():
+            case events.Note():
+                self._attempts[-1].notes.append(event)
+            case (
+                events.StateChanged()
+                | events.Requested()
+                | events.Disturbed()
+                | events.PlanArrived()
+                | events.PromptsChanged()
+            ):
                 pass
             case _:
                 assert_never(event)
@@ -131,7 +137,7 @@ class HistoryBuilder:
     def _begin(self, body: AttemptRecord) -> None:
         """Begin an attempt; the first plan replaces the empty first attempt."""
         if self._attempts[-1].plan is None and not self._attempts[-1].roots:
-            self._attempts.pop()
+            body.notes = self._attempts.pop().notes
         self._attempts.append(body)
         self._records = NodeRecords(body)
 
@@ -207,4 +213,5 @@ def _make_attempt(record: AttemptRecord, before: int, body: tree.Node | None) ->
         space=plan.space if plan is not None else None,
         cost=plan.cost if plan is not None else None,
         replaces=record.replaces,
+        notes=tuple(RecordedNote(time=each.time, message=each.message) for each in record.notes),
     )

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from skillc_rdf.vocabulary.types import Position
-from skillc_runtime.recording.events import ImplementationChosen, NodeEnded, NodeStarted, PlanMade
+from skillc_runtime.recording.events import ImplementationChosen, NodeEnded, NodeStarted, Note, PlanMade
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.history import LoopRound, RecordedFact
 from skillc_runtime.recording.reasons import FailedCallContext
@@ -98,7 +98,7 @@ class NodeRecord:
 
 @dataclass(slots=True)
 class AttemptRecord:
-    """One attempt: its plan, if any, why it replaces the previous one, its root nodes and the steps it skipped.
+    """One attempt: its plan, if any, why it replaces the previous one, its root nodes, the steps it skipped, its notes.
 
     `decided` are the places of each `if` outside of calls that has succeeded: the branch that it did not take is not
     missed.
@@ -109,6 +109,7 @@ class AttemptRecord:
     roots: list[NodeRecord] = field(default_factory=list)
     skipped: list[NodeEnded] = field(default_factory=list)
     decided: set[Position] = field(default_factory=set)
+    notes: list[Note] = field(default_factory=list)
 
 
 class NodeRecords:
