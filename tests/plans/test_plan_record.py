@@ -8,6 +8,7 @@ import msgspec
 import pytest
 
 from plans.depot import goal, library, world
+from skillc_model import tree
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.plans.plan_record import (
@@ -19,6 +20,7 @@ from skillc_runtime.execution.plans.plan_record import (
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries, arrange_plan
 from skillc_runtime.planning.plan import LeftOut, Solved, describe_quality
 from skillc_runtime.recording.events import ArrivedPlan, StepGroup
+from skillc_runtime.recording.space_claim import ChosenWay, SpaceClaim
 
 STATE = world({"ann": "a", "bob": "b"}, {"crate": "a", "box": "b"})
 TEXT = "lab:c contain lab:crate and lab:d contain lab:box"
@@ -41,6 +43,20 @@ def test_the_same_body_is_built_of_a_plan_that_was_recorded() -> None:
     assert restored.plan == solved.plan and len(solved.plan.steps) > 2
     arrangement = arrange_plan(restored.plan, library(), STATE)
     assert build_plan_body(restored.plan, arrangement, library()) == prepared.body
+
+
+def test_a_step_is_tried_first_in_the_way_that_was_looked_at() -> None:
+    _, solved = planned()
+    number = next(number for number, each in enumerate(solved.plan.steps, 1) if each.skill == "Unload")
+    way = ChosenWay(number, "Unload", "tilt")
+    space = SpaceClaim(checked=len(solved.plan.steps), steps=len(solved.plan.steps), ways=(way,))
+    body = build_plan_body(solved.plan, InSeries(tuple(range(len(solved.plan.steps)))), library(), space)
+    assert isinstance(body, tree.Sequence) and way.text in space.text
+    tried = [each.then for each in body.children if isinstance(each, tree.If)]
+    assert [isinstance(each, tree.Selector) for each in tried] == [each == number for each in range(1, len(tried) + 1)]
+    first = tried[number - 1]
+    assert isinstance(first, tree.Selector)
+    assert [call.implementation for call in first.children if isinstance(call, tree.Call)] == ["tilt", None]
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,8 @@ from random_layouts.exhaustive import find_way
 from random_layouts.judging import judge, write_layout
 from skillc.services.reporting import SilentReporter
 from skillc.services.task_loading import load_task
+from skillc_runtime.execution.assignment import PreparedTask, prepare_task
+from skillc_runtime.execution.refinement.run_planning import SpaceLook
 from skillc_runtime.recording.run_spec import RunSpec
 
 
@@ -56,6 +58,15 @@ def test_the_search_takes_what_is_above_first_and_finds_nothing_out_of_reach(
         assert find_way(make_ideal_cell(task), layout) == way
 
 
+@pytest.mark.slow
+def test_a_part_for_a_narrow_slot_is_taken_by_its_top(tmp_path: Path) -> None:
+    name = write_layout(draw_layout(5, "slot"), tmp_path / "drawn")
+    with load_task(RunSpec(task=name), SilentReporter()) as task:
+        prepared = prepare_task(task.assignment, task.library, look=SpaceLook())
+    assert isinstance(prepared, PreparedTask) and prepared.space is not None
+    assert [(each.step, each.implementation) for each in prepared.space.ways] == [(1, "by_top")]
+
+
 @pytest.mark.sim
 @pytest.mark.parametrize(
     ("seed", "kind", "said"),
@@ -64,12 +75,12 @@ def test_the_search_takes_what_is_above_first_and_finds_nothing_out_of_reach(
         (1, "stack", "yes"),
         (0, "crowd", "yes"),
         (0, "opposite", "yes"),
-        (2, "slot", "yes"),
+        (5, "slot", "yes"),
         (3, "shelf", "no"),
         (0, "two-arms", "yes"),
     ],
 )
 def test_what_is_said_of_moving_a_part_is_so(seed: int, kind: str, said: str, tmp_path: Path) -> None:
-    """In the slot there is room for slim fingers alone."""
+    """In the slot there is room for fingers that hold the part by its top."""
     verdict = judge(seed, kind, tmp_path)
     assert (verdict.said, verdict.is_so) == (said, True), verdict.why

@@ -84,7 +84,7 @@ class _TreeBuilder:
 
     def _plan(self, plan: ArrivedPlan | PlanMade) -> None:
         steps = Plan(restore_steps(plan.steps), 0.0)
-        self.body = build_plan_body(steps, restore_arrangement(plan.arrangement), self.library)
+        self.body = build_plan_body(steps, restore_arrangement(plan.arrangement), self.library, plan.space)
 
     def _choose(self, choice: ImplementationChosen) -> None:
         """Note what a call has chosen; it has one body at a time, that of its last choice."""

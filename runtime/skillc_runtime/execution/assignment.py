@@ -160,7 +160,7 @@ def arrange_prepared(
     goal = assignment.objective.goal if isinstance(assignment.objective, AchieveGoal) else None
     arrangement = arrange_plan(solved.plan, *foresee(library, assignment.state, goal))
     steps = tuple(solved.plan.steps[number] for number in step_numbers(arrangement))
-    body = build_plan_body(solved.plan, arrangement, library)
+    body = build_plan_body(solved.plan, arrangement, library, space)
     return PreparedTask(assignment, body, PlannedSteps(solved, arrangement, steps), space)
 
 

@@ -132,7 +132,7 @@ def find_arrival_problem(prepared: PreparedTask, library: SkillLibrary, now: Wor
             arrangement = arrange_plan(plan, *foresee(library, now, objective.goal))
         except PlanError as reason:
             return str(reason)
-        if build_plan_body(plan, arrangement, library) != prepared.body:
+        if build_plan_body(plan, arrangement, library, prepared.space) != prepared.body:
             return "its steps now depend on each other in another way"
     return "\n".join(map(str, preflight(prepared.body, library, now))) or None
 

@@ -79,14 +79,30 @@ class PlaceAt(msgspec.Struct, frozen=True):
         return f"step {self.step}: {self.thing} is put down at ({x_m:.2f}, {y_m:.2f}) m from the middle of {on}"
 
 
+class ChosenWay(msgspec.Struct, frozen=True):
+    """With which implementation a step of a plan, from 1, is tried first: after others a later step does not go."""
+
+    step: int
+    skill: str
+    implementation: str
+
+    @property
+    def text(self) -> str:
+        """It as a sentence."""
+        return (
+            f"step {self.step}: {self.skill}[{self.implementation}], since after another way a later step does not go"
+        )
+
+
 class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
     """How many steps of a plan go in space, of how many, and why the next does not; None if it does or is not known.
 
     unseen: the calls in these steps that were not looked at. postures: those in which arms bring their tools to poses,
     in the order of the steps, which a run takes as well. apart: the steps that do not run at the same time, since arms
     would meet. stands: where bases stand beside where a place wants them. places: where things are put down, which a
-    run does as well. stopped: why the look ended before it was through; empty if it was. from_home: whether the arms
-    begin at home; else where they were when the plan was made.
+    run does as well. ways: the steps that are done in another way than the first one that goes. stopped: why the look
+    ended before it was through; empty if it was. from_home: whether the arms begin at home; else where they were when
+    the plan was made.
     """
 
     checked: int
@@ -96,6 +112,7 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
     apart: tuple[StepsApart, ...] = ()
     stands: tuple[StandAt, ...] = ()
     places: tuple[PlaceAt, ...] = ()
+    ways: tuple[ChosenWay, ...] = ()
     failure: str | None = None
     stopped: str = ""
     from_home: bool = True
@@ -111,6 +128,11 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
     def apart_pairs(self) -> frozenset[tuple[int, int]]:
         """The steps that do not run at the same time, by index, the earlier one first."""
         return frozenset((each.one - 1, each.other - 1) for each in self.apart)
+
+    @property
+    def way_names(self) -> dict[int, str]:
+        """The implementations with which steps are tried first, by the index of the step."""
+        return {each.step - 1: each.implementation for each in self.ways}
 
     @property
     def summary(self) -> str:
@@ -130,6 +152,7 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
         lines += (f"step {each.step}: nobody says what {each.what} needs of space" for each in self.unseen)
         lines += (each.text for each in self.stands)
         lines += (each.text for each in self.places)
+        lines += (each.text for each in self.ways)
         lines += (
             f"steps {each.one} and {each.other} do not run at the same time: {' and '.join(each.arms)} would meet"
             for each in self.apart

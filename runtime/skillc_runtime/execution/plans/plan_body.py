@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import assert_never
+
+from msgspec import structs
 
 from skillc_model import tree
 from skillc_model.conditions import And, Condition, Expression, Individual, Not
@@ -12,13 +15,21 @@ from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries
 from skillc_runtime.planning.plan import Plan, Step
+from skillc_runtime.recording.space_claim import SpaceClaim
 
 
-def build_plan_body(plan: Plan, arrangement: Arrangement, library: SkillLibrary) -> tree.Node:
-    """Return the body that runs the steps of a plan in the given arrangement."""
+def build_plan_body(
+    plan: Plan, arrangement: Arrangement, library: SkillLibrary, space: SpaceClaim | None = None
+) -> tree.Node:
+    """Return the body that runs the steps of a plan in the given arrangement.
+
+    Steps are tried first with the implementations that `space`, what is known of the plan in space, names.
+    """
     if not plan.steps:
         return tree.Sequence(children=(), reactive=False, source=Position(path=library.name, line=1, column=1))
-    return _build_arrangement(arrangement, plan.steps, library)
+    ways = {} if space is None else space.way_names
+    steps = [_build_step(each, library, ways.get(number)) for number, each in enumerate(plan.steps)]
+    return _build_arrangement(arrangement, steps)
 
 
 def achieved_condition(step: Step, library: SkillLibrary) -> Condition | None:
@@ -30,24 +41,30 @@ def achieved_condition(step: Step, library: SkillLibrary) -> Condition | None:
     return And(tuple(substitute(post.condition, individuals) for post in posts))
 
 
-def _build_arrangement(arrangement: Arrangement, steps: tuple[Step, ...], library: SkillLibrary) -> tree.Node:
+def _build_arrangement(arrangement: Arrangement, steps: Sequence[tree.Node]) -> tree.Node:
     match arrangement:
         case int():
-            return _build_step(steps[arrangement], library)
+            return steps[arrangement]
         case InSeries(parts):
-            children = tuple(_build_arrangement(part, steps, library) for part in parts)
+            children = tuple(_build_arrangement(part, steps) for part in parts)
             return tree.Sequence(children=children, reactive=False, source=children[0].source)
         case InParallel(parts):
-            children = tuple(_build_arrangement(part, steps, library) for part in parts)
+            children = tuple(_build_arrangement(part, steps) for part in parts)
             return tree.Parallel(policy="all", children=children, source=children[0].source)
         case _:
             assert_never(arrangement)
 
 
-def _build_step(step: Step, library: SkillLibrary) -> tree.Node:
+def _build_step(step: Step, library: SkillLibrary, way: str | None) -> tree.Node:
     skill = library.skills[step.skill]
     arguments: dict[str, Expression] = {name: Individual(iri) for name, iri in step.arguments.items()}
-    call = tree.Call(skill=skill.name, implementation=None, arguments=arguments, out=None, source=skill.source)
+    call: tree.Node = tree.Call(
+        skill=skill.name, implementation=None, arguments=arguments, out=None, source=skill.source
+    )
+    if way is not None:
+        call = tree.Selector(
+            children=(structs.replace(call, implementation=way), call), reactive=False, source=skill.source
+        )
     achieved = achieved_condition(step, library)
     if achieved is None:
         return call

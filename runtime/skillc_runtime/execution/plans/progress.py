@@ -20,8 +20,8 @@ from skillc_runtime.world.state.world_state import WorldState
 Progress: TypeAlias = tuple[tuple[Step, NodeOutcome], ...]
 """The steps of a plan in the order of its body, each with the outcome of its node."""
 
-STEP_KINDS = ("call", "if")
-"""The kinds of nodes that run a step in the body of a plan: a call, or one that is skipped if nothing is left to do."""
+STEP_KINDS = ("call", "if", "sel")
+"""The kinds of nodes that run a step of a plan: a call, one that is skipped if nothing is left to do, or two calls."""
 
 
 def measure_progress(steps: Sequence[Step], tree: NodeOutcome) -> Progress:

@@ -9,6 +9,7 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.meetings import find_steps_apart
 from skillc_runtime.execution.refinement.scope import call_of
+from skillc_runtime.execution.refinement.siblings import find_hand
 from skillc_runtime.execution.refinement.situation import (
     ChosenPlace,
     ChosenStand,
@@ -34,6 +35,7 @@ class RefinedStep:
     """A step that goes, with the motions of the arms in it, and where bases and things are let stand.
 
     `stands` are those beside where places want bases. `unseen` are calls in it that nobody could look at.
+    `way` is the implementation with which later steps go, if they do not go with one before it; else None.
     """
 
     step: Step
@@ -41,6 +43,7 @@ class RefinedStep:
     unseen: tuple[str, ...]
     stands: tuple[ChosenStand, ...] = ()
     places: tuple[ChosenPlace, ...] = ()
+    way: str | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,6 +77,7 @@ class _Refiner:
         self._library = library
         self._furthest = PlanRefinement(())
         self._left = RETRIES
+        self._lacks_place: Step | None = None
 
     def refine(self, steps: tuple[Step, ...], here: Situation) -> PlanRefinement:
         self._left = WITH_BASES if here.state.instances(MOBILE_ROBOT) else RETRIES
@@ -90,15 +94,22 @@ class _Refiner:
         if not left:
             yield done
             return
-        step, walk = left[0], Walk(self._library)
-        for after in walk.go(call_of(step, self._library), here, Scope({})):
-            motions, stands = after.motions[len(here.motions) :], after.stands[len(here.stands) :]
-            places = after.places[len(here.places) :]
-            refined = RefinedStep(step, motions, tuple(walk.unseen), stands, places)
-            yield from self._go(left[1:], self._with_effects(step, after), (*done, refined))
-            if self._left <= 0:
-                return
+        step, walk, went = left[0], Walk(self._library), 0
+        for way in self._library.skills[step.skill].implementations:
+            before = went
+            for after in walk.go(call_of(step, self._library, way), here, Scope({})):
+                went += 1
+                motions, stands = after.motions[len(here.motions) :], after.stands[len(here.stands) :]
+                places, chosen = after.places[len(here.places) :], way if before else None
+                refined = RefinedStep(step, motions, tuple(walk.unseen), stands, places, chosen)
+                self._lacks_place = None
+                yield from self._go(left[1:], self._with_effects(step, after), (*done, refined))
+                if self._left <= 0:
+                    return
+                if self._lacks_place is not None and _takes_any(here.state, after.state, self._lacks_place):
+                    break  # in another posture the hand holds it in the same way
         self._left -= 1
+        self._lacks_place = step if not went and _lacks_place(walk.furthest, here) else None
         if len(done) > len(self._furthest.steps) or self._furthest.failed is None:
             self._furthest = PlanRefinement(done, step, walk.furthest, here, tuple(walk.unseen))
 
@@ -109,3 +120,14 @@ class _Refiner:
         except (EvaluationError, WorldError):
             return after
         return replace(after, state=state, forces={}, spreads={})
+
+
+def _lacks_place(why: SpaceFailure | None, here: Situation) -> bool:
+    """Whether nothing has moved in a step because there is no place for what it puts down, or no grasp."""
+    return why is not None and why.cause == "no-grasp-or-place" and why.depth == len(here.motions)
+
+
+def _takes_any(before: WorldState, after: WorldState, step: Step) -> bool:
+    """Whether a hand has taken, from one version of the world to another, a thing that a step names."""
+    named = step.arguments.values()
+    return any(find_hand(after, each) is not None and find_hand(before, each) is None for each in named)

@@ -29,11 +29,11 @@ MOST_THINGS = 1000
 """With more things that can be moved it is not asked which of them is in the way."""
 
 
-def call_of(step: Step, library: SkillLibrary) -> tree.Call:
-    """Return the call of a step."""
+def call_of(step: Step, library: SkillLibrary, way: str | None = None) -> tree.Call:
+    """Return the call of a step, with one implementation if `way` names it."""
     arguments: dict[str, Expression] = {name: Individual(iri) for name, iri in step.arguments.items()}
     return tree.Call(
-        skill=step.skill, implementation=None, arguments=arguments, out=None, source=library.skills[step.skill].source
+        skill=step.skill, implementation=way, arguments=arguments, out=None, source=library.skills[step.skill].source
     )
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from msgspec import structs
 
-from skillc_runtime.recording.space_claim import ChosenPosture, PlaceAt, SpaceClaim, StandAt, UnseenCall
+from skillc_runtime.recording.space_claim import ChosenPosture, ChosenWay, PlaceAt, SpaceClaim, StandAt, UnseenCall
 from skillc_runtime.world.state.labelling import label, label_pose
 
 if TYPE_CHECKING:
@@ -32,6 +32,9 @@ def make_claim(found: PlanRefinement, steps: int, words: Vocabulary, from_home: 
         apart=found.apart,
         stands=tuple(each for number, step in enumerate(found.steps, 1) for each in _stands_of(number, step.stands)),
         places=tuple(each for number, step in enumerate(found.steps, 1) for each in _places_of(number, step.places)),
+        ways=tuple(
+            ChosenWay(number, each.step.skill, each.way) for number, each in enumerate(found.steps, 1) if each.way
+        ),
         failure=failure,
         from_home=from_home,
     )

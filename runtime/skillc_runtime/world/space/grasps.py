@@ -28,7 +28,7 @@ from skillc_runtime.world.space.grasp_geometry import (
     span,
     too_wide,
 )
-from skillc_runtime.world.space.grasps_from_above import derive_from_above
+from skillc_runtime.world.space.grasps_from_above import derive_by_top, derive_from_above
 from skillc_runtime.world.space.grasps_from_side import derive_from_side
 from skillc_runtime.world.space.grip_force import GraspError, check_weight
 from skillc_runtime.world.space.hand_shape import HandShape, overlaps, read_hand_shape
@@ -39,10 +39,10 @@ from skillc_runtime.world.state.data_sheet import sheet_of
 from skillc_runtime.world.state.terms import FIXTURE, GRASP_WIDTH, GRASPING_POSE, HAS_A
 from skillc_runtime.world.state.world_state import WorldState
 
-Way: TypeAlias = Literal["above", "across", "side"]
-"""From above with the fingers across the narrower side, from above across the other side, from the side."""
+Way: TypeAlias = Literal["above", "across", "side", "top"]
+"""From above with the fingers across the narrower side, from above across the other side, from the side, by its top."""
 
-WAYS: Final[tuple[Way, ...]] = ("above", "across", "side")
+WAYS: Final[tuple[Way, ...]] = ("above", "across", "side", "top")
 
 ALONG_AXIS = 0.9
 """The cosine up to which two axes count as parallel."""
@@ -171,16 +171,19 @@ def _read_scene(state: WorldState, gripper: str, thing: str, with_movable: bool 
 def _derive(scene: GraspScene, way: str) -> tuple[GraspCandidate, ...]:
     if way == "side":
         return derive_from_side(scene)
+    if way == "top":
+        return derive_by_top(scene)
     above = derive_from_above(scene)
     return above if way == "above" else above[1:]
 
 
 def _derive_any(scene: GraspScene) -> tuple[GraspCandidate, ...]:
-    """Return the grasps from above, else those from the side; the reason against the first counts."""
+    """Return the grasps from above, else by the top, else from the side; the reason against the first counts."""
     try:
         return derive_from_above(scene)
-    except GraspError as error:
-        try:
-            return derive_from_side(scene)
-        except GraspError:
-            raise error from None
+    except GraspError:
+        for derive in (derive_by_top, derive_from_side):
+            with suppress(GraspError):
+                if found := derive(scene):
+                    return found
+        raise

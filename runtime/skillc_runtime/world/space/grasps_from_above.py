@@ -22,15 +22,31 @@ from skillc_runtime.world.space.occupants import Occupant
 from skillc_runtime.world.space.overhead import HAND_ABOVE_M, roof_problem
 from skillc_runtime.world.state.terms import GRASP_WIDTH
 
+HIGHER_M = 0.003
+"""How much higher a grasp by the top is at least."""
+
 
 def derive_from_above(scene: GraspScene) -> tuple[GraspCandidate, ...]:
     """Return the grasps from above, that of the narrower side first; GraspError if there is none."""
+    return _derive_at(scene, _tool_height(scene))
+
+
+def derive_by_top(scene: GraspScene) -> tuple[GraspCandidate, ...]:
+    """Return those with which only the tips of the fingers hold the body, by its top; none if no other are so high.
+
+    Then there is room beside what is lower, such as in a narrow container. GraspError if there is none from above.
+    """
+    height_m = span(scene.body, UP)[1] - scene.hand.tip_m / 2
+    return _derive_at(scene, height_m) if height_m > _tool_height(scene) + HIGHER_M else ()
+
+
+def _derive_at(scene: GraspScene, height_m: float) -> tuple[GraspCandidate, ...]:
+    """Return the grasps from above with the tool centre point at a height in m in the world."""
     _check_spread(scene)
     spans = [(closing, *span(scene.body, closing)) for closing in _closings(scene.body, scene.away)]
     widths = [high - low for _, low, high in spans]
     if min(widths) > scene.takes_m:
         raise scene.width_error(widths)
-    height_m = _tool_height(scene)
     _check_roof(scene, height_m)
     tried = list(_tried(scene, spans, height_m))
     found = [each for each in tried if isinstance(each, GraspCandidate)]

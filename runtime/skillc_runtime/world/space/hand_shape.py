@@ -29,7 +29,7 @@ FINGER_WIDTH_M, FINGER_THICKNESS_M = 0.04, 0.02
 PALM_WIDTH_M, PALM_THICKNESS_M = 0.15, 0.06
 """The size of fingers and palm across and along the direction in which they close, unless the data sheet says it."""
 
-RELEASE_CLEARANCES_M = (0.04, 0.016)
+RELEASE_CLEARANCES_M = (0.04, 0.016, 0.008)
 """How much farther than the object's width fingers open to release it, and where there is less room."""
 
 SLACK_M = 0.001

@@ -22,8 +22,8 @@ from skillc_runtime.world.state.world_state import WorldState
 FINGER_M = 0.03
 """How much room a finger gets beside a thing when it lets go."""
 
-FINGER_SLACK_M = 0.003
-"""How much wider a finger may be on each side than its data sheet says, where there is less room."""
+FINGER_SLACKS_M = (0.003, 0.001)
+"""How much wider a finger may be on each side than its data sheet says, where there is less room, and the least."""
 
 HAND_M = 0.035
 """Half the width of a hand across the direction in which it closes."""
@@ -49,11 +49,11 @@ class Load:
 
 
 def read_loads(state: WorldState, gripper: str, thing: str) -> list[Load]:
-    """Return a held thing with ample room for the fingers that let it go, and with as little as they need.
+    """Return a held thing with ample room for the fingers that let it go, with less, and with as little as they need.
 
     PlaceError if the hand does not hold it; MissingFact or SheetError if facts are missing.
     """
-    return [_read_load(state, gripper, thing, room) for room in (_ample, _narrow)]
+    return [_read_load(state, gripper, thing, room) for room in (_ample, _narrow, _tight)]
 
 
 def pose_in_hand(state: WorldState, gripper: str, thing: str) -> Pose:
@@ -71,8 +71,13 @@ def _ample(_hand: HandShape) -> tuple[float, float]:
 
 
 def _narrow(hand: HandShape) -> tuple[float, float]:
+    """Return the room in m that fingers need which open less far, as above."""
+    return hand.finger_width_m / 2 + FINGER_SLACKS_M[0], hand.finger_thickness_m + RELEASE_CLEARANCES_M[1] / 2
+
+
+def _tight(hand: HandShape) -> tuple[float, float]:
     """Return the least room in m that fingers need, as above."""
-    return hand.finger_width_m / 2 + FINGER_SLACK_M, hand.finger_thickness_m + RELEASE_CLEARANCES_M[-1] / 2
+    return hand.finger_width_m / 2 + FINGER_SLACKS_M[1], hand.finger_thickness_m + RELEASE_CLEARANCES_M[2] / 2
 
 
 def _read_load(
