@@ -1573,8 +1573,9 @@ export interface components {
          *         unseen: the calls in these steps that were not looked at. postures: those in which arms bring their tools to poses,
          *         in the order of the steps, which a run takes as well. apart: the steps that do not run at the same time, since arms
          *         would meet. stands: where bases stand beside where a place wants them. places: where things are put down, which a
-         *         run does as well. stopped: why the look ended before it was through; empty if it was. from_home: whether the arms
-         *         begin at home; else where they were when the plan was made.
+         *         run does as well. ways: the steps that are done in another way than the first one that goes. stopped: why the look
+         *         ended before it was through; empty if it was. from_home: whether the arms begin at home; else where they were when
+         *         the plan was made.
          */
         SpaceClaim: {
             checked: number;
@@ -1589,6 +1590,8 @@ export interface components {
             stands?: components["schemas"]["StandAt"][];
             /** @default [] */
             places?: components["schemas"]["PlaceAt"][];
+            /** @default [] */
+            ways?: components["schemas"]["ChosenWay"][];
             /** @default null */
             failure?: string | null;
             /** @default  */
@@ -1657,6 +1660,15 @@ export interface components {
             board?: number;
             /** @default false */
             stated?: boolean;
+        };
+        /**
+         * ChosenWay
+         * @description With which implementation a step of a plan, from 1, is tried first: after others a later step does not go.
+         */
+        ChosenWay: {
+            step: number;
+            skill: string;
+            implementation: string;
         };
         /**
          * PlanMade
