@@ -138,3 +138,10 @@ def test_every_kind_has_a_property_of_a_sheet_and_a_row_in_the_docs(docs: str) -
 @pytest.fixture
 def docs(request: pytest.FixtureRequest) -> str:
     return (request.config.rootpath / "docs" / "reality.md").read_text(encoding="utf-8")
+
+
+def test_ideal_undoes_what_a_scene_says() -> None:
+    said = world("iiwa_table").with_changes([SetProperty(ARM["iiwa_table"], REALITY, "wide")])
+    assert draw_variation(read_scene_spec(said), 0).imperfections[ARM["iiwa_table"]]
+    ideal = draw_variation(read_scene_spec(set_reality(said, "ideal")), 0).imperfections
+    assert not any(ideal.values())

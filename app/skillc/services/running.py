@@ -113,7 +113,7 @@ def run_task(
     spec = options.spec
     if spec.minimise == "makespan":
         task = with_minimal_makespan(task)
-    if spec.reality != IDEAL:
+    if spec.reality is not None:
         task = with_reality(task, spec.reality)
     if spec.dry:
         task = _with_own_world(task)
@@ -135,7 +135,7 @@ def run_task(
             return end("stopped", str(interrupt) or "interrupted", reporter)
         with closing(cell):
             check_pace(cell, monitor.pace.factor)
-            check_reality(cell, spec.reality)
+            check_reality(cell, spec.reality or IDEAL)
             destination = ReportDestination(options.out, pictures, reporter)
             return _Run(task, options, cell, make_samples(cell, film), gate, monitor, destination).carry_out(planning)
 

@@ -30,9 +30,10 @@ class WorkKeywords(TypedDict, total=False):
     """Reuse plans that were found for the same problem."""
     seed: int
     """The seed of what differs from the world model."""
-    reality: str
+    reality: str | None
     """How far simulated arms and tools are from what they should be: `ideal`, `typical` or `wide`, all
-    imperfections that their sheets state, or only some of them: `wide:jointFriction,forceBias`."""
+    imperfections that their sheets state, or only some of them: `wide:jointFriction,forceBias`. By default as the
+    scene says, ideal if it says nothing."""
     backend: str
     """Simulate with physics (`mujoco`), or with ideal motion and contact (`kinematic`): faster, but contact is not
     verified then. Others run on robots."""

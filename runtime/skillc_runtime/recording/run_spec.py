@@ -106,14 +106,15 @@ class RunSpec(RunRequest, frozen=True, kw_only=True):
         documented("The seed of what differs from the world model.", EXECUTION, metavar="N"),
     ] = 0
     reality: Annotated[
-        str,
+        str | None,
         documented(
             "How far simulated arms and tools are from what they should be: `ideal`, `typical` or `wide`, all "
-            "imperfections that their sheets state, or only some of them: `wide:jointFriction,forceBias`.",
+            "imperfections that their sheets state, or only some of them: `wide:jointFriction,forceBias`. By default "
+            "as the scene says, ideal if it says nothing.",
             EXECUTION,
             metavar="LEVEL",
         ),
-    ] = "ideal"
+    ] = None
     backend: Annotated[
         str,
         documented(

@@ -1316,10 +1316,10 @@ export interface components {
              */
             seed?: number;
             /**
-             * @description How far simulated arms and tools are from what they should be: `ideal`, `typical` or `wide`, all imperfections that their sheets state, or only some of them: `wide:jointFriction,forceBias`.
-             * @default ideal
+             * @description How far simulated arms and tools are from what they should be: `ideal`, `typical` or `wide`, all imperfections that their sheets state, or only some of them: `wide:jointFriction,forceBias`. By default as the scene says, ideal if it says nothing.
+             * @default null
              */
-            reality?: string;
+            reality?: string | null;
             /**
              * @description Simulate with physics (`mujoco`), or with ideal motion and contact (`kinematic`): faster, but contact is not verified then. Others run on robots.
              * @default mujoco
