@@ -161,16 +161,18 @@ def test_what_is_held_slides_with_the_forces_of_an_exact_solver() -> None:
     model, data = copy(mirror_of(there).tight_model), copy(mirror_of(there).tight)
     block, exactly = model.body(there.scene.names[ERASER] + "/block").id, copy(model)
     exactly.opt.solver, exactly.opt.tolerance = mujoco.mjtSolver.mjSOL_NEWTON, 1e-15
-    sliding = 0
+    sliding, errors = 0, list[float]()
     for _ in range(200):
         data.xfrc_applied[block, :3] = data.xmat[block].reshape(3, 3) @ [12.0, 0.0, -18.0]
         exact = copy(data)
         mujoco.mj_step(exactly, exact)
         mujoco.mj_step(model, data)
         forces = total_force(model, data), total_force(exactly, exact)
-        assert np.linalg.norm(forces[0] - forces[1]) < 2e-4 * np.linalg.norm(forces[1])
+        errors.append(np.linalg.norm(forces[0] - forces[1]) / np.linalg.norm(forces[1]))
         sliding += mujoco.mjtConstraintState.mjCNSTRSTATE_CONE in exact.efc_state
     assert sliding > 20
+    assert max(errors) < 3e-3
+    assert np.median(errors) < 1e-4
 
 
 def total_force(model: mujoco.MjModel, data: mujoco.MjData) -> Array:

@@ -102,11 +102,15 @@ def base_away_from(cell: Cell, robot: str, place: str, at: Pose, state: WorldSta
     """
     goal, short = at.position, state.vocabulary.short
     tolerance, base = _tolerance_m(state, robot), cell.base(robot)
+    there: Pose | None = None
+    off = 0.0
 
     def read() -> str | None:
+        nonlocal there, off
         if not base.at_rest:
             return None
-        off = dist(base.pose.position[:2], goal[:2])
+        if (here := base.pose) is not there:
+            there, off = here, dist(here.position[:2], goal[:2])
         if off <= tolerance:
             return None
         return f"{short(robot)} reports that it stands {off:.2f} m away from {short(place)}"

@@ -29,7 +29,6 @@ OF_OPTIONS = (
     "integrator",
     "cone",
     "iterations",
-    "tolerance",
     "impratio",
     "disableflags",
 )
