@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec import structs
 
 from emit import samples
 from emit.planner import search_binary, solve
@@ -107,11 +108,11 @@ def test_what_nothing_changes_is_settled_where_forall_is_written_out() -> None:
     fixed = Predicate("is-fixed", (place,), ClassMeaning("fixed"), False)
     at_place = Atom("core-at", (pick.parameters[0].name, place.name))
     every = Universal(place, disjunction((Negation(Atom("is-fixed", (place.name,))), at_place)))
-    actions = (replace(pick, precondition=every),)
+    actions = (structs.replace(pick, precondition=every),)
     before = problem(replace(domain, predicates=(*domain.predicates, fixed), actions=actions), TRUE)
     for fixed_ones in ((), ("dock",), ("dock", "wall")):
         facts = tuple(Atom("is-fixed", (name,)) for name in fixed_ones)
-        after = remove_axioms(replace(before, init=(*before.init, *facts))).domain.action["pick"].precondition
+        after = remove_axioms(structs.replace(before, init=(*before.init, *facts))).domain.action["pick"].precondition
         assert after == conjunction(Atom("core-at", (at_place.terms[0], name)) for name in fixed_ones)
 
 

@@ -6,9 +6,9 @@ SKILLC_EXAMPLES says how many of each kind are tried.
 from __future__ import annotations
 
 import os
-from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace
 
 from oracle.drawing import CROWD, Dice
 from oracle.forced import TooManyStates, cheapest

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from planners.test_schedule_simulation import BOTH, GOOD, WORLD, carry, in_order, step
 from planning.samples import LAB, library, post, skill

@@ -7,11 +7,12 @@ import multiprocessing
 import os
 import subprocess
 import sys
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from msgspec.structs import replace
 
 from planners.test_schedule_simulation import BOTH, GOOD, WORLD
 from plans import depot

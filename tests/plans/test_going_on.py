@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from plans.depot import Depot, goal, iri, library, world
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec import structs
 
 from skillc.services.planning import FolderPlanCache, plan_goal, prepare_planners
 from skillc.services.reporting import SilentReporter
@@ -63,7 +64,7 @@ def test_what_a_run_may_sense_is_no_reason_to_refuse_it() -> None:
     with loaded("sorting:sort_parts") as task:
         unknown = [ClearProperty(f"{LAB}Box-{box}", each) for box in "AB" for each in SIZE]
         state = task.assignment.state.with_changes(unknown)
-        claim = look_at(replace(task, assignment=replace(task.assignment, state=state)), SpaceLook())
+        claim = look_at(structs.replace(task, assignment=structs.replace(task.assignment, state=state)), SpaceLook())
     assert (claim.checked, claim.steps) == (1, 4)
     assert claim.failure is not None and "has no size" in claim.failure
 
@@ -80,7 +81,7 @@ def test_what_was_found_is_kept_for_the_same_facts_and_postures(
         assert look_at(task, look) == look_at(task, look)
         assert len(found) == 1
         moved = task.assignment.state.with_changes([SetProperty(f"{LAB}Spare", SIZE[0], 0.1)])
-        look_at(replace(task, assignment=replace(task.assignment, state=moved)), look)
+        look_at(structs.replace(task, assignment=structs.replace(task.assignment, state=moved)), look)
         assert len(found) == 2
         look_at(task, replace(look, memory=LookMemory(FolderPlanCache(tmp_path), "elsewhere")))
     assert len(found) == 3

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from xml.etree import ElementTree
 
 import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from msgspec.structs import replace
 
 from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.evaluation.report.figure_files import render_figure

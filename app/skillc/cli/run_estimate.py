@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from skillc_runtime.recording.events import Event, NodeEnded, NodeStarted, PlanMade, Replanned
 from skillc_runtime.recording.failure_text import describe_failure
@@ -11,8 +11,7 @@ LEAST_WALL_S = 1.0
 """How long a plan is followed before its speed tells how long the rest takes, in s of wall time."""
 
 
-@dataclass(frozen=True, slots=True)
-class EndedStep:
+class EndedStep(msgspec.Struct, frozen=True):
     """A step of a plan that ended at the time `at_s` of the cell in s, and why it failed if it did."""
 
     skill: str
@@ -21,8 +20,7 @@ class EndedStep:
     reason: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Estimate:
+class Estimate(msgspec.Struct, frozen=True):
     """The `step` of so many `steps` that runs, from 1, the `share` of the plan that is done, and times in s.
 
     `total_s` is how long the plan takes in the time of the cell; `left_s` how long the rest takes in wall time, None if

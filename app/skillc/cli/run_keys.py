@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc.cli.run_view import RunView
 from skillc_runtime.execution.pace import Pace, format_pace
@@ -12,8 +13,7 @@ from skillc_runtime.recording.commands import Answer, Command, Pause, Resume, St
 ENTER = "\n"
 
 
-@dataclass(frozen=True, slots=True)
-class Key:
+class Key(msgspec.Struct, frozen=True):
     """A key, what it does in a word or two, and the command that it gives."""
 
     letter: str

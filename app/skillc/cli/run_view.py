@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import msgspec
+
 from skillc.contract.operation import OperationStatus
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.prompts import Prompt
@@ -22,24 +24,21 @@ from skillc_runtime.recording.events import (
 from skillc_runtime.recording.states import State
 
 
-@dataclass(frozen=True, slots=True)
-class ShownCall:
+class ShownCall(msgspec.Struct, frozen=True):
     """A call of a skill, with its place."""
 
     skill: str
     source: Position
 
 
-@dataclass(frozen=True, slots=True)
-class CallStack:
+class CallStack(msgspec.Struct, frozen=True):
     """An active call and those around it, the innermost first; it is `next` if it has not started."""
 
     calls: tuple[ShownCall, ...]
     next: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class RunView:
+class RunView(msgspec.Struct, frozen=True):
     """A run at one moment; `contact` is what becomes of a tool that pressed when it was paused.
 
     `confirms`: the user confirms each step.

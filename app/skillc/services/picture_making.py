@@ -10,6 +10,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, TypeAlias
 
+import msgspec
+
 from skillc.services.reporting import Reporter
 from skillc_runtime.execution.worker_process import ReportingFunction, Returned, WorkerProcess, WorkerResult
 from skillc_runtime.platforms.processes import DEFAULT_START
@@ -33,8 +35,7 @@ def no_progress(_name: str, _share: float) -> None:
     """Show nothing."""
 
 
-@dataclass(frozen=True, slots=True)
-class PictureOrder:
+class PictureOrder(msgspec.Struct, frozen=True):
     """Figures to draw, and a film to make unless `footage` is None, into the folder of a report with these pages."""
 
     name: str
@@ -44,8 +45,7 @@ class PictureOrder:
     pages: ReportPages
 
 
-@dataclass(frozen=True, slots=True)
-class _Making:
+class _Making(msgspec.Struct, frozen=True):
     """An order that a process carries out; `spare` is the folder of the page that is shown if there is no film."""
 
     order: PictureOrder

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from skillc.errors import RequestError
 from skillc.services.task_loading import LoadedTask

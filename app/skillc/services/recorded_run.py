@@ -5,9 +5,10 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
+
+import msgspec
 
 from skillc.services.files import writing_to
 from skillc.services.recordings import NAME
@@ -23,8 +24,7 @@ from skillc_runtime.recording.reader import TraceError
 from skillc_runtime.recording.writer import TraceWriter
 
 
-@dataclass(frozen=True, slots=True)
-class RecordingOptions:
+class RecordingOptions(msgspec.Struct, frozen=True):
     """The folder of recording and result (None: none that stays), and how long a tick may take in s (0: any time).
 
     With `prints_json` the caller prints the result as JSON; the watchdog does if the run is interrupted. Without a
@@ -39,8 +39,7 @@ class RecordingOptions:
     recorders: tuple[Recorder, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class RecordedRun:
+class RecordedRun(msgspec.Struct, frozen=True):
     """The listener that records the events of a run, and the memory that counts its ticks."""
 
     publisher: Publisher

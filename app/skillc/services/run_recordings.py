@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
@@ -35,8 +34,7 @@ from skillc_runtime.world.state.transactions import StoreError
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class KnownStart:
+class KnownStart(msgspec.Struct, frozen=True):
     """What is known of the start of a run: the world, and for a cell that goes on from run to run all that follows.
 
     That are the `writes` that led to the world, the number `ticks` of the first tick, and the `checkpoint` from which

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import msgspec
 
 from skillc.errors import RequestError, ServiceError
 from skillc.services.picture_making import Pictures
@@ -28,8 +29,7 @@ if TYPE_CHECKING:
 PRIMITIVE_LOOKS = "primitive"
 
 
-@dataclass(frozen=True, slots=True)
-class RunResult:
+class RunResult(msgspec.Struct, frozen=True):
     """The result of a task, and the drawings of its wipings for the report (none without a report).
 
     `written` is False if a report was requested and could not be written.
@@ -40,8 +40,7 @@ class RunResult:
     written: bool = True
 
 
-@dataclass(frozen=True, slots=True)
-class RunSamples:
+class RunSamples(msgspec.Struct, frozen=True):
     """What is sampled during a run: the pictures of the film, unless there is to be none, and what devices do."""
 
     film: Film | None
@@ -54,8 +53,7 @@ class RunSamples:
         self.trace.sample()
 
 
-@dataclass(frozen=True, slots=True)
-class ReportDestination:
+class ReportDestination(msgspec.Struct, frozen=True):
     """The folder of a report (None: no report), the processes that make its pictures, and the reporter of problems."""
 
     folder: Path | None

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import AbstractContextManager, closing, nullcontext
-from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc.errors import RequestError, ServiceError
 from skillc.services.backends import DEFAULT_BACKEND, SIMULATED, check_pace, make_backend
@@ -58,8 +60,7 @@ from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.transactions import StoreError
 
 
-@dataclass(frozen=True, slots=True)
-class RunOptions:
+class RunOptions(msgspec.Struct, frozen=True):
     """What a run is given, and how this process carries it out.
 
     Without the folder `out` of its specification, `record_in` may be one for the MCAP file alone.
@@ -72,7 +73,7 @@ class RunOptions:
     recorded.
     """
 
-    spec: RunSpec = field(default_factory=RunSpec)
+    spec: RunSpec = msgspec.field(default_factory=RunSpec)
     planners: Planners | None = None
     tick_timeout_s: float | None = TICK_TIMEOUT_S
     prints_json: bool = False
@@ -155,8 +156,7 @@ def _make_cell(task: LoadedTask, options: RunOptions) -> Backend:
     return make_backend(spec.backend, task.world, spec.seed, options.saved)
 
 
-@dataclass(frozen=True, slots=True)
-class _Run:
+class _Run(msgspec.Struct, frozen=True):
     """A task in a cell that has been built."""
 
     task: LoadedTask

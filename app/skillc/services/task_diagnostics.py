@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import TypeAlias
 
+from msgspec import structs
+
 from skillc.services import scene_diagnostics, value_checks
 from skillc.services.space_problems import OutOfTime, SpaceProblem
 from skillc_dsl.diagnostics import Diagnostic, Label, Severity
@@ -50,7 +52,7 @@ class TaskDiagnostics:
         """Yield those of the unknown names because of which a call can never start, at the text or at the call."""
         for origin, wrong in refusal.unknown_names.items():
             message = wrong.message(self.scene.state.vocabulary)
-            at_call = self.diagnostic("unknown-value", message, replace(refusal, rejected=()), "error")
+            at_call = self.diagnostic("unknown-value", message, structs.replace(refusal, rejected=()), "error")
             written = places.get(origin)
             if written is None:
                 yield replace(at_call, help=did_you_mean(wrong.text, wrong.known))

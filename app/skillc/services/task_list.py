@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, assert_never
+
+import msgspec
 
 from skillc.errors import RequestError
 from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
@@ -22,8 +23,7 @@ DEFAULT_LIBRARY = "wiping"
 Origin = Literal["project", "dependency", "shipped"]
 
 
-@dataclass(frozen=True, slots=True)
-class TaskEntry:
+class TaskEntry(msgspec.Struct, frozen=True):
     """A task: what names it here (`name`), its library, what it does, and the scene that it is in as it is written.
 
     `origin` says whose library it is, `aim` is the text of its goal, or the calls of its body. `parameters` are as in

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 
+import msgspec
 from msgspec import structs
 
 from skillc.errors import RequestError
@@ -29,8 +29,7 @@ _CALL = re.compile(r"\s*[A-Za-z]\w*\(")
 _CONDITION = re.compile(r"\(|[=<>]")
 
 
-@dataclass(frozen=True, slots=True)
-class LoadedTask:
+class LoadedTask(msgspec.Struct, frozen=True):
     """A compiled library, the assignment to carry out, and its world; the file of its scene, empty if it is stored."""
 
     library: SkillLibrary

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
+
+import msgspec
 
 from skillc.services import scene_diagnostics
 from skillc.services.files import inspect_path
@@ -31,8 +32,7 @@ ReadScene: TypeAlias = Callable[[Path, Vocabulary], Outcome[Scene | None]]
 """Reads a scene file with the terms of a vocabulary; None, with diagnostics, if it cannot be read."""
 
 
-@dataclass(frozen=True, slots=True)
-class SceneTexts:
+class SceneTexts(msgspec.Struct, frozen=True):
     """Maps the paths of a library to files on disk and to displayable paths; the scene of tasks that name none."""
 
     place: Callable[[str], Path]
@@ -46,8 +46,7 @@ class SceneTexts:
         return SceneTexts(files.places.__getitem__, files.display_path, default)
 
 
-@dataclass(frozen=True, slots=True)
-class TaskScenes:
+class TaskScenes(msgspec.Struct, frozen=True):
     """The scenes of tasks, and others: `files` by task, `valid` scenes without errors by file, and diagnostics.
 
     `individuals` are those in each task's scene, by task.

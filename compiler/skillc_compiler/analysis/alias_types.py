@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import msgspec
 
 from skillc_compiler.analysis.axioms import CanonicalAxioms
 from skillc_compiler.analysis.state import IndividualTerm, State
@@ -12,13 +12,12 @@ from skillc_rdf.vocabulary.types import THING, Vocabulary
 ANY_PREFIX = "?"
 
 
-@dataclass(frozen=True)
-class AliasTypes:
+class AliasTypes(msgspec.Struct, frozen=True):
     """The class of each name, as far as known. A name with ANY_PREFIX is any individual of the class after it."""
 
     vocabulary: Vocabulary
     axioms: CanonicalAxioms
-    classes: dict[str, str] = field(default_factory=dict)
+    classes: dict[str, str] = msgspec.field(default_factory=dict)
 
     def class_of(self, thing: IndividualTerm) -> str:
         """Return the declared class of a name; `owl:Thing` for a named individual."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf
 from typing import Literal, TypeAlias
@@ -89,8 +88,7 @@ def limit_candidates(names: Iterable[UnknownName]) -> Iterator[UnknownName]:
         yield each if key in given else structs.replace(each, candidates=())
 
 
-@dataclass(frozen=True, slots=True)
-class LostNames:
+class LostNames(msgspec.Struct, frozen=True):
     """What other errors may have removed: names by skill and of the library, and lines from the headers of files.
 
     `declarations` are the files of which whole declarations may be missing; `twice` are the names that are declared
@@ -98,7 +96,7 @@ class LostNames:
     the keyword may be another one, too.
     """
 
-    names: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    names: Mapping[str, frozenset[str]] = msgspec.field(default_factory=dict)
     headers: frozenset[str] = frozenset()
     declarations: frozenset[str] = frozenset()
     twice: frozenset[str] = frozenset()

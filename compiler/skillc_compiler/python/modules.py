@@ -71,8 +71,7 @@ class Module:
         return isinstance(self.file, Path)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Defined:
+class Defined(msgspec.Struct, frozen=True, eq=False):
     """The definition of a class or function, and its module."""
 
     module: Module

@@ -103,7 +103,7 @@ class Resolver:
         def compute() -> Resolved:
             names = replace(context.names, problems=[], unknown=[], used=set(), terms={})
             skills, implementations = LookUps(context.skills), LookUps(context.implementations)
-            value = resolve(replace(context, names=names, skills=skills, implementations=implementations))
+            value = resolve(structs.replace(context, names=names, skills=skills, implementations=implementations))
             kept = self.memo.typed.same(declaration.span, value)
             return Resolved(kept, Findings.of(names), skills.asked, implementations.asked)
 

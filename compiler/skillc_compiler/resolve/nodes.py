@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import assert_never
 
 from msgspec import structs
+from msgspec.structs import replace
 
 from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.types import UNKNOWN, ListOf, Measure

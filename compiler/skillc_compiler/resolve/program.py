@@ -61,14 +61,14 @@ def resolve_program(
     declared = collect_declarations(read, base, bare)
     unique = remove_duplicates(read, declared)
     files = unique.files
-    lost = replace(_find_lost(read, base), twice=unique.twice)
+    lost = structs.replace(_find_lost(read, base), twice=unique.twice)
     names = _names(files, declared, bare, base, memo, importable)
     vocabulary, of_terms = _terms(files, declared, names, base, memo)
     resolver = Resolver(memo, {path: [found] for path, found in of_terms.items()})
     contexts = _contexts(files, declared, names, vocabulary, memo)
     skills = _skills(files, contexts, resolver)
     by_skill = _implementation_names(files)
-    contexts = {path: replace(each, skills=skills, implementations=by_skill) for path, each in contexts.items()}
+    contexts = {path: structs.replace(each, skills=skills, implementations=by_skill) for path, each in contexts.items()}
     program = Program(
         name=name,
         vocabulary=vocabulary,
@@ -148,7 +148,7 @@ def _contexts(
 def _find_lost(files: Sequence[ParsedFile], base: Vocabulary) -> LostNames:
     """Return what may be missing: because of syntax errors, and of files and vocabularies that do not exist."""
     lost = find_lost([unit.file for unit in files])
-    return replace(lost, headers=lost.headers | {unit.file.path for unit in files if _lacks_a_file(unit, base)})
+    return structs.replace(lost, headers=lost.headers | {unit.file.path for unit in files if _lacks_a_file(unit, base)})
 
 
 def _lacks_a_file(unit: ParsedFile, base: Vocabulary) -> bool:
@@ -248,7 +248,7 @@ def _tasks(
                 continue
             there = scenes.get(each.name.text)
             known = None if there is None else resolver.individuals(each.name.text, context, there)
-            within = replace(context, individuals=known)
+            within = structs.replace(context, individuals=known)
             yield resolver.resolve(within, (each, known), partial(resolve_task, written=each))
 
 

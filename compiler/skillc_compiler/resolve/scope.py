@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
 import msgspec
 from msgspec import structs
+from msgspec.structs import replace
 
 from skillc_compiler.program.memo import NameTable
 from skillc_compiler.program.typed import Skill
@@ -31,8 +31,7 @@ class LocalName(msgspec.Struct, frozen=True):
     is_assigned: bool = True
 
 
-@dataclass(frozen=True, slots=True)
-class Scope:
+class Scope(msgspec.Struct, frozen=True):
     """Local names; `owner` is what they belong to, as shown in messages: "skill `Pick`".
 
     `skill` is the skill that declares the parameters among them, `task NAME` for a task; None if nothing does.
@@ -40,7 +39,7 @@ class Scope:
     """
 
     owner: str
-    variables: Mapping[str, LocalName] = field(default_factory=dict)
+    variables: Mapping[str, LocalName] = msgspec.field(default_factory=dict)
     skill: str | None = None
     repeats: bool = False
 
@@ -49,8 +48,7 @@ class Scope:
         return replace(self, variables={**self.variables, name: variable})
 
 
-@dataclass(frozen=True, slots=True)
-class FileContext:
+class FileContext(msgspec.Struct, frozen=True):
     """What is constant within a declaration: the file's names, the vocabulary, the skills.
 
     `individuals` are those of the scene with the class of each, None if it has several; None if no scene is known.
@@ -58,8 +56,8 @@ class FileContext:
 
     names: Names
     vocabulary: Vocabulary
-    skills: NameTable[Skill] = field(default_factory=dict)
-    implementations: NameTable[Sequence[str]] = field(default_factory=dict)
+    skills: NameTable[Skill] = msgspec.field(default_factory=dict)
+    implementations: NameTable[Sequence[str]] = msgspec.field(default_factory=dict)
     individuals: Mapping[str, str | None] | None = None
 
     def report(self, name: str, span: Span, message: str, help: str = "", *labels: Label) -> None:

@@ -8,10 +8,13 @@ complement `not-in`, which the actions maintain, costs nothing.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 from math import prod
 from typing import TypeAlias, assert_never
+
+import msgspec
+from msgspec import structs
 
 from skillc_model.pddl.domain import ROOT, Action, PlanningDomain, Predicate
 from skillc_model.pddl.formulas import (
@@ -55,7 +58,7 @@ def _with_complement(problem: Problem, name: str, types: Sequence[str]) -> Probl
     declared = domain.predicate[name]
     own = make_unique(f"not-{name}", {*domain.names, *domain.predicate})
     parameters = tuple(Typed(each.name, type_) for each, type_ in zip(declared.parameters, types, strict=True))
-    complement = _Complement(name, replace(declared, name=own, parameters=parameters), domain)
+    complement = _Complement(name, structs.replace(declared, name=own, parameters=parameters), domain)
     members = [domain.of_type(problem.objects, each) for each in types]
     if prod(map(len, members)) > MOST_ATOMS:
         return problem
@@ -66,11 +69,10 @@ def _with_complement(problem: Problem, name: str, types: Sequence[str]) -> Probl
     true = {each.terms for each in problem.init if each.predicate == name}
     initial = tuple(Atom(own, terms) for terms in product(*members) if terms not in true)
     extended = replace(domain, actions=actions, predicates=(*domain.predicates, complement.predicate))
-    return replace(problem, domain=extended, init=(*problem.init, *initial))
+    return structs.replace(problem, domain=extended, init=(*problem.init, *initial))
 
 
-@dataclass(frozen=True)
-class _Complement:
+class _Complement(msgspec.Struct, frozen=True):
     """The complement of the predicate called `of`: true of the tuples of its types for which `of` is false."""
 
     of: str
@@ -82,7 +84,7 @@ class _Complement:
         own = [
             each for change in action.effects if change.atom.predicate == self.of for each in self._own(change, action)
         ]
-        return replace(
+        return structs.replace(
             action,
             precondition=self._said(action.precondition),
             hold=self._said(action.hold),

@@ -9,6 +9,8 @@ from functools import cached_property
 from math import floor
 from typing import TypeAlias
 
+import msgspec
+
 from skillc_model.conditions import Condition, Expression
 from skillc_model.pddl.formulas import Change, Formula, Typed
 from skillc_rdf.vocabulary.types import Position
@@ -16,8 +18,7 @@ from skillc_rdf.vocabulary.types import Position
 ROOT = "thing"
 
 
-@dataclass(frozen=True)
-class PlanningType:
+class PlanningType(msgspec.Struct, frozen=True):
     """A class as a PDDL type below one parent; `depth` counts the types above it, `thing` excluded."""
 
     name: str
@@ -26,8 +27,7 @@ class PlanningType:
     depth: int
 
 
-@dataclass(frozen=True)
-class RelationMeaning:
+class RelationMeaning(msgspec.Struct, frozen=True):
     """True of (s, o) if `s relation o` follows from facts of relations that are not in `narrower`.
 
     `narrower` are the relations of other predicates as (relation, swapped). They change independently, so a condition
@@ -38,23 +38,20 @@ class RelationMeaning:
     narrower: tuple[tuple[str, bool], ...] = ()
 
 
-@dataclass(frozen=True)
-class PropertyMeaning:
+class PropertyMeaning(msgspec.Struct, frozen=True):
     """True of an individual whose property has the value: True of a Bool, one of the values of an enumerated text."""
 
     property: str
     value: bool | str
 
 
-@dataclass(frozen=True)
-class ClassMeaning:
+class ClassMeaning(msgspec.Struct, frozen=True):
     """True of the individuals of a class; never changes."""
 
     cls: str
 
 
-@dataclass(frozen=True)
-class GuardMeaning:
+class GuardMeaning(msgspec.Struct, frozen=True):
     """True of the individuals for which the condition holds in the initial world; it reads nothing a skill changes.
 
     `variables` are the free variables of the condition, in the order of the predicate's parameters. `text` is the
@@ -68,18 +65,15 @@ class GuardMeaning:
     text: str
 
 
-@dataclass(frozen=True)
-class GoalMeaning:
+class GoalMeaning(msgspec.Struct, frozen=True):
     """True once the goal has been reached; false at first."""
 
 
-@dataclass(frozen=True)
-class MovedMeaning:
+class MovedMeaning(msgspec.Struct, frozen=True):
     """True of what a step has moved; false of all things at first."""
 
 
-@dataclass(frozen=True)
-class ExclusionMeaning:
+class ExclusionMeaning(msgspec.Struct, frozen=True):
     """True of the arguments (IRIs, in the order of the parameters) of steps that no plan may contain; never changes."""
 
     steps: tuple[tuple[str, ...], ...]
@@ -90,8 +84,7 @@ Meaning: TypeAlias = (
 )
 
 
-@dataclass(frozen=True)
-class Predicate:
+class Predicate(msgspec.Struct, frozen=True):
     """A predicate; its `meaning` determines its initial value; `changes` unless it is static."""
 
     name: str
@@ -100,15 +93,13 @@ class Predicate:
     changes: bool
 
 
-@dataclass(frozen=True)
-class FixedCost:
+class FixedCost(msgspec.Struct, frozen=True):
     """A duration, in seconds, that is the same for all arguments."""
 
     seconds: Fraction
 
 
-@dataclass(frozen=True)
-class ComputedCost:
+class ComputedCost(msgspec.Struct, frozen=True):
     """The value of a cost function for these variables of the action."""
 
     function: str
@@ -118,8 +109,7 @@ class ComputedCost:
 Cost: TypeAlias = FixedCost | ComputedCost
 
 
-@dataclass(frozen=True)
-class CostFunction:
+class CostFunction(msgspec.Struct, frozen=True):
     """A static function: `expression`, in seconds, in the initial world with `variables` bound to the arguments.
 
     `moving` is a property or relation (IRI) that the expression reads and skills change, so the value is an estimate.
@@ -133,8 +123,7 @@ class CostFunction:
     moving: str | None = None
 
 
-@dataclass(frozen=True)
-class Action:
+class Action(msgspec.Struct, frozen=True):
     """A planning action: a skill run by one of its implementations of equal duration.
 
     `binds` gives the skill parameter of each action parameter; `uses` are the variables of locked devices. A goal
@@ -154,8 +143,7 @@ class Action:
     source: Position | None = None
 
 
-@dataclass(frozen=True)
-class Excluded:
+class Excluded(msgspec.Struct, frozen=True):
     """A skill that no plan can contain, with the reason; `impossible` if it can never run successfully either.
 
     `numeric` if planners with numbers could plan it; `requirement` is the text of the condition that is the reason.

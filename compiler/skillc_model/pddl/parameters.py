@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_model.conditions import Condition, Expression
 from skillc_model.pddl.formulas import Typed
@@ -15,8 +16,7 @@ from skillc_model.skills import Parameter
 from skillc_rdf.vocabulary.types import ClassType
 
 
-@dataclass(frozen=True)
-class DefaultValues:
+class DefaultValues(msgspec.Struct, frozen=True):
     """The values of optional parameters in a plan: the default, or not given."""
 
     values: Mapping[str, Expression]

@@ -6,7 +6,10 @@ A skill that a planner cannot handle is excluded with the reason; no skill is dr
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+
+import msgspec
+from msgspec import structs
 
 from skillc_model.chains import unroll_for_any_scene
 from skillc_model.foresight import foresee_effects
@@ -26,8 +29,7 @@ from skillc_model.read_write import terms_written
 from skillc_model.skills import Skill, SkillLibrary
 
 
-@dataclass(frozen=True)
-class _Attempt:
+class _Attempt(msgspec.Struct, frozen=True):
     """The actions that could be built under the assumption that skills change only the terms `changing`."""
 
     symbols: Symbols
@@ -169,5 +171,5 @@ def _facts(last: _Attempt, constants: Mapping[str, Typed], guards: Collection[st
                 declared = found.get(atom.predicate) or last.symbols.predicate(atom.predicate)
                 pairs = zip(declared.parameters, types, strict=True)
                 wide = tuple(Typed(one.name, join(one.type, type_)) for one, type_ in pairs)
-                found[atom.predicate] = replace(declared, parameters=wide)
+                found[atom.predicate] = structs.replace(declared, parameters=wide)
     return list(found.values())

@@ -7,9 +7,12 @@ former are expanded over the problem's objects, and the latter become an action 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from typing import assert_never
+
+import msgspec
+from msgspec import structs
 
 from skillc_model.pddl.domain import Action, FixedCost, GoalMeaning, PlanningDomain, Predicate
 from skillc_model.pddl.formulas import (
@@ -38,7 +41,7 @@ REACH_GOAL = "reach-goal"
 
 def remove_axioms(problem: Problem) -> Problem:
     """Return an equivalent problem without axioms; its goal action, if any, does not become a step of a plan."""
-    expanded = replace(problem, domain=_expanded_domain(problem))
+    expanded = structs.replace(problem, domain=_expanded_domain(problem))
     literals = all(isinstance(each, Atom | Negation) for each in conjuncts(problem.goal))
     return expanded if literals else _with_goal_action(expanded)
 
@@ -47,7 +50,7 @@ def _expanded_domain(problem: Problem) -> PlanningDomain:
     """Return the domain with every `forall` in a condition expanded over the objects, which become constants."""
     domain, expansion = problem.domain, _Expansion(problem.domain, problem.objects, frozenset(problem.init))
     actions = tuple(
-        replace(action, precondition=expansion.of(action.precondition, {}), hold=expansion.of(action.hold, {}))
+        structs.replace(action, precondition=expansion.of(action.precondition, {}), hold=expansion.of(action.hold, {}))
         for action in domain.actions
     )
     if actions == domain.actions:
@@ -74,11 +77,10 @@ def _with_goal_action(problem: Problem) -> Problem:
         actions=(*domain.actions, action),
         constants=problem.objects,
     )
-    return replace(problem, domain=extended, goal=reached)
+    return structs.replace(problem, domain=extended, goal=reached)
 
 
-@dataclass(frozen=True)
-class _Expansion:
+class _Expansion(msgspec.Struct, frozen=True):
     """Expands every `forall`; static atoms are replaced by their value in `facts` to keep the expansion small."""
 
     domain: PlanningDomain

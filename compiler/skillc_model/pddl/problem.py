@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
+
+import msgspec
 
 from skillc_model.pddl.domain import FixedCost, PlanningDomain
 from skillc_model.pddl.formulas import Atom, Formula, Typed
 
 
-@dataclass(frozen=True)
-class CostValue:
+class CostValue(msgspec.Struct, frozen=True):
     """The cost of one tuple of objects, in seconds."""
 
     function: str
@@ -18,8 +18,7 @@ class CostValue:
     seconds: Fraction
 
 
-@dataclass(frozen=True)
-class Problem:
+class Problem(msgspec.Struct, frozen=True):
     """A planning problem of a domain.
 
     Every object occurs once, with its most specific type; `names` maps object names to IRIs. `goal` is ground: atoms,

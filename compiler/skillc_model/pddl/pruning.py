@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from msgspec import structs
+
 from skillc_model.pddl.domain import Action, PlanningDomain, Predicate, PropertyMeaning
 from skillc_model.pddl.formulas import atoms
 from skillc_model.pddl.typed import action_terms
@@ -19,7 +21,7 @@ def prune_unread_values(domain: PlanningDomain) -> PlanningDomain:
     added = {change.atom.predicate for action in domain.actions for change in action.effects if change.positive}
     spare = {each.name for each in domain.predicates if each.name not in read and _is_spare(each, added)}
     actions = tuple(
-        replace(action, effects=tuple(each for each in action.effects if each.atom.predicate not in spare))
+        structs.replace(action, effects=tuple(each for each in action.effects if each.atom.predicate not in spare))
         for action in domain.actions
     )
     predicates = tuple(each for each in domain.predicates if each.name not in spare)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Protocol, TypeAlias, assert_never
+
+import msgspec
 
 from skillc_model.conditions import (
     And,
@@ -60,8 +61,7 @@ class Untranslatable(Exception):
         self.requirement = requirement
 
 
-@dataclass(frozen=True)
-class BoundVariable:
+class BoundVariable(msgspec.Struct, frozen=True):
     """The PDDL variable of a variable of the library, and its class."""
 
     variable: Typed
@@ -71,8 +71,7 @@ class BoundVariable:
 Scope: TypeAlias = Mapping[str, BoundVariable]
 
 
-@dataclass(frozen=True)
-class NamedIndividual:
+class NamedIndividual(msgspec.Struct, frozen=True):
     """An individual that formulas may name: its PDDL name and type, and its known classes."""
 
     object: Typed
@@ -95,8 +94,7 @@ class StaticEvaluator(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class Translator:
+class Translator(msgspec.Struct, frozen=True):
     """Translates conditions into formulas; `objects` are the individuals that may be named, by IRI."""
 
     symbols: Symbols

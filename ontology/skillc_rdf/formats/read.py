@@ -7,10 +7,10 @@ what they would need the network for is reported before they start.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
 from urllib.parse import quote
 from xml.parsers import expat
 
+import msgspec
 import pyoxigraph as ox
 
 from skillc_dsl.source import Source
@@ -36,8 +36,7 @@ class UnreadableError(ValueError):
         self.help, self.line, self.column = help, line, column
 
 
-@dataclass(frozen=True, slots=True)
-class Content:
+class Content(msgspec.Struct, frozen=True):
     """The triples of a text in order, the graphs that it names, and the prefixes that it declares."""
 
     triples: tuple[ox.Triple, ...]
@@ -53,7 +52,7 @@ def read_content(source: Source, base: str | None = None) -> Content:
         return _read_owl(source, form, base)
     text = _checked(source.text, form)
     content = _parse(source, text, form, base)
-    return replace(content, prefixes=json_ld.find_prefixes(text)) if form == ox.RdfFormat.JSON_LD else content
+    return Content(content.triples, json_ld.find_prefixes(text)) if form == ox.RdfFormat.JSON_LD else content
 
 
 def _parse(source: Source, text: str, form: ox.RdfFormat, base: str | None) -> Content:
@@ -82,7 +81,7 @@ def _read_owl(source: Source, syntax: OwlSyntax, base: str | None) -> Content:
         raise UnreadableError(f"this file is {syntax.name}, which needs {error.name}", NEEDED) from error
     except NotOwlError as error:
         raise _wrong(syntax.name, str(error), *_place(text, error.offset)) from error
-    return replace(_parse(source, converted, ox.RdfFormat.RDF_XML, base), prefixes=prefixes)
+    return Content(_parse(source, converted, ox.RdfFormat.RDF_XML, base).triples, prefixes)
 
 
 def _place(text: str, offset: int) -> tuple[int, int]:

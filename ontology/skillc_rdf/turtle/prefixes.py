@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from difflib import SequenceMatcher, get_close_matches
+
+import msgspec
 
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Span
@@ -17,8 +18,7 @@ MOST_SEARCHES, LONGEST = 100, 64
 """How often a text is searched for a similar prefix, and the longest prefix for which it is."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Declared:
+class _Declared(msgspec.Struct, frozen=True):
     iri: str
     written: str
     name: Token

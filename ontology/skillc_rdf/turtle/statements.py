@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
+import msgspec
 import pyoxigraph as ox
 
 from skillc_dsl.diagnostics import Diagnostic
@@ -53,8 +53,7 @@ class Statement(NamedTuple):
         return self.lines.place(*self.object_at)
 
 
-@dataclass(frozen=True, slots=True)
-class Parsed:
+class Parsed(msgspec.Struct, frozen=True):
     """The statements of a text in order, its prefixes, and diagnostics.
 
     `doubtful` are the IRIs about which the text may state more than could be parsed; SOMETHING if one is unknown.

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
 
+import msgspec
 import pyoxigraph as ox
+from msgspec.structs import replace
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -54,8 +55,7 @@ FACETS = {
 """The facets of datatypes and the annotations of properties that bound numbers, with their fields in `Bounds`."""
 
 
-@dataclass(frozen=True, slots=True)
-class PropertyType:
+class PropertyType(msgspec.Struct, frozen=True):
     """A type, with the finite set of its values or the bounds of its numbers if it has any.
 
     `datatype` is that of texts which are no strings.

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
+import msgspec
 import pyoxigraph as ox
 
 from skillc_dsl.diagnostics import Diagnostic, Outcome
@@ -14,8 +14,7 @@ from skillc_rdf.formats.detect import detect_format
 from skillc_rdf.formats.read import UnreadableError, read_content
 
 
-@dataclass(frozen=True, slots=True)
-class Ontology:
+class Ontology(msgspec.Struct, frozen=True):
     """A file with its triples, in order."""
 
     source: Source

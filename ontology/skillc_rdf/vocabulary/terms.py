@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import combinations
 
+import msgspec
 import pyoxigraph as ox
 
 from skillc_rdf.vocabulary.closure import reachable
@@ -33,8 +33,7 @@ from skillc_rdf.vocabulary.types import THING, ClassTerm, PropertyTerm, Relation
 COMMENT, REPLACED = f"{RDFS}comment", "http://purl.org/dc/terms/isReplacedBy"
 
 
-@dataclass(frozen=True, slots=True)
-class Terms:
+class Terms(msgspec.Struct, frozen=True):
     """All terms with their kinds, super-terms and aliases, the shipped ones (`standing`), and their positions."""
 
     graph: Graph

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import Literal, assert_never
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
@@ -26,23 +28,20 @@ from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class AchieveGoal:
+class AchieveGoal(msgspec.Struct, frozen=True):
     """A goal to plan for, and what the plan minimises: the work of all robots, or the time until it ends."""
 
     goal: Condition
     minimise: Literal["work", "makespan"] = "work"
 
 
-@dataclass(frozen=True, slots=True)
-class ExecuteBody:
+class ExecuteBody(msgspec.Struct, frozen=True):
     """A body to run as it is."""
 
     body: Node
 
 
-@dataclass(frozen=True, slots=True)
-class Assignment:
+class Assignment(msgspec.Struct, frozen=True):
     """What is to be done in a world."""
 
     name: str
@@ -50,8 +49,7 @@ class Assignment:
     objective: AchieveGoal | ExecuteBody
 
 
-@dataclass(frozen=True, slots=True)
-class PlannedSteps:
+class PlannedSteps(msgspec.Struct, frozen=True):
     """The planner's answer, how its steps are arranged, and the steps in the order of the body."""
 
     solved: Solved
@@ -59,8 +57,7 @@ class PlannedSteps:
     steps: tuple[Step, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class PreparedTask:
+class PreparedTask(msgspec.Struct, frozen=True):
     """An assignment with the body that will run; `planned` is None if the body was given.
 
     `space` is what is known of the plan, or of the body that was given, in space, None if nobody has looked.
@@ -72,8 +69,7 @@ class PreparedTask:
     space: SpaceClaim | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class NotStarted:
+class NotStarted(msgspec.Struct, frozen=True):
     """A task that does not start, the reason in a sentence, and what there is to say besides.
 
     `proved` if no planner finds a plan, whatever time it has.
@@ -164,8 +160,7 @@ def arrange_prepared(
     return PreparedTask(assignment, body, PlannedSteps(solved, arrangement, steps), space)
 
 
-@dataclass(frozen=True, slots=True)
-class _Search:
+class _Search(msgspec.Struct, frozen=True):
     planners: Planners
     cancel: CancelToken
     report: ReportProgress

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
@@ -32,8 +33,7 @@ SETTLE_S, FALL_S = 5.0, 2.0
 """How long, after the end, devices may take to come to rest, and then what lies free, which nobody holds."""
 
 
-@dataclass(frozen=True, slots=True)
-class CellOrigin:
+class CellOrigin(msgspec.Struct, frozen=True):
     """What a simulated cell was built from: the file of its scene, empty if it came from elsewhere, the seed, and how.
 
     `backend` is the name of the backend, empty if the cell was built by a program.
@@ -44,8 +44,7 @@ class CellOrigin:
     backend: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class RunContext:
+class RunContext(msgspec.Struct, frozen=True):
     """What all attempts of a task run share.
 
     `listeners` get the events. `failures` collects the steps of plans that fail. `gate` holds calls back where the run
@@ -68,8 +67,7 @@ class RunContext:
                 listener(Note(time=self.backend.clock.now, message=message))
 
 
-@dataclass(frozen=True, slots=True)
-class AttemptResult:
+class AttemptResult(msgspec.Struct, frozen=True):
     """How a body ended, its tree and the number of its last node.
 
     `invalidated` says why the plan no longer led to the goal, if it was halted for that. `claims` are the posts of the

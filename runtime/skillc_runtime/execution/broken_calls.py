@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
+import msgspec
 
-@dataclass(frozen=True, slots=True)
-class BrokenCall:
+
+class BrokenCall(msgspec.Struct, frozen=True):
     """A run of an implementation that ended without success, during the writes after number `after` up to `last`.
 
     `individuals` are those that its parameters and values name: others may have written beside it.

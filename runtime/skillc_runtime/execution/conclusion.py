@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import TypeAlias
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import AchieveGoal, ExecuteBody, NotStarted, PreparedTask, arrange_prepared
@@ -33,16 +35,14 @@ _END_STATES: dict[Status, EndState] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Ended:
+class Ended(msgspec.Struct, frozen=True):
     """The task has ended."""
 
     state: EndState
     failure: Failure | None
 
 
-@dataclass(frozen=True, slots=True)
-class NeedsPlan:
+class NeedsPlan(msgspec.Struct, frozen=True):
     """Another plan may still lead to the goal."""
 
 

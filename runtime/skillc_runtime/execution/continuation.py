@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import assert_never
+
+from msgspec.structs import replace
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, arrange_prepared

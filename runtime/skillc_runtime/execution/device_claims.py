@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_model import tree
 from skillc_model.conditions import Individual
@@ -16,8 +17,7 @@ from skillc_runtime.world.state.terms import ARM_DEVICE, END_EFFECTOR, HAS_A, RO
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class DevicesBusy:
+class DevicesBusy(msgspec.Struct, frozen=True):
     """A run cannot have `devices`, None for the whole cell: `run` holds them, or waits for them and comes first."""
 
     run: str

@@ -5,9 +5,10 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from time import perf_counter
 from typing import Generic, TypeVar
+
+import msgspec
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
@@ -27,8 +28,7 @@ WAIT_S = 0.05
 BackendT = TypeVar("BackendT", bound=Backend)
 
 
-@dataclass(frozen=True, slots=True)
-class Execution(Generic[BackendT]):
+class Execution(msgspec.Struct, Generic[BackendT], frozen=True):
     """How a task ended: its attempts, none if it never ran, the back-end of its cell, the wall-clock time it took.
 
     `facts` are those that a success rests on, `false_claims` sentences about what the world model claims that is not so

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_model.skills import SkillLibrary
 from skillc_model.tree import Node
@@ -137,8 +138,7 @@ def find_arrival_problem(prepared: PreparedTask, library: SkillLibrary, now: Wor
     return "\n".join(map(str, preflight(prepared.body, library, now))) or None
 
 
-@dataclass(frozen=True, slots=True)
-class _Planned:
+class _Planned(msgspec.Struct, frozen=True):
     """A prepared task without its assignment, which the parent has."""
 
     body: Node
@@ -146,8 +146,7 @@ class _Planned:
     space: SpaceClaim | None
 
 
-@dataclass(frozen=True, slots=True)
-class _PlanningTask:
+class _PlanningTask(msgspec.Struct, frozen=True):
     """What the worker does."""
 
     assignment: Assignment

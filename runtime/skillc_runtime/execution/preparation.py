@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from typing import Protocol, TypeAlias
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask, replan_task
@@ -45,8 +47,7 @@ StartPreparation: TypeAlias = Callable[[Assignment, FailedSteps], Preparation]
 """Starts to plan an assignment without the steps that failed."""
 
 
-@dataclass(frozen=True, slots=True)
-class Ready:
+class Ready(msgspec.Struct, frozen=True):
     """The preparation of a task that is prepared already."""
 
     answer: PreparedTask | NotStarted
@@ -76,8 +77,7 @@ def prepare_after(prepared: PreparedTask, start: StartPreparation) -> StartPrepa
     return lambda assignment, failures: Ready(first.pop()) if first else start(assignment, failures)
 
 
-@dataclass(frozen=True, slots=True)
-class Outdated:
+class Outdated(msgspec.Struct, frozen=True):
     """The world has changed since a task was prepared, so that it cannot run, for the `times`th time."""
 
     problem: str

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from skillc_runtime.recording.commands import Abort, Command
 from skillc_runtime.recording.failure import Failure
@@ -45,16 +45,14 @@ TRANSITIONS: dict[State, frozenset[State]] = {
 """The states that can follow each state; from each that is no end, `interrupted` as well."""
 
 
-@dataclass(frozen=True, slots=True)
-class Ending:
+class Ending(msgspec.Struct, frozen=True):
     """How a run that is stopping will end."""
 
     state: EndState
     failure: Failure
 
 
-@dataclass(frozen=True, slots=True)
-class RefusedCommand:
+class RefusedCommand(msgspec.Struct, frozen=True):
     """A request that a task run does not allow now; nothing has changed."""
 
     command: str

@@ -10,10 +10,11 @@ import sys
 import traceback
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any, TypeAlias, cast
+
+import msgspec
 
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.platforms.processes import DEFAULT_START, StartMethod, join_process, start_process
@@ -30,22 +31,19 @@ _HEADER = struct.Struct("!Q")
 _CHUNK = 2**16
 
 
-@dataclass(frozen=True, slots=True)
-class Returned:
+class Returned(msgspec.Struct, frozen=True):
     """The function returned `value`."""
 
     value: Any
 
 
-@dataclass(frozen=True, slots=True)
-class Raised:
+class Raised(msgspec.Struct, frozen=True):
     """The function raised an exception; `why` names it and its place."""
 
     why: str
 
 
-@dataclass(frozen=True, slots=True)
-class Died:
+class Died(msgspec.Struct, frozen=True):
     """The process ended, or was killed, without a result."""
 
     why: str
@@ -54,15 +52,13 @@ class Died:
 WorkerResult: TypeAlias = Returned | Raised | Died
 
 
-@dataclass(frozen=True, slots=True)
-class Report:
+class Report(msgspec.Struct, frozen=True):
     """The function goes on; `value` says how far it is."""
 
     value: Any
 
 
-@dataclass(frozen=True, slots=True)
-class ReportingFunction:
+class ReportingFunction(msgspec.Struct, frozen=True):
     """A function of a request and of another function, which it may call with how far it is."""
 
     function: Callable[[Any, Callable[[object], None]], object]

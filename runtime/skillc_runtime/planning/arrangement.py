@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_model.conditions import Condition
 from skillc_model.pddl.devices import locked_parameters
@@ -17,15 +18,13 @@ from skillc_runtime.planning.world_changes import find_changed_facts, find_settl
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class InSeries:
+class InSeries(msgspec.Struct, frozen=True):
     """Parts that run one after the other."""
 
     parts: tuple[Arrangement, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class InParallel:
+class InParallel(msgspec.Struct, frozen=True):
     """Parts that run at the same time."""
 
     parts: tuple[Arrangement, ...]

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Protocol, TypeVar
 
 import msgspec
+from msgspec import structs
 
 from skillc_model.pddl.formulas import FALSE
 from skillc_model.pddl.problem import Problem
@@ -127,7 +128,7 @@ def _key(program: str, problem: Problem) -> str:
     The text of the problem in PDDL would do as well, but what writes it takes long to import.
     """
     combined = sorted(map(sorted, problem.domain.combined))
-    ordered = replace(problem, domain=replace(problem.domain, combined=frozenset()))
+    ordered = structs.replace(problem, domain=replace(problem.domain, combined=frozenset()))
     return hashlib.sha256("\n".join((str(FORMAT), program, repr(combined), repr(ordered))).encode()).hexdigest()
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+import msgspec
 from msgspec import structs
 
 from skillc_model.pddl.domain import Action
@@ -26,8 +27,7 @@ SHARE = 0.5
 """The time limit for each search for a plan, and the share of the time that is left that all of them may take."""
 
 
-@dataclass(frozen=True, slots=True)
-class GoalConflict:
+class GoalConflict(msgspec.Struct, frozen=True):
     """Parts of a goal, the fewest that were found, that never hold together; `why` is empty if it is not known."""
 
     parts: tuple[Formula, ...]
@@ -57,7 +57,7 @@ class GoalConflicts:
         return GoalConflict(tuple(kept), self._explain(kept[:-1], kept[-1]))
 
     def _plan(self, problem: Problem, goal: Sequence[Formula]) -> PlanResult:
-        return AStar().plan(replace(problem, goal=conjunction(goal)), self._searching.limited(SEARCH_S))
+        return AStar().plan(structs.replace(problem, goal=conjunction(goal)), self._searching.limited(SEARCH_S))
 
     def _explain(self, first: Sequence[Formula], last: Formula) -> str:
         """Return why a part cannot be reached once the others hold; empty if that is not known."""
@@ -66,7 +66,7 @@ class GoalConflicts:
         if not worlds:
             return ""
         after = worlds[-1][1]
-        there = replace(self._problem, init=self._list_atoms(after), goal=last)
+        there = structs.replace(self._problem, init=self._list_atoms(after), goal=last)
         kept = _keep(there, first)
         grounding = Grounding(kept, self._limit)
         grounding.explore()
@@ -80,7 +80,7 @@ class GoalConflicts:
         solved = self._plan(there, [there.goal])
         unmoved = replace(there.domain, actions=())
         for step, world in self._follow(solved.plan, after) if isinstance(solved, Solved) else ():
-            grounding = Grounding(replace(there, init=self._list_atoms(world), domain=unmoved))
+            grounding = Grounding(structs.replace(there, init=self._list_atoms(world), domain=unmoved))
             if not all(grounding.is_possible(grounding.reduce(each, {})) for each in first):
                 return f"{step.skill} undoes that on the way to the other"
         return ""
@@ -114,6 +114,8 @@ def _keep(problem: Problem, parts: Sequence[Formula]) -> Problem:
         return structs.replace(change, condition=conjunction(conditions))
 
     def restrict(action: Action) -> Action:
-        return replace(action, effects=tuple(map(spare, action.effects)))
+        return structs.replace(action, effects=tuple(map(spare, action.effects)))
 
-    return replace(problem, domain=replace(problem.domain, actions=tuple(map(restrict, problem.domain.actions))))
+    return structs.replace(
+        problem, domain=replace(problem.domain, actions=tuple(map(restrict, problem.domain.actions)))
+    )

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import product
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_model.pddl.domain import Action
 from skillc_model.pddl.formulas import Atom
@@ -14,8 +15,7 @@ MAX_WAYS = 40
 """How many ways to make one formula true are considered, those that lack the least first."""
 
 
-@dataclass(frozen=True, slots=True)
-class Lack:
+class Lack(msgspec.Struct, frozen=True):
     """An atom that should be true (`holds`) or false; `cost` is how far that is from what people would state."""
 
     atom: Atom
@@ -23,8 +23,7 @@ class Lack:
     cost: int
 
 
-@dataclass(frozen=True, slots=True)
-class AtomReader:
+class AtomReader(msgspec.Struct, frozen=True):
     """The action that needs an atom, as it has it in its conditions, `depth` actions before the goal."""
 
     depth: int
@@ -38,8 +37,7 @@ class AtomReader:
         return tuple(map(types.get, self.atom.terms))
 
 
-@dataclass(frozen=True, slots=True)
-class NearestChange:
+class NearestChange(msgspec.Struct, frozen=True):
     """What is lacking combine_ways, each with what needs it."""
 
     lacking: tuple[tuple[Lack, AtomReader], ...]

@@ -7,8 +7,9 @@ What is lacking is tried: it counts if the goal can be reached, deletions ignore
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import assert_never
+
+from msgspec.structs import replace
 
 from skillc_model.conditions import Condition, Variable
 from skillc_model.pddl.domain import Action, GuardMeaning, Meaning, RelationMeaning

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass
 from itertools import combinations
 from typing import Literal, Protocol, TypeAlias, assert_never
+
+import msgspec
 
 from skillc_model.conditions import And, Condition
 from skillc_model.pddl.problem import Problem
@@ -13,16 +14,14 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(msgspec.Struct, frozen=True):
     """A skill with the individuals (IRIs) that the planner bound to its parameters."""
 
     skill: str
     arguments: dict[str, str]
 
 
-@dataclass(frozen=True, slots=True)
-class StepWhile:
+class StepWhile(msgspec.Struct, frozen=True):
     """A step that does not go as long as a ground condition holds, and why.
 
     And only as long as no step before has put the things `unmoved` elsewhere, and one has each of the things `moved`.
@@ -44,8 +43,7 @@ Excluded: TypeAlias = Step | StepWhile
 """What a plan may not contain."""
 
 
-@dataclass(frozen=True, slots=True)
-class Plan:
+class Plan(msgspec.Struct, frozen=True):
     """Steps in order, and their expected duration in seconds.
 
     `apart` are pairs of steps, by index, the earlier one first, that may not run at the same time, whatever the facts
@@ -75,8 +73,7 @@ Optimal: TypeAlias = Literal[
 Kind: TypeAlias = Literal["individuals", "skills", "steps", "chains"]
 
 
-@dataclass(frozen=True, slots=True)
-class LeftOut:
+class LeftOut(msgspec.Struct, frozen=True):
     """Individuals (IRIs), skills, steps or chains of facts, in any order, that a problem leaves out for one reason.
 
     `harmless` if it is proved that leaving them out changes neither whether there is a plan nor the least cost.
@@ -93,8 +90,7 @@ class LeftOut:
         return tuple(sorted(self.members))
 
 
-@dataclass(frozen=True, slots=True)
-class Solved:
+class Solved(msgspec.Struct, frozen=True):
     """A plan, the name of the planner that found it, and what was `left_out` of the scene and the library.
 
     `optimal` is "proven" if no plan of the whole problem is shorter, and "optimal for the filtered problem" if a
@@ -116,8 +112,7 @@ class Solved:
         return self.plan.duration_s if self.optimal == "proven" else self.at_least_s or 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class Unsolvable:
+class Unsolvable(msgspec.Struct, frozen=True):
     """The whole problem is proved to have no plan; `why` is an explanation, as far as one could be found.
 
     `causes` are what the cell lacks, or cannot do, at the end of this explanation.
@@ -132,8 +127,7 @@ class Unsolvable:
         return f"there is no plan: {'; '.join(self.causes) or self.why}"
 
 
-@dataclass(frozen=True, slots=True)
-class GaveUp:
+class GaveUp(msgspec.Struct, frozen=True):
     """No answer, with the reason: out of time or memory, or the planner failed.
 
     `searched` is False if the goal cannot be expressed for a planner. `causes` are as of `Unsolvable`. If it is proved

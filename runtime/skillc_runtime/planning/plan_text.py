@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from fractions import Fraction
+
+import msgspec
 
 from skillc_model.pddl.domain import Action, ComputedCost, FixedCost
 from skillc_model.pddl.problem import Problem
@@ -20,8 +21,7 @@ def read_plan(problem: Problem, actions: Iterable[tuple[str, ...]]) -> Plan:
     return cost_plan(problem, actions).plan
 
 
-@dataclass(frozen=True, slots=True)
-class CostedPlan:
+class CostedPlan(msgspec.Struct, frozen=True):
     """A plan with its cost in the planner's units; `exact` if no duration was rounded down."""
 
     plan: Plan

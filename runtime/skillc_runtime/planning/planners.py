@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from importlib.metadata import version
+
+import msgspec
 
 from skillc_runtime.planning.aries.solver import Aries, find_aries
 from skillc_runtime.planning.cache import CachingPlanner, CachingScheduler, PlanCache
@@ -16,8 +17,7 @@ from skillc_runtime.planning.search.astar import AStar
 ADVICE = "the extra `planner` installs a stronger one"
 
 
-@dataclass(frozen=True, slots=True)
-class Planners:
+class Planners(msgspec.Struct, frozen=True):
     """The planners that minimise work, the strongest first, and the scheduler that minimises the makespan, if any."""
 
     for_work: tuple[Planner, ...]

@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import TracebackType
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_dsl.rendering.printable import printable
 from skillc_runtime.cancellation import CancelToken
@@ -32,8 +33,7 @@ MOST_BYTES = 6 * 2**30
 _PREFIX = "skillc-plan-"
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
+class Limits(msgspec.Struct, frozen=True):
     """Limits of each process in bytes: its address space and the size of a file that it writes."""
 
     memory_bytes: int
@@ -61,8 +61,7 @@ def machine_limits() -> Limits:
     return Limits(memory_bytes=MOST_BYTES if memory is None else min(MOST_BYTES, memory // 2), file_bytes=2**30)
 
 
-@dataclass(frozen=True, slots=True)
-class ProcessEnded:
+class ProcessEnded(msgspec.Struct, frozen=True):
     """The program ended; `code` is negative for a signal, `output` is the end of its output on both streams."""
 
     code: int
@@ -74,15 +73,13 @@ class ProcessEnded:
         return next((quote_line(line) for line in reversed(self.output.splitlines()) if line.strip()), "nothing")
 
 
-@dataclass(frozen=True, slots=True)
-class ProcessTimedOut:
+class ProcessTimedOut(msgspec.Struct, frozen=True):
     """The program was stopped because it ran out of time; `output` is the end of its output until then."""
 
     output: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class ProcessNotStarted:
+class ProcessNotStarted(msgspec.Struct, frozen=True):
     """The program could not be started; `why` is the reason."""
 
     why: str

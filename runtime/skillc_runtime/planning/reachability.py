@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+
+from msgspec.structs import replace
 
 from skillc_model.conditions import Condition
 from skillc_model.pddl.formulas import FALSE, conjuncts

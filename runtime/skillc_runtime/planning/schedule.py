@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import Literal, Protocol
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
@@ -11,8 +13,7 @@ from skillc_runtime.planning.plan import GaveUp, LeftOut, Plan, Solved, Step
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 
 
-@dataclass(frozen=True, slots=True)
-class TimedStep:
+class TimedStep(msgspec.Struct, frozen=True):
     """A step, its start in s after the start of the plan, and its expected duration in s."""
 
     step: Step
@@ -25,8 +26,7 @@ class TimedStep:
         return self.start_s + self.duration_s
 
 
-@dataclass(frozen=True, slots=True)
-class Schedule:
+class Schedule(msgspec.Struct, frozen=True):
     """Steps in the order in which they start."""
 
     steps: tuple[TimedStep, ...]
@@ -37,8 +37,7 @@ class Schedule:
         return max((each.end_s for each in self.steps), default=0.0)
 
 
-@dataclass(frozen=True, slots=True)
-class Scheduled:
+class Scheduled(msgspec.Struct, frozen=True):
     """A schedule that was simulated in the world model; "proven" if no plan has a shorter makespan.
 
     `plan` has the same steps in an order that works sequentially; its duration is the sum of theirs. `planner` is the

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from typing import TypeVar
+
+from msgspec.structs import replace
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.makespan.scheduling import schedule_plan

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from functools import partial
 
+import msgspec
 from msgspec import structs
+from msgspec.structs import replace
 
 from skillc_model.conditions import Condition
 from skillc_model.pddl.problem import Problem
@@ -77,8 +78,7 @@ def solve(
         return GaveUp(str(reason))
 
 
-@dataclass(frozen=True, slots=True)
-class _Task:
+class _Task(msgspec.Struct, frozen=True):
     """What is planned: as it is posed for planners, and the world and the goal with which plans are validated."""
 
     unrolled: UnrolledProblem

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+import msgspec
+
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.world.state.axioms import WorldAxioms
@@ -38,8 +40,7 @@ class VocabularyKey:
         return id(self.vocabulary)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class StatedTerms:
+class StatedTerms(msgspec.Struct, frozen=True, eq=False):
     """A vocabulary in which relations are stated that the world has not or computes, and its axioms."""
 
     vocabulary: Vocabulary

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_model.conditions import Condition
 from skillc_model.pddl.domain import Action, GuardMeaning, Meaning
@@ -31,8 +32,7 @@ EXPLANATION_S = 5.0
 """The time limit for an explanation; a large scene may need more, and then gets a general one."""
 
 
-@dataclass(frozen=True, slots=True)
-class UnsolvabilityReason:
+class UnsolvabilityReason(msgspec.Struct, frozen=True):
     """Why there is no plan: how the parts of the goal depend on conditions, and what keeps these from holding.
 
     `causes` are the nearest changes after which the goal may be reached; empty if none was found. `obstacles` are what

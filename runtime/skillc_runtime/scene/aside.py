@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
+import msgspec
 import pyoxigraph as ox
 
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -34,8 +34,7 @@ SHOWN = 5
 """The most kinds of statements that are named for a file."""
 
 
-@dataclass(frozen=True, slots=True)
-class Sorted:
+class Sorted(msgspec.Struct, frozen=True):
     """The statements that are understood, and the others in order, each with what is unknown in it."""
 
     understood: tuple[Statement, ...]

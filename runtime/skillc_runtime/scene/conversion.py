@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+import msgspec
 import pyoxigraph as ox
 
 from skillc_dsl.diagnostics import Diagnostic
@@ -18,8 +19,7 @@ from skillc_rdf.turtle.statements import Parsed, Statement
 _PREFIX = re.compile(r"[A-Za-z](?:[\w.-]*[\w-])?", re.ASCII)
 
 
-@dataclass(frozen=True, slots=True)
-class Origin:
+class Origin(msgspec.Struct, frozen=True):
     """The text that a document was converted from, its prefixes, and the subject of each line of the document."""
 
     source: Source

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import errno
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
+import msgspec
 import pyoxigraph as ox
 
 from skillc_dsl.diagnostics import Diagnostic
@@ -41,8 +41,7 @@ class SceneError(ValueError):
         super().__init__("\n".join(map(str, self.problems)))
 
 
-@dataclass(frozen=True, slots=True)
-class Document:
+class Document(msgspec.Struct, frozen=True):
     """A text in Turtle: its path or name in messages, and where it comes from if that was in another format."""
 
     path: str

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
 
 import msgspec
+from msgspec.structs import replace
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.garbage import gc_disabled
@@ -45,8 +45,7 @@ from skillc_runtime.world.state.representatives import satisfies_axioms
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(msgspec.Struct, frozen=True):
     """The world of Turtle files, all problems, and the statements about individuals.
 
     `doubtful` are individuals about which not all statements could be read.

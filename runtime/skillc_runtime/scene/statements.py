@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass
 
 import msgspec
 import pyoxigraph as ox
@@ -126,8 +125,7 @@ def pairs(said: Iterable[Statement], predicate: str) -> list[tuple[str, str]]:
 LABEL = f"{RDFS}label"
 
 
-@dataclass(frozen=True, slots=True)
-class SubjectsAndLabels:
+class SubjectsAndLabels(msgspec.Struct, frozen=True):
     """The subjects of the statements in files, and the first rdfs:label of those that have one, by IRI."""
 
     subjects: frozenset[str]

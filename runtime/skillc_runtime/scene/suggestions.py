@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_dsl.diagnostics import Fix
 from skillc_dsl.source import Span
@@ -14,8 +15,7 @@ LISTED = 12
 """The maximum number of names in a hint."""
 
 
-@dataclass(frozen=True, slots=True)
-class Suggestion:
+class Suggestion(msgspec.Struct, frozen=True):
     """A hint, and the fix that replaces the wrong name if only one name is similar."""
 
     help: str

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from skillc_dsl.diagnostics import Severity
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class SceneViolation:
+class SceneViolation(msgspec.Struct, frozen=True):
     """A violation of an individual, by name; `predicate` is that of the wrong statement, None if one is missing.
 
     `others` are further individuals that take part in it. `prevents` is the computed relation to the individual that

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields
 from typing import get_args
 
 import msgspec
+from msgspec.structs import astuple
 
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.vectors import format_vector, is_vector, parse_vector
@@ -29,7 +29,7 @@ def decode_changes(text: str) -> tuple[Change, ...]:
 
 
 def _fields(change: Change) -> list[object]:
-    return [getattr(change, field.name) for field in fields(change)]
+    return list(astuple(change))
 
 
 def _change(kind: object, *values: object) -> Change:

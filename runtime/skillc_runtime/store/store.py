@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Protocol
 
+import msgspec
 import pyoxigraph as ox
 
 from skillc_runtime.world.state.transactions import TransactionLog
 
 
-@dataclass(frozen=True, slots=True)
-class StoredWorld:
+class StoredWorld(msgspec.Struct, frozen=True):
     """The contents of a store after the transaction number `sequence`: all facts as triples.
 
     `beginning` is the scene with which the store was filled. Triples about classes and prefixes are those that the

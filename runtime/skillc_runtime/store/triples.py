@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
+import msgspec
 import pyoxigraph as ox
 
 from skillc_rdf.turtle.terms import OWL, RDF_TYPE, RDFS
@@ -20,8 +20,7 @@ SUBCLASS = ox.NamedNode(f"{RDFS}subClassOf")
 PREFIX = ox.NamedNode("http://purl.org/vocab/vann/preferredNamespacePrefix")
 
 
-@dataclass(frozen=True, slots=True)
-class TripleDifference:
+class TripleDifference(msgspec.Struct, frozen=True):
     """The triples that differ between two versions of a world, sorted."""
 
     removed: tuple[ox.Triple, ...]

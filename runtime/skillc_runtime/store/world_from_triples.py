@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 import msgspec
 import pyoxigraph as ox
@@ -21,8 +20,7 @@ MAX_REPORTED = 5
 """The maximum number of problems in a message."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Contents:
+class _Contents(msgspec.Struct, frozen=True):
     """Triples by kind: types, relations and properties of individuals, classes with their parents, prefixes."""
 
     types: dict[str, list[str]]

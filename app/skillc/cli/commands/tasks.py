@@ -12,7 +12,7 @@ from skillc.cli.options import json_option
 @json_option
 def command(as_json: bool) -> None:
     """List the tasks that `skillc run NAME` knows here, with what they do and their scenes."""
-    from dataclasses import asdict
+    from msgspec.structs import asdict
 
     from skillc.cli.console import print_json
     from skillc.cli.task_output import print_tasks

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import msgspec
+from msgspec.structs import replace
 
 from skillc.services.cell_checks.verdicts import judge_cell
 from skillc.services.scene_diagnostics import with_shown_path
@@ -26,8 +26,7 @@ CellJudge: TypeAlias = Callable[[Scene, Sequence[Condition]], Iterable[SceneViol
 """Returns what is wrong in a cell, also because of goals."""
 
 
-@dataclass(frozen=True, slots=True)
-class ScenePlaces:
+class ScenePlaces(msgspec.Struct, frozen=True):
     """Where a scene file states something: the first statement of each subject and predicate."""
 
     statements: dict[tuple[str, str], Statement]
@@ -56,8 +55,7 @@ WHOLE_CELL = ("impossible-body", "starts-inside")
 """The problems because of which no task can be simulated in the cell, whatever it uses."""
 
 
-@dataclass(frozen=True, slots=True)
-class CellProblem:
+class CellProblem(msgspec.Struct, frozen=True):
     """Something that is wrong in a cell, and how it is reported."""
 
     violation: SceneViolation

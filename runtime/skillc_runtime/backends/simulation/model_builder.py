@@ -9,6 +9,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from msgspec import structs
 
 from skillc_runtime.backends.simulation.body_builder import (
     add_fixed_body,
@@ -120,7 +121,7 @@ def _add_graspable(spec: Any, scene: SceneSpec, variation: Variation, holds: Map
         stiffness = None if tool.rigid else variation.pad_stiffness(tool)
         add_tool(spec, scene.names, there, stiffness, holds.get(tool.individual))
     for body in scene.movable:
-        lying = replace(body, pose=variation.true_pose(body.individual, body.pose))
+        lying = structs.replace(body, pose=variation.true_pose(body.individual, body.pose))
         add_movable_body(spec, scene.names[body.individual], lying, holds.get(body.individual))
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi
 from typing import Literal, TypeAlias
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import Recording
@@ -24,8 +24,7 @@ DwellSource: TypeAlias = Literal["tool", "path"]
 """Whose speed is measured: the tool's, or that of the commanded path, if an overlay hides the tool's."""
 
 
-@dataclass(frozen=True, slots=True)
-class LaneDwell:
+class LaneDwell(msgspec.Struct, frozen=True):
     """The time in s lost at each corner of a quarter turn, and whose it is."""
 
     seconds: float

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import Recording, join_recordings
@@ -21,8 +21,7 @@ VIBRATION_HZ = 15.0
 COVERAGE_PERIOD_S = 0.01
 
 
-@dataclass(frozen=True, slots=True)
-class WipingSetup:
+class WipingSetup(msgspec.Struct, frozen=True):
     """The true pose of the surface in the world and its layout, the tool's size (2,) in m, the commanded force in N.
 
     `least_n` is the least force in N with which a tool wipes the surface.
@@ -40,8 +39,7 @@ class WipingSetup:
         return self.layout.size
 
 
-@dataclass(frozen=True, slots=True)
-class WipingMetrics:
+class WipingMetrics(msgspec.Struct, frozen=True):
     """The quality of one wiping, from the first wiping reference to the end of the last lane, at every simulation step.
 
     Pauses are left out, but for the coverage and the greatest force.

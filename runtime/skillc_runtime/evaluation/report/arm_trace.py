@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.arm_driver import ArmDriver
@@ -21,8 +21,7 @@ COLUMNS = 16
 FIRST_ROWS = 4096
 
 
-@dataclass(frozen=True, slots=True)
-class ArmPath:
+class ArmPath(msgspec.Struct, frozen=True):
     """Samples of an arm (n, 16), one a row, in the world: time in s and the columns below in m, m/s, N and N/m."""
 
     rows: Array

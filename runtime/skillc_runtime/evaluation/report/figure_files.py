@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from io import BytesIO
 from threading import Lock
 from typing import TYPE_CHECKING
+
+import msgspec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -21,8 +22,7 @@ THEMED = ("INK", "DIM", "PAPER", "GRID", "SHADE", "TRUTH", "SENSOR", "ESTIMATE")
 """The colours that a page may replace, by their names in `figure_style`."""
 
 
-@dataclass(frozen=True, slots=True)
-class FigureFiles:
+class FigureFiles(msgspec.Struct, frozen=True):
     """A figure in two formats, the same bytes for the same drawings."""
 
     png: bytes

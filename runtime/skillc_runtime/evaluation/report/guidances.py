@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import Guidance
@@ -19,8 +18,7 @@ LEAST_S = 0.5
 """An arm that yields for a shorter time was not guided."""
 
 
-@dataclass(frozen=True, slots=True)
-class FreePeriod:
+class FreePeriod(msgspec.Struct, frozen=True):
     """A time in which an arm had no stiffness in any direction: its samples, and who guided it, None if nobody did."""
 
     arm: str

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.backend import Backend
@@ -20,8 +20,7 @@ COLUMNS = 7
 """time; position 3; opening; force; measured opening."""
 
 
-@dataclass(frozen=True, slots=True)
-class HandPath:
+class HandPath(msgspec.Struct, frozen=True):
     """Samples of a hand, one a row, (n, 7): time in s, true position in m in the world, true and measured grip.
 
     Where a value is not known it is NaN.

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_runtime.recording.history import RecordedCall, RunHistory
 from skillc_runtime.world.state.labelled import LabelledIri, LabelledPose
@@ -17,8 +19,7 @@ TARGET = "target"
 """The name of the parameter with the pose to which a skill moves the tool."""
 
 
-@dataclass(frozen=True, slots=True)
-class Handling:
+class Handling(msgspec.Struct, frozen=True):
     """A thing that a gripper of an arm held, all by IRI, from `grasped_s` to `released_s`; None if it never let go.
 
     `target_m` is the place (x, y) in m in the world to which the arm was last sent before it let go: where the middle

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from math import degrees, hypot
 from types import MappingProxyType
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import GroundTruth
@@ -23,8 +23,7 @@ from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, MANIPULATABL
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class _Move:
+class _Move(msgspec.Struct, frozen=True):
     """A write that moved a thing: about the pose of the thing, or of what carries it."""
 
     thing: str

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import GroundTruth, Recording
@@ -31,8 +31,7 @@ LEAST_SAMPLES = 3
 DEVICES = (ARM_DEVICE, END_EFFECTOR, ROBOT)
 
 
-@dataclass(frozen=True, slots=True)
-class PushRecord:
+class PushRecord(msgspec.Struct, frozen=True):
     """A scope in which an arm pressed its tool opposite to `along`, a unit vector (3,) in the world, with `force_n`.
 
     `within` is the call of the skill around it, `on` are the individuals it names besides devices, by IRI; `body` is

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.evaluation.report.arm_trace import ArmPath
@@ -19,8 +19,7 @@ LEVEL_COSINE = 0.99
 """A push is vertical if the cosine of its angle to the vertical is greater."""
 
 
-@dataclass(frozen=True, slots=True)
-class Search:
+class Search(msgspec.Struct, frozen=True):
     """A search within a push, from `start_s` to `end_s`; `found` if something gave way.
 
     across (2, 3): two perpendicular unit vectors in the world, across the push; `names` of these directions.

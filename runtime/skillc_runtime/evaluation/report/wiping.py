@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.metrics.intervals import Interval, exclude_pauses
@@ -22,8 +23,7 @@ FORCE = "force"
 """The name of the force parameter, in N, of primitives that press."""
 
 
-@dataclass(frozen=True, slots=True)
-class Wiping:
+class Wiping(msgspec.Struct, frozen=True):
     """A tool that was pressed with `force_n` and followed paths on a surface; `began` is the start of the skill in s.
 
     Between two strokes the tool was lifted. `pauses` are those since `began`. `arm` is empty if the skill has no arm

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -27,8 +27,7 @@ STANDING_M_S = 1e-3
 """A slower path has no direction."""
 
 
-@dataclass(frozen=True, slots=True)
-class WipingDrawing:
+class WipingDrawing(msgspec.Struct, frozen=True):
     """One wiping; times in s from its first reference, positions in mm from the middle of the surface, names as words.
 
     extent (2,): size of the surface; `covered`: share of it that was wiped. dose (rows along y, columns along x):

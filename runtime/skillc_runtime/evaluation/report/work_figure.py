@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_runtime.evaluation.report.figure_files import FigureFiles
 
@@ -12,8 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@dataclass(frozen=True, slots=True)
-class WorkFigure:
+class WorkFigure(msgspec.Struct, frozen=True):
     """A figure to be drawn.
 
     file: the name of its files without suffix; title: its heading; explanation: what is to be known to read it;
@@ -27,8 +28,7 @@ class WorkFigure:
     draw: Callable[[], Figure]
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnFigure:
+class DrawnFigure(msgspec.Struct, frozen=True):
     """A figure with its files; None until it is drawn."""
 
     of: WorkFigure

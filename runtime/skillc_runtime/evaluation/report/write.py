@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import msgspec
+from msgspec.structs import replace
 
 from skillc_runtime.evaluation.report.figure_files import FigureFiles, render_figure
 from skillc_runtime.evaluation.report.result import TaskResult
@@ -62,8 +62,7 @@ def write_figures(directory: Path, figures: Sequence[WorkFigure]) -> tuple[Drawn
     return tuple(drawn)
 
 
-@dataclass(frozen=True, slots=True)
-class ReportPages:
+class ReportPages(msgspec.Struct, frozen=True):
     """The page of a report while its pictures are made and afterwards; `trees` are those of all attempts.
 
     `film` are the files of the film, if there is to be one.

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from math import isclose
 
+import msgspec
 from msgspec import structs
 
 from skillc_model.read_write import FactPattern, facts_read
@@ -25,8 +25,7 @@ Whoever wrote it: two measurements of the same thing differ by about as much.
 """
 
 
-@dataclass(frozen=True, slots=True)
-class FailedStep:
+class FailedStep(msgspec.Struct, frozen=True):
     """A call with the implementation that failed, the state of the world in which it started, and its failure.
 
     `writes` is the number of writes to the world model until it failed.

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Set
-from dataclasses import dataclass, field
+
+import msgspec
 
 from skillc_model.skills import Implementation, Parameter, Post, Requirement
 from skillc_model.traversal import free_variables
@@ -20,8 +21,7 @@ from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class BoundImplementation:
+class BoundImplementation(msgspec.Struct, frozen=True):
     """An implementation that can start, with its bound parameters and notes about them for users.
 
     An optional parameter that was not passed and has no default is absent. `alternatives` are the individuals that
@@ -30,7 +30,7 @@ class BoundImplementation:
 
     implementation: Implementation
     bindings: dict[str, Value]
-    alternatives: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    alternatives: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
 

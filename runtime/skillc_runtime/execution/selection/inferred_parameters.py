@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
-from dataclasses import dataclass, field
+
+import msgspec
 
 from skillc_model.skills import Implementation, Parameter, Requirement
 from skillc_model.traversal import free_variables
@@ -20,12 +21,11 @@ MAX_NEAR_MISSES = 3
 """How many near misses are listed in a rejection."""
 
 
-@dataclass(frozen=True, slots=True)
-class InferredParameters:
+class InferredParameters(msgspec.Struct, frozen=True):
     """Individuals by parameter; `alternatives` are those that `infer any` did not choose, which `notes` list."""
 
     bindings: Binding
-    alternatives: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    alternatives: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
 

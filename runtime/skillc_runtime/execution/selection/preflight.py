@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import partial
 from typing import TypeAlias, assert_never
+
+import msgspec
 
 from skillc_model import tree
 from skillc_model.conditions import Condition, Expression, Not
@@ -54,8 +55,7 @@ def preflight(body: tree.Node, library: SkillLibrary, state: WorldState) -> tupl
     return _Preflight(library, state).check(body, _Scope({}, {}, (), {}))
 
 
-@dataclass(frozen=True, slots=True)
-class _Scope:
+class _Scope(msgspec.Struct, frozen=True):
     """The known values in a body, the enclosing implementations, and the origins of the values.
 
     `values` are the same whenever the body runs, `foreseen` are these and those that follow from where things are.

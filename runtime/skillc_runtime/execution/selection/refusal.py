@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_model import tree
 from skillc_model.conditions import Expression, Variable
@@ -17,8 +18,7 @@ Origin: TypeAlias = tuple[Position, str]
 """Where a value comes from: the call and name of an argument, or an implementation and its parameter or `let`."""
 
 
-@dataclass(frozen=True, slots=True)
-class Refusal:
+class Refusal(msgspec.Struct, frozen=True):
     """A call or another node that can never run; `within` are the enclosing implementations, outermost first.
 
     `unknown_names` are the texts, by origin, for which implementations were rejected that could run otherwise.
@@ -29,7 +29,7 @@ class Refusal:
     source: Position
     within: tuple[str, ...] = ()
     rejected: tuple[Rejection, ...] = ()
-    unknown_names: Mapping[Origin, UnknownTextName] = field(default_factory=dict)
+    unknown_names: Mapping[Origin, UnknownTextName] = msgspec.field(default_factory=dict)
 
     def __str__(self) -> str:
         within = f" (in {' > '.join(self.within)})" if self.within else ""

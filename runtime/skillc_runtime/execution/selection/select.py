@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Final
 
+import msgspec
 from msgspec import structs
 
 from skillc_model.skills import Implementation, SkillLibrary
@@ -19,8 +19,7 @@ STAGES: Final[tuple[Stage, ...]] = ("argument", "inference", "pre", "hold", "loc
 """How far a call gets with an implementation."""
 
 
-@dataclass(frozen=True, slots=True)
-class SelectedImplementation:
+class SelectedImplementation(msgspec.Struct, frozen=True):
     """The selected implementation, its bound parameters, and the ones rejected before it, in rank order."""
 
     implementation: Implementation
@@ -28,8 +27,7 @@ class SelectedImplementation:
     rejected: tuple[Rejection, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class NoneSelected:
+class NoneSelected(msgspec.Struct, frozen=True):
     """All implementations were rejected."""
 
     rejected: tuple[Rejection, ...]

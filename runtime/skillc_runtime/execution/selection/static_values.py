@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_model.conditions import Condition, Expression, Invoke, PropertyOf
 from skillc_model.read_write import is_fixed
@@ -20,8 +21,7 @@ MEASURED_PROPERTIES = frozenset({BASE_FRAME_ID, *POSITION, *ORIENTATION, *ANGLES
 """Skills write where things are without declaring it in their posts."""
 
 
-@dataclass(frozen=True, slots=True)
-class StaticValues:
+class StaticValues(msgspec.Struct, frozen=True):
     """The values that are known, by name; `undefined` says why other names can never have a value."""
 
     values: dict[str, Value]

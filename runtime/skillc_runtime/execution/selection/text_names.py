@@ -6,8 +6,9 @@ A primitive declares them in `Primitive.text_names`.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_model import tree
 from skillc_model.conditions import Variable
@@ -22,8 +23,7 @@ NamePath: TypeAlias = tuple[str, ...]
 """The relations to follow from an individual, then the property whose values are names."""
 
 
-@dataclass(frozen=True, slots=True)
-class UnknownTextName:
+class UnknownTextName(msgspec.Struct, frozen=True):
     """A text that is none of the `known` values, sorted, of a property of `owner`, or of anything if that is None."""
 
     text: str

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import assert_never
+
+from msgspec.structs import replace
 
 from skillc_model import tree
 from skillc_runtime.execution.tree.call_node import CallNode

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias, assert_never
+
+import msgspec
 
 from skillc_model.skills import KEEP_S, PausePolicy
 from skillc_rdf.vocabulary.types import Position
@@ -14,15 +15,13 @@ MOST_DIGITS = 9
 """The most digits of a line in a breakpoint."""
 
 
-@dataclass(frozen=True, slots=True)
-class AtSkill:
+class AtSkill(msgspec.Struct, frozen=True):
     """A breakpoint at each call of a skill."""
 
     skill: str
 
 
-@dataclass(frozen=True, slots=True)
-class AtLine:
+class AtLine(msgspec.Struct, frozen=True):
     """A breakpoint at each call in a line of a file."""
 
     path: str

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Protocol, TypeAlias
+
+import msgspec
 
 from skillc_model.skills import Implementation
 from skillc_runtime.execution.tree.undo_stack import UndoStack
@@ -42,8 +43,7 @@ class CallFailures(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class LexicalScope:
+class LexicalScope(msgspec.Struct, frozen=True):
     """The scope of a body, fixed while it runs; nodes get values only from it.
 
     `frame` holds the values in scope: parameters, lets, loop variables, outputs; an optional parameter that was not
@@ -55,7 +55,7 @@ class LexicalScope:
     """
 
     undo: UndoStack
-    frame: Frame = field(default_factory=dict)
+    frame: Frame = msgspec.field(default_factory=dict)
     implementation: Implementation | None = None
     calls: tuple[object, ...] = ()
     failures: CallFailures | None = None

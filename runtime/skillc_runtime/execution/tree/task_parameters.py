@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from typing import TypeAlias, cast
 
 import msgspec
@@ -19,12 +18,11 @@ _Index: TypeAlias = Mapping[tuple[Position, str], tuple[Task, Expression]]
 """The expressions in bodies of tasks by the place of the node and the name that gets the value."""
 
 
-@dataclass(frozen=True, slots=True)
-class OriginalExpression:
+class OriginalExpression(msgspec.Struct, frozen=True):
     """An expression as it is written, and the values, with their types, of the parameters of a task that it names."""
 
     expression: Expression
-    given: Mapping[str, tuple[Expression, ValueType]] = field(default_factory=dict)
+    given: Mapping[str, tuple[Expression, ValueType]] = msgspec.field(default_factory=dict)
 
 
 def find_original(library: SkillLibrary, source: Position, name: str, bound: Expression) -> OriginalExpression:

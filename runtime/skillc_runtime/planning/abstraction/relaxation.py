@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import assert_never
 
+from msgspec import structs
+
 from skillc_model.pddl.domain import ROOT, Action, ClassMeaning, PlanningDomain, Predicate, RelationMeaning
 from skillc_model.pddl.formulas import (
     TRUE,
@@ -52,7 +54,7 @@ class DomainRelaxation:
         """Return the relaxed domain; NotRelaxable if an effect cannot be relaxed."""
         known = self._domain.predicate
         predicates = [known[name] for name in sorted(self.negated)]
-        predicates += [replace(known[name], name=may) for name, may in sorted(self.may.items())]
+        predicates += [structs.replace(known[name], name=may) for name, may in sorted(self.may.items())]
         marked = Predicate(self.mark, (Typed("?subject", ROOT),), ClassMeaning(""), False)
         actions = tuple(self._relax_action(each) for each in self._domain.actions)
         return replace(self._domain, predicates=(*predicates, marked), actions=actions)
@@ -81,7 +83,7 @@ class DomainRelaxation:
 
     def _relax_action(self, action: Action) -> Action:
         changes = dict.fromkeys(each for change in action.effects for each in self._relax_change(change))
-        return replace(
+        return structs.replace(
             action,
             precondition=self.relax(action.precondition),
             hold=self.relax(action.hold),

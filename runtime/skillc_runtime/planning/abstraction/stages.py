@@ -8,8 +8,10 @@ scene. Nor is anything claimed about skills that planners cannot use.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from typing import TypeAlias, assert_never
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
@@ -33,8 +35,7 @@ Search: TypeAlias = Callable[[Problem, CancelToken], PlanResult]
 Explain: TypeAlias = Callable[[PosedProblem], UnsolvabilityReason]
 
 
-@dataclass(frozen=True, slots=True)
-class PlanningStages:
+class PlanningStages(msgspec.Struct, frozen=True):
     """Functions that pose a problem, answer it with a validated plan, search without validation, and explain failure.
 
     `cancel` ends all of them together.

@@ -6,10 +6,11 @@ Each disjunct of a condition becomes an action of its own; an existential variab
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import count, product
 from math import prod
 from typing import TypeAlias, assert_never
+
+import msgspec
 
 from skillc_model.pddl.domain import Action
 from skillc_model.pddl.formulas import (
@@ -38,16 +39,14 @@ class NotTemporal(ValueError):
     """A problem that aries does not support; the message says what in it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Disjunct:
+class Disjunct(msgspec.Struct, frozen=True):
     """A disjunct of a formula: all its literals hold for some objects of its variables."""
 
     variables: tuple[Typed, ...] = ()
     literals: tuple[Literal, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class FlatAction:
+class FlatAction(msgspec.Struct, frozen=True):
     """An action with its conditions at the start and over its whole duration, and its effects at the start and end."""
 
     action: Action
@@ -58,8 +57,7 @@ class FlatAction:
     at_end: tuple[Change, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class FlatProblem:
+class FlatProblem(msgspec.Struct, frozen=True):
     """A problem for aries; each of its actions is a variant of an action of `problem`."""
 
     problem: Problem

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import platform
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from importlib.util import find_spec
 from itertools import count
 from pathlib import Path
+
+import msgspec
+from msgspec import structs
 
 from skillc_model.pddl.costs import MOST_UNITS
 from skillc_model.pddl.problem import Problem, action_durations
@@ -57,8 +60,7 @@ def find_aries() -> str | None:
     return str(program) if program.is_file() else None
 
 
-@dataclass(frozen=True, slots=True)
-class _NoSchedule:
+class _NoSchedule(msgspec.Struct, frozen=True):
     """There is no schedule with this number of instances of each action."""
 
 
@@ -119,7 +121,7 @@ def _with_finer_units(problem: Problem) -> Problem:
     domain = problem.domain
     longest = max(map(domain.units, action_durations(problem)), default=0)
     finer = 10 if 10 * longest <= MOST_UNITS else 1
-    return replace(problem, domain=replace(domain, scale=finer * domain.scale))
+    return structs.replace(problem, domain=replace(domain, scale=finer * domain.scale))
 
 
 def _read_result(outcome: ProcessResult, flat: FlatProblem) -> Schedule | _NoSchedule | GaveUp:

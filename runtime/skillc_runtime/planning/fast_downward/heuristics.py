@@ -8,20 +8,19 @@ documented to be admissible with them. The blind heuristic is admissible for eve
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
+import msgspec
 
-@dataclass(frozen=True, slots=True)
-class TaskFeatures:
+
+class TaskFeatures(msgspec.Struct, frozen=True):
     """The features of a translated task that not every heuristic supports."""
 
     conditional_effects: bool
     axioms: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Heuristic:
+class Heuristic(msgspec.Struct, frozen=True):
     """An admissible heuristic in Fast Downward's syntax, and the share of the remaining time for it."""
 
     text: str

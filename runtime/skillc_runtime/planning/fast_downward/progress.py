@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+
+import msgspec
 
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.planning.progress import PlanningProgress, ReportProgress
@@ -21,8 +22,7 @@ def read_lower_bound(output: str) -> int:
     return max(map(int, _PROVED.findall(output)), default=0)
 
 
-@dataclass(frozen=True, slots=True)
-class SearchWatch:
+class SearchWatch(msgspec.Struct, frozen=True):
     """Reports how far the programs are that work in a folder."""
 
     planner: str

@@ -5,9 +5,10 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
+
+import msgspec
 
 from skillc_model.pddl.complement import add_complements
 from skillc_model.pddl.formulas import FALSE
@@ -52,8 +53,7 @@ _CODES = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Programs:
+class Programs(msgspec.Struct, frozen=True):
     """The programs of Fast Downward: translator and driver as commands, the search component as a file."""
 
     translate: tuple[str, ...]

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
+from msgspec import structs
+
 from skillc_model.pddl.devices import locked_parameters
 from skillc_model.pddl.domain import Action, FixedCost
 from skillc_model.pddl.formulas import Equal, Negation, conjunction
@@ -60,15 +62,15 @@ def price_device_work(problem: Problem, device: str) -> Problem:
     """
     taken = {*problem.domain.names, *problem.domain.action, *problem.domain.predicate}
     actions = tuple(each for action in problem.domain.actions for each in _split_by_device(action, device, taken))
-    return replace(problem, domain=replace(problem.domain, actions=actions, constants=problem.objects))
+    return structs.replace(problem, domain=replace(problem.domain, actions=actions, constants=problem.objects))
 
 
 def _split_by_device(action: Action, device: str, taken: set[str]) -> Iterator[Action]:
     """Yield the action for other devices without cost, and for each device parameter the action with this device."""
     others = (Negation(Equal(each, device)) for each in action.uses)
-    yield replace(action, precondition=conjunction((action.precondition, *others)), cost=FixedCost(Fraction(0)))
+    yield structs.replace(action, precondition=conjunction((action.precondition, *others)), cost=FixedCost(Fraction(0)))
     for each in action.uses:
         here = conjunction((action.precondition, Equal(each, device)))
         name = make_unique(f"{action.name}-busy", taken)
         taken.add(name)
-        yield replace(action, name=name, precondition=here)
+        yield structs.replace(action, name=name, precondition=here)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import TypeAlias
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
@@ -34,8 +36,7 @@ LOWER_BOUND_DEADLINE_S = 4.0
 ScheduleResult: TypeAlias = Scheduled | Unsolvable | GaveUp
 
 
-@dataclass(frozen=True, slots=True)
-class MakespanProblem:
+class MakespanProblem(msgspec.Struct, frozen=True):
     """The goal, the world, the library, the steps that are excluded, what ends the search, and where it is reported."""
 
     library: SkillLibrary

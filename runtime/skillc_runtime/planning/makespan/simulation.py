@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_model.conditions import Condition
 from skillc_model.pddl.devices import locked_parameters
@@ -33,8 +35,7 @@ INSTANT_S = 1e-6
 """Times that differ by at most this are equal."""
 
 
-@dataclass(frozen=True, slots=True)
-class _ActiveStep:
+class _ActiveStep(msgspec.Struct, frozen=True):
     """A running step, with the implementations that may be running it."""
 
     step: Step

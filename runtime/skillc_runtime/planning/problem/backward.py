@@ -13,9 +13,10 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass
 from itertools import chain
 from typing import TypeAlias, assert_never
+
+import msgspec
 
 from skillc_model.pddl.domain import (
     Action,
@@ -60,8 +61,7 @@ class _TooMany(Exception):
     """There are too many helpful steps to list them."""
 
 
-@dataclass(frozen=True, slots=True)
-class TypedIndividuals:
+class TypedIndividuals(msgspec.Struct, frozen=True):
     """The individuals of a problem by type, and the function that returns the type of one."""
 
     domain: PlanningDomain

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import NamedTuple
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_model.chains import Chains, Unrolling, find_chains, unroll_library
 from skillc_model.conditions import And, Condition, Holds, Individual, Not, Or
@@ -27,8 +29,7 @@ LONG_CHAINS = LeftOut(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class UnrolledProblem:
+class UnrolledProblem(msgspec.Struct, frozen=True):
     """A library, a world and a goal without changing chains, and the library with them, to validate plans.
 
     `left_out` is what is said of chains that may be longer than those planned with.

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
+from msgspec import structs
+
 from skillc_model.pddl.domain import Action, ExclusionMeaning, PlanningDomain, Predicate
 from skillc_model.pddl.formulas import Atom, Equal, Formula, Negation, conjunction, conjuncts, disjunction
 from skillc_model.pddl.names import make_unique
@@ -24,7 +26,7 @@ def exclude_steps(steps: Sequence[Excluded], domain: PlanningDomain, names: Mapp
             domain, meant = _add_predicate(domain, f"excluded-{action.name}", action, arguments)
             allowed = conjunction((action.precondition, Negation(meant)))
             actions = list(domain.actions)
-            actions[number] = replace(action, precondition=allowed)
+            actions[number] = structs.replace(action, precondition=allowed)
             domain = replace(domain, actions=tuple(actions))
     return domain
 
@@ -52,7 +54,9 @@ def allow_steps(
                 found, meant = _add_predicate(found, f"only-{action.name}", action, (arguments,))
                 free = [negate(each) for each in held]
                 copy = make_unique(f"{action.name}-again", {each.name for each in found.actions} | {*found.names})
-                again = replace(action, name=copy, precondition=conjunction((action.precondition, meant, *free)))
+                again = structs.replace(
+                    action, name=copy, precondition=conjunction((action.precondition, meant, *free))
+                )
                 found = replace(found, actions=(*found.actions, again))
     return found
 

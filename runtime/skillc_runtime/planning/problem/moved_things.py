@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from msgspec import structs
+
 from skillc_model.pddl.domain import ROOT, Action, MovedMeaning, PlanningDomain, Predicate, RelationMeaning
 from skillc_model.pddl.formulas import Atom, Change, Formula, Negation, Typed, conjunction
 from skillc_model.pddl.names import make_unique
@@ -32,7 +34,7 @@ def describe_moved(excluded: StepWhile, moved: str) -> Formula:
 
 def _mark(action: Action, name: str, domain: PlanningDomain, vocabulary: Vocabulary) -> Action:
     things = dict.fromkeys(_list_moved(action, domain, vocabulary))
-    return replace(action, effects=(*action.effects, *(Change(Atom(name, (each,)), True) for each in things)))
+    return structs.replace(action, effects=(*action.effects, *(Change(Atom(name, (each,)), True) for each in things)))
 
 
 def _list_moved(action: Action, domain: PlanningDomain, vocabulary: Vocabulary) -> Iterator[str]:

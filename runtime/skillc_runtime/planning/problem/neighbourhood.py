@@ -10,8 +10,10 @@ not be the cheapest, and if there is none, the scene may still have one: see `ab
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from heapq import nsmallest
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_model.pddl.domain import GuardMeaning, PlanningDomain, RelationMeaning
 from skillc_runtime.world.eval.conditions import evaluate
@@ -25,8 +27,7 @@ MAX_RANKED = 500
 """How many objects of a type are ranked, the first by IRI."""
 
 
-@dataclass(frozen=True, slots=True)
-class AbstractionSize:
+class AbstractionSize(msgspec.Struct, frozen=True):
     """How much of a scene is kept: all objects of types with up to `few`, and neighbours up to `objects` in total.
 
     For a scene of up to `whole` objects, and for any with `proves`, planning goes on to the whole scene until the plan

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence, Set
-from dataclasses import dataclass
 from functools import cache
 from itertools import chain
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_model.pddl.constants import most_specific
 from skillc_model.pddl.domain import PlanningDomain
@@ -30,8 +31,7 @@ IndividualsByClass: TypeAlias = Mapping[frozenset[str], Sequence[str]]
 """The individuals of a scene by their declared classes."""
 
 
-@dataclass(frozen=True, slots=True)
-class ObjectSelection:
+class ObjectSelection(msgspec.Struct, frozen=True):
     """The types of the individuals that are kept, and by type the `others`, which are not but may be relevant."""
 
     kept: dict[str, str]

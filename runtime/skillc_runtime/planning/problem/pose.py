@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import msgspec
 
@@ -43,8 +43,7 @@ class GoalError(ValueError):
     """A goal that cannot be planned for; the message names the part of it that cannot."""
 
 
-@dataclass(frozen=True, slots=True)
-class PosedProblem:
+class PosedProblem(msgspec.Struct, frozen=True):
     """A problem, its library (with the classes that the scene defines), and what the problem leaves open or out.
 
     `undecided` are static conditions that cannot be evaluated for some individuals and count as false for them;
@@ -59,7 +58,7 @@ class PosedProblem:
     undecided: tuple[str, ...]
     assumptions: tuple[str, ...] = ()
     left_out: tuple[LeftOut, ...] = ()
-    others: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    others: dict[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
     open_goal: bool = False
 
     @property
@@ -149,7 +148,7 @@ def pose_problem(
         *_list_left_out_steps(without, state),
         *selection.left_out,
     )
-    problem = replace(problem, domain=replace(domain, scale=common_scale(action_durations(problem))))
+    problem = msgspec.structs.replace(problem, domain=replace(domain, scale=common_scale(action_durations(problem))))
     assumptions = (*_describe_unknown_durations(initial, problem), *_describe_estimates(domain, state.vocabulary))
     return PosedProblem(
         problem, library, tuple(initial.undecided), assumptions, left_out, selection.others, _has_wildcard(goal)

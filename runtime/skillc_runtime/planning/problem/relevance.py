@@ -11,8 +11,10 @@ A conditional effect may apply in only one of the two plans, so both signs of wh
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Set
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeAlias, assert_never
+
+import msgspec
 
 from skillc_model.pddl.domain import Action, PlanningDomain
 from skillc_model.pddl.formulas import (
@@ -32,8 +34,7 @@ from skillc_model.pddl.typed import action_terms
 Literal: TypeAlias = tuple[str, bool]
 
 
-@dataclass(frozen=True, slots=True)
-class RelevantDomain:
+class RelevantDomain(msgspec.Struct, frozen=True):
     """The domain with the helpful actions only, and the skills that were left out."""
 
     domain: PlanningDomain

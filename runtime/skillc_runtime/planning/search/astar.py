@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import count
 from typing import TypeAlias, assert_never
+
+import msgspec
 
 from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Equal, Existential, Formula, Negation, Universal
 from skillc_model.pddl.problem import Problem
@@ -66,8 +67,7 @@ class AStar:
         return GaveUp(f"the built-in planner gave up: {why}{self._advice}")
 
 
-@dataclass(frozen=True, slots=True)
-class _Operator:
+class _Operator(msgspec.Struct, frozen=True):
     """An action on states, in which bit n is set if atom n is true."""
 
     applies: Test
@@ -84,21 +84,18 @@ class _Operator:
         return state & ~deleted | added
 
 
-@dataclass(frozen=True, slots=True)
-class _Task:
+class _Task(msgspec.Struct, frozen=True):
     start: int
     operators: tuple[_Operator, ...]
     goal: Test
     heuristic: HMax
 
 
-@dataclass(frozen=True, slots=True)
-class _Exhausted:
+class _Exhausted(msgspec.Struct, frozen=True):
     """All reachable states were expanded without reaching the goal."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Stopped:
+class _Stopped(msgspec.Struct, frozen=True):
     """The search was ended after `states` were expanded."""
 
     why: str

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 from typing import TypeAlias, assert_never
+
+import msgspec
 
 from skillc_model.pddl.domain import Action, ComputedCost, FixedCost
 from skillc_model.pddl.formulas import (
@@ -36,8 +37,7 @@ from skillc_runtime.planning.typed_variables import list_typed_variables
 Values: TypeAlias = Mapping[str, str]
 
 
-@dataclass(frozen=True, slots=True)
-class GroundEffect:
+class GroundEffect(msgspec.Struct, frozen=True):
     """The atom becomes true (`positive`) or false if the condition held before."""
 
     atom: Atom
@@ -45,8 +45,7 @@ class GroundEffect:
     condition: Formula
 
 
-@dataclass(frozen=True, slots=True)
-class GroundAction:
+class GroundAction(msgspec.Struct, frozen=True):
     """An action with its objects, as `words`; its formulas have neither variables nor static atoms. Costs `units`."""
 
     words: tuple[str, ...]

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import product
+
+import msgspec
 
 from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Formula, Negation
 from skillc_model.pddl.problem import Problem
@@ -22,8 +23,7 @@ MAX_CASES = 64
 Literals = frozenset[int]
 
 
-@dataclass(frozen=True, slots=True)
-class RelaxedRule:
+class RelaxedRule(msgspec.Struct, frozen=True):
     """If all conditions hold, the results can be made true at a cost in units."""
 
     conditions: Literals

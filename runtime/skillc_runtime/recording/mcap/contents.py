@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 
 import msgspec
 
@@ -33,15 +32,14 @@ PACKED = ".gz"
 """What the names of attachments end with in the file: they are compressed with gzip."""
 
 
-@dataclass(frozen=True, slots=True)
-class RunContents:
+class RunContents(msgspec.Struct, frozen=True):
     """What a run was made of: `metadata` is text by name, `attachments` are files by name.
 
     `envelope_schema` is the JSON Schema of an event.
     """
 
     metadata: Mapping[str, str]
-    attachments: Mapping[str, bytes] = field(default_factory=dict)
+    attachments: Mapping[str, bytes] = msgspec.field(default_factory=dict)
     envelope_schema: bytes = b"{}"
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 
 from skillc_rdf.vocabulary.types import local_name
@@ -32,8 +32,7 @@ WORLD = "world"
 COMMANDED_FORCE = "force on the tool that is asked for by a push; not known without one"
 
 
-@dataclass(frozen=True, slots=True)
-class Channel:
+class Channel(msgspec.Struct, frozen=True):
     """Some signals, and the function that returns their values (n,) at present."""
 
     signals: tuple[Signal, ...]
@@ -80,8 +79,7 @@ def _of_things(truth: GroundTruth, clock: Clock, state: WorldState, names: Mappi
             yield _of_thing(Columns(names[thing], thing), thing, truth)
 
 
-@dataclass(frozen=True, slots=True)
-class Columns:
+class Columns(msgspec.Struct, frozen=True):
     """Makes the signals of a device."""
 
     name: str

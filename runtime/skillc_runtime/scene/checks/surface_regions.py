@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import acos, atan2, degrees, pi
+
+import msgspec
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
@@ -18,8 +19,7 @@ TURN_RAD = 0.02
 """Areas turned by less than this count as aligned: numbers in files are rounded."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Area:
+class _Area(msgspec.Struct, frozen=True):
     """An area and its surface, by IRI, with their sizes (2,) in m, and the pose in the surface frame."""
 
     area: str

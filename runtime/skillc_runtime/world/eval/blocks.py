@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass
 
+import msgspec
+
 from skillc_model.blocks import Block
 from skillc_model.conditions import Arithmetic, Condition, HasProperty, Holds, Individual, Invoke, PropertyOf, Variable
 from skillc_model.traversal import free_variables, walk
@@ -42,16 +44,14 @@ class _Part:
     needs: frozenset[str]
 
 
-@dataclass(frozen=True, slots=True)
-class _Component:
+class _Component(msgspec.Struct, frozen=True):
     """Unbound variables that parts connect, and the bound ones on which these parts depend."""
 
     variables: frozenset[str]
     boundary: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class _Step:
+class _Step(msgspec.Struct, frozen=True):
     """The binding of one variable: the tests that it makes possible, and the components that remain."""
 
     tests: tuple[ConditionTest, ...]

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_model.conditions import Condition, Exists
 from skillc_model.skills import Parameter, Requirement
@@ -21,16 +22,14 @@ Binding: TypeAlias = dict[str, str]
 """Individuals by parameter name."""
 
 
-@dataclass(frozen=True, slots=True)
-class Inferred:
+class Inferred(msgspec.Struct, frozen=True):
     """The inferred parameters; `others` are further solutions for `infer any`, in IRI order."""
 
     bindings: Binding
     others: tuple[Binding, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class NoneFound:
+class NoneFound(msgspec.Struct, frozen=True):
     """No solution: the requirement that excludes the last one (None if a class has no individual), and the reason.
 
     `nearest` are individuals that violate a single requirement.
@@ -41,8 +40,7 @@ class NoneFound:
     nearest: tuple[NearMiss, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Ambiguous:
+class Ambiguous(msgspec.Struct, frozen=True):
     """Several solutions where one is needed, in IRI order."""
 
     candidates: tuple[Binding, ...]

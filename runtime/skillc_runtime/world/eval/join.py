@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import repeat
+
+import msgspec
 
 from skillc_model.conditions import Condition, Holds, Term, Variable
 from skillc_model.traversal import conjuncts, free_variables
@@ -36,8 +37,7 @@ def solutions(
     yield from _bind_next(dict(variables), tuple(filters), scope, state, tries)
 
 
-@dataclass(frozen=True, slots=True)
-class _Filter:
+class _Filter(msgspec.Struct, frozen=True):
     """A condition with the searched variables that it mentions."""
 
     condition: Condition

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import TypeGuard
+
+import msgspec
 
 from skillc_model.conditions import Anything, Condition, Holds, Individual, Term, Variable
 from skillc_runtime.world.eval.expressions import Bindings, iri_of
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class Link:
+class Link(msgspec.Struct, frozen=True):
     """A relation between a searched variable and another term; `forward` if the other term is the subject."""
 
     relation: str

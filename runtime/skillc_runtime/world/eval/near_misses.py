@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_model.conditions import Condition, IsA, Variable
 from skillc_model.skills import Requirement
@@ -21,8 +22,7 @@ MAX_NEAR_MISSES = 3
 """If more individuals than this fit without a requirement, that requirement is no helpful explanation."""
 
 
-@dataclass(frozen=True, slots=True)
-class NearMiss:
+class NearMiss(msgspec.Struct, frozen=True):
     """Individuals by parameter name that violate one requirement, and what holds instead.
 
     `requirement` is None if the class of the parameter in `about` is violated. `about` are the parameters that the

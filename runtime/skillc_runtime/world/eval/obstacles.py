@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from skillc_model.conditions import Compare, Condition, HasProperty, Holds, Individual, PropertyOf
 from skillc_runtime.world.eval.expressions import Bindings, compile_expression, find_missing_value, iri_of
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class RelationObstacle:
+class RelationObstacle(msgspec.Struct, frozen=True):
     """What the reasoner of a computed relation says against it, for two individuals."""
 
     relation: str

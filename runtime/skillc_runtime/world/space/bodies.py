@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
@@ -80,8 +82,7 @@ PLASTIC: Final[Colour] = (0.35, 0.5, 0.65, 1.0)
 GOODS: Final[Colour] = (0.85, 0.55, 0.2, 1.0)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class RigidBody:
+class RigidBody(msgspec.Struct, frozen=True, eq=False):
     """A thing that exists: its shape, the convex solids of it in its frame, mass in kg, centre of mass (3,) in m.
 
     pose: in the world, of the thing's frame, which for furniture lies in the middle of the top, for all others in the

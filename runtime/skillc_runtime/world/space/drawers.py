@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from skillc_model.rounding import is_above
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
@@ -13,8 +13,7 @@ SLIDE_FRICTION_N = 3.0
 """The friction of a drawer that states none: of a light one on rollers."""
 
 
-@dataclass(frozen=True, slots=True)
-class Slide:
+class Slide(msgspec.Struct, frozen=True):
     """How a drawer slides: at most `travel_m` out, `opening_m` at present, against a friction in N."""
 
     travel_m: float

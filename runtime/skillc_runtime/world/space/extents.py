@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
@@ -22,8 +22,7 @@ FACES = {
 """The axis (0 to 2) and the direction along it in which each face of a box looks."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class LocalBox:
+class LocalBox(msgspec.Struct, frozen=True, eq=False):
     """The box of an object: half its size (3,) in m, and its middle (3,) in m in the object's frame."""
 
     half: Array
@@ -36,8 +35,7 @@ class LocalBox:
         return LocalBox(half, np.array([0.0, 0.0, -2 * share * half[2]]))
 
 
-@dataclass(frozen=True, slots=True)
-class Spot:
+class Spot(msgspec.Struct, frozen=True):
     """A place on a box: the name of a face, whether offsets are from its middle or from its least corner, offsets in m.
 
     The offsets are along the axes of the box's frame. The least corner has the least coordinates on the face.

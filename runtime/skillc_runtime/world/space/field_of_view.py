@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import degrees, pi
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array
@@ -14,8 +15,7 @@ if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class FieldOfView:
+class FieldOfView(msgspec.Struct, frozen=True):
     """A cone of the full `angle_rad` around the z axis of a camera, from `near_m` to `far_m` away from it."""
 
     angle_rad: float

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
@@ -41,8 +42,7 @@ STANDING = 0.7
 """The cosine of the tilt up to which a round thing counts as standing."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class GraspCandidate:
+class GraspCandidate(msgspec.Struct, frozen=True, eq=False):
     """Where the tool centre point is in the world, how wide the thing is there and how far the fingers open, in m."""
 
     tool: Pose
@@ -50,8 +50,7 @@ class GraspCandidate:
     opening_m: float
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class GraspScene:
+class GraspScene(msgspec.Struct, frozen=True, eq=False):
     """A body to grasp, the hand, the direction (3,) in the world from the arm to the body, and what is around."""
 
     state: WorldState

@@ -6,9 +6,10 @@ A hand points along z of its frame, and its fingers close along y. The tool cent
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import replace
 from functools import lru_cache
 from typing import Final, Literal, TypeAlias
+
+from msgspec.structs import replace
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Pose

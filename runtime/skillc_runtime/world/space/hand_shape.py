@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
@@ -36,8 +37,7 @@ SLACK_M = 0.001
 """How deep things may overlap that are known to touch."""
 
 
-@dataclass(frozen=True, slots=True)
-class HandShape:
+class HandShape(msgspec.Struct, frozen=True):
     """A gripper around its tool centre point, in m: it points along z, and its fingers close along y.
 
     depth_m: from the tool centre point to the palm; tip_m: to the tips. finger_width_m, palm_thickness_m: along x;

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+import msgspec
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array
@@ -35,8 +36,7 @@ class PlaceError(EvaluationError):
         self.lack = lack
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Neighbour:
+class Neighbour(msgspec.Struct, frozen=True, eq=False):
     """A solid of what takes up room: its lowest and highest corner (3,) in m, in the frame of a support.
 
     lies_there: whether it lies free, with its middle over the support.
@@ -48,8 +48,7 @@ class Neighbour:
     lies_there: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class WantedRoom:
+class WantedRoom(msgspec.Struct, frozen=True, eq=False):
     """Room on a support for a thing; the methods say why there is none.
 
     size: the sides (2,) of the thing in m. needed: the sides (2,) in m of the room for the thing and the hand.

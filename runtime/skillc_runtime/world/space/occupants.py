@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
 from functools import lru_cache
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
@@ -24,8 +26,7 @@ WITHOUT_ROOM = (*REGIONS, ARM_DEVICE, END_EFFECTOR, SENSOR, PERSON)
 HERE = Pose.of((0.0, 0.0, 0.0))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Occupant:
+class Occupant(msgspec.Struct, frozen=True, eq=False):
     """A thing that takes up room: its convex solids and its centre of mass (3,) in m, in the world.
 
     movable: whether it lies free. low, high: the corners (3,) in m of the smallest box along the axes of the world.

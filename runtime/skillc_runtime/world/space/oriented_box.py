@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf
+
+import msgspec
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
@@ -12,8 +13,7 @@ CORNERS = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in
 """The corners (8, 3) of a box in its own frame, unitless: multiples of half its extent."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class OrientedBox:
+class OrientedBox(msgspec.Struct, frozen=True, eq=False):
     """A box: pose of its middle in the world, half its extent (3,) m along its axes, corners (8, 3) m in the world.
 
     `lowest` is the height in m of the lowest corner in the world. `axes` are the three axes: direction in the world

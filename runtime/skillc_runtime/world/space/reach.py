@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
@@ -18,8 +19,7 @@ if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Reach:
+class Reach(msgspec.Struct, frozen=True, eq=False):
     """How far an arm reaches from its shoulder with its hand: in m, and (3,) in m in the world."""
 
     arm: str

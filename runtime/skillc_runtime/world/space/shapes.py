@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise, product
 from typing import TypeAlias, assert_never
+
+import msgspec
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.world.space.solids import Hull, Kind, Size, Solid, block
@@ -26,36 +27,31 @@ class ShapeError(ValueError):
     """A size that a shape cannot have; the message says what is wrong with it, and what the shape needs."""
 
 
-@dataclass(frozen=True, slots=True)
-class Box:
+class Box(msgspec.Struct, frozen=True):
     """A box of size (3,) m."""
 
     size: Size
 
 
-@dataclass(frozen=True, slots=True)
-class Cylinder:
+class Cylinder(msgspec.Struct, frozen=True):
     """A cylinder along z in a box of size (3,) m."""
 
     size: Size
 
 
-@dataclass(frozen=True, slots=True)
-class Sphere:
+class Sphere(msgspec.Struct, frozen=True):
     """A sphere in a box of size (3,) m."""
 
     size: Size
 
 
-@dataclass(frozen=True, slots=True)
-class Capsule:
+class Capsule(msgspec.Struct, frozen=True):
     """A cylinder along z with half spheres as its ends, in a box of size (3,) m."""
 
     size: Size
 
 
-@dataclass(frozen=True, slots=True)
-class Bin:
+class Bin(msgspec.Struct, frozen=True):
     """A floor and four walls of thickness `wall_m`, open at the top, in a box of size (3,) m."""
 
     size: Size
@@ -68,8 +64,7 @@ class Bin:
         return x - 2 * self.wall_m, y - 2 * self.wall_m, z - self.wall_m
 
 
-@dataclass(frozen=True, slots=True)
-class Shelf:
+class Shelf(msgspec.Struct, frozen=True):
     """Boards of thickness `wall_m` between two sides and a back, open towards -y, in a box of size (3,) m."""
 
     size: Size
@@ -77,24 +72,21 @@ class Shelf:
     boards: int
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(msgspec.Struct, frozen=True):
     """A board of thickness `wall_m` on four legs, in a box of size (3,) m."""
 
     size: Size
     wall_m: float
 
 
-@dataclass(frozen=True, slots=True)
-class Panel:
+class Panel(msgspec.Struct, frozen=True):
     """A box of size (3,) m with rectangles (x, y, width, depth) in m, of their middles, cut through it along z."""
 
     size: Size
     openings: tuple[tuple[float, float, float, float], ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Mesh:
+class Mesh(msgspec.Struct, frozen=True, eq=False):
     """Convex pieces of a mesh in a box of size (3,) m; `whole` if they are the hull of all of it."""
 
     size: Size

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi, sqrt
 from typing import Literal, TypeAlias, assert_never
+
+import msgspec
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
@@ -13,8 +14,7 @@ Size: TypeAlias = tuple[float, float, float]
 Kind: TypeAlias = Literal["box", "cylinder", "sphere", "capsule", "hull"]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Hull:
+class Hull(msgspec.Struct, frozen=True, eq=False):
     """The convex hull of points (n, 3) m; the volume in m^3 and the centre (3,) in m are those of what fills it."""
 
     points: Array
@@ -22,8 +22,7 @@ class Hull:
     centre: Array
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Solid:
+class Solid(msgspec.Struct, frozen=True, eq=False):
     """A convex piece: half the size (3,) m of its own bounding box, and its pose in the frame of what it belongs to.
 
     Cylinders and capsules are along z; half of a capsule's length includes its end. `hull`: the points of a hull, in

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
@@ -21,8 +23,7 @@ QUARTERS = tuple(np.array([[c, s, 0.0], [s, -c, 0.0], [0.0, 0.0, -1.0]]) for c, 
 """The rotations (3, 3) of a hand that points down, in the frame of a support: first as its x points."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Support:
+class Support(msgspec.Struct, frozen=True, eq=False):
     """A horizontal rectangle that carries things: its middle in the world, half its sides (2,) in m.
 
     rim_m: how high its walls stand above it; 0 without walls. board: of a shelf, 0 for its top and for all else.

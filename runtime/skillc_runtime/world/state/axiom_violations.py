@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import chain, combinations
 from typing import assert_never
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import THING, RelationTerm
@@ -24,8 +26,7 @@ from skillc_runtime.world.state.values import Value, show
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class AxiomViolation:
+class AxiomViolation(msgspec.Struct, frozen=True):
     """A violated axiom, by name, with a message that states the axiom and the facts.
 
     `conflicting` are facts that cannot be true together with the change; `causes` are facts that explain the violation.

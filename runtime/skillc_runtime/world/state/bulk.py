@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_rdf.vocabulary.closure import reachable
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -18,8 +19,7 @@ Pairs: TypeAlias = Iterable[tuple[str, str]]
 _Sets: TypeAlias = dict[str, frozenset[str]]
 
 
-@dataclass(frozen=True, slots=True)
-class FactTables:
+class FactTables(msgspec.Struct, frozen=True):
     """All asserted facts: classes by individual, pairs by relation, values by property and individual."""
 
     types: Mapping[str, Iterable[str]]

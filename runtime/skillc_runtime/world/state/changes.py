@@ -2,29 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias, assert_never
+
+import msgspec
 
 from skillc_runtime.world.state.values import Value
 
 
-@dataclass(frozen=True, slots=True)
-class AddIndividual:
+class AddIndividual(msgspec.Struct, frozen=True):
     """The individual exists and is of these classes, in addition to those it has already."""
 
     individual: str
     types: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class RemoveIndividual:
+class RemoveIndividual(msgspec.Struct, frozen=True):
     """The individual does not exist, and no facts about it."""
 
     individual: str
 
 
-@dataclass(frozen=True, slots=True)
-class AddRelation:
+class AddRelation(msgspec.Struct, frozen=True):
     """The relation holds; a functional one loses its former value, an inverse functional one its former holder."""
 
     subject: str
@@ -32,8 +30,7 @@ class AddRelation:
     object: str
 
 
-@dataclass(frozen=True, slots=True)
-class RemoveRelation:
+class RemoveRelation(msgspec.Struct, frozen=True):
     """The relation does not hold: all assertions that imply it are retracted, also of sub-relations and inverses."""
 
     subject: str
@@ -41,8 +38,7 @@ class RemoveRelation:
     object: str
 
 
-@dataclass(frozen=True, slots=True)
-class SetProperty:
+class SetProperty(msgspec.Struct, frozen=True):
     """The property has this value only; a tuple states several values of a property that is not functional."""
 
     individual: str
@@ -50,8 +46,7 @@ class SetProperty:
     value: Value
 
 
-@dataclass(frozen=True, slots=True)
-class ClearProperty:
+class ClearProperty(msgspec.Struct, frozen=True):
     """The property has no value."""
 
     individual: str

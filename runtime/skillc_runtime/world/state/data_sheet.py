@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
+
+import msgspec
 
 from skillc_ontology.catalogue import model_path
 from skillc_runtime.motion.arrays import np
@@ -23,8 +24,7 @@ class SheetError(ValueError):
     """A fact about a device is missing or cannot be read; the message names both."""
 
 
-@dataclass(frozen=True, slots=True)
-class DataSheet:
+class DataSheet(msgspec.Struct, frozen=True):
     """A data sheet in one version of the world; properties are called by their `skillc` names without prefix."""
 
     state: WorldState

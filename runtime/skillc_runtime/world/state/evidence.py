@@ -7,9 +7,12 @@ that made it true or false by an axiom: to put an object into a gripper also tak
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias, assert_never
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_runtime.world.state.changes import (
     AddIndividual,
@@ -36,8 +39,7 @@ MAX_WRITES = 500
 """The number of writes that are kept separately; older ones are merged, and the weakest evidence counts."""
 
 
-@dataclass(frozen=True, slots=True)
-class DecidingWrite:
+class DecidingWrite(msgspec.Struct, frozen=True):
     """The write that decides the evidence for a fact: its number, from 1, its evidence and its origin.
 
     `evidence` is None for a write that this run did not make: a person's, or another program's.
@@ -55,8 +57,7 @@ def describe_evidence(known: DecidingWrite | None) -> str:
     return f"{known.evidence} by {known.origin}" if known.origin else known.evidence
 
 
-@dataclass(frozen=True, slots=True)
-class UndoableWrite:
+class UndoableWrite(msgspec.Struct, frozen=True):
     """A write as it is stored: its evidence, its origin, its changes, and those that lead back."""
 
     evidence: Evidence | None

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+import msgspec
 
-@dataclass(frozen=True, slots=True)
-class RelationFact:
+
+class RelationFact(msgspec.Struct, frozen=True):
     """A relation that holds between two individuals, or does not."""
 
     subject: str
@@ -16,16 +16,14 @@ class RelationFact:
     holds: bool = True
 
 
-@dataclass(frozen=True, slots=True)
-class PropertyFact:
+class PropertyFact(msgspec.Struct, frozen=True):
     """The value of a property of an individual, whatever it is."""
 
     individual: str
     property: str
 
 
-@dataclass(frozen=True, slots=True)
-class ClassFact:
+class ClassFact(msgspec.Struct, frozen=True):
     """An individual that is of a class, or is not."""
 
     individual: str

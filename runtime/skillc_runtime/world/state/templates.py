@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
@@ -11,8 +13,7 @@ from skillc_runtime.world.state.names import NoSuchName, expand_name
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class Templates:
+class Templates(msgspec.Struct, frozen=True):
     """The templates by IRI, each with the changes that create an individual of its own IRI."""
 
     vocabulary: Vocabulary

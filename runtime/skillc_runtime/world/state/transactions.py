@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Protocol, TypeAlias
+
+import msgspec
 
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class ChangeEvent:
+class ChangeEvent(msgspec.Struct, frozen=True):
     """A committed write: the changes, their origin and evidence, and the versions before and after.
 
     `evidence` is None for writes of others and for undone writes.
@@ -32,8 +32,7 @@ class StoreError(RuntimeError):
     """A store that cannot be used; the message names the store, the problem and what to do."""
 
 
-@dataclass(frozen=True, slots=True)
-class Transaction:
+class Transaction(msgspec.Struct, frozen=True):
     """A write in the store; `sequence` counts writes from 1, without gaps."""
 
     sequence: int

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Set
-from dataclasses import dataclass
 from math import isqrt
 from typing import Generic, TypeVar
+
+import msgspec
 
 K = TypeVar("K")
 V = TypeVar("V")
@@ -95,8 +96,7 @@ def _no_entries() -> VersionedMap[str, frozenset[str]]:
     return VersionedMap(EMPTY)
 
 
-@dataclass(frozen=True, slots=True)
-class PairIndex:
+class PairIndex(msgspec.Struct, frozen=True):
     """The pairs (subject, object) of one relation, indexed both ways; immutable."""
 
     forward: VersionedMap[str, frozenset[str]]
