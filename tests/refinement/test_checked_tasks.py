@@ -11,7 +11,7 @@ import skillc_skills
 from refinement.scenes import DESK, tilt_desk
 from refinement.test_measured_values import PROBING
 from skillc.cli.main import skillc
-from skillc.services import cache_entries, check_cache
+from skillc.services import cache_entries, check_cache, known_checks
 from skillc.services.space_checks import cure, look, verdicts
 
 CLEAN = """
@@ -180,10 +180,28 @@ def test_after_an_edit_of_a_body_only_those_are_looked_at_that_it_concerns(tmp_p
 
     assert told(VISIT) == []
     assert told(VISIT.replace("wait 1 s", "wait 2 s")) == []
+    assert told(f"{VISIT}\nskill Look {{ noplan }}\nimpl around of Look {{ do wait 1 s }}\n") == []
     assert len(looks) == 1
     (message,) = told(VISIT.replace("above.pose)\n    }", "on.pose)\n    }"))
     assert message.startswith("Visit does not go in space: MoveTo: where it shall go")
     assert len(looks) == 2
+
+
+@pytest.mark.slow
+def test_an_edit_beside_a_task_has_only_its_file_checked_again(tmp_path, own, monkeypatch):
+    beside = "\nskill Look { noplan }\nimpl around of Look { do wait 1 s }\n"
+    folder, wholes = write(tmp_path / "visit", VISITING + beside, tilt_desk(0.45, -20.0, 0.75)), []
+    (folder / "visit.skill").write_text(VISIT.replace("above.pose)\n    }", "on.pose)\n    }"))
+    check_whole = known_checks._check_whole
+    monkeypatch.setattr(known_checks, "_check_whole", lambda *given: wholes.append(1) or check_whole(*given))
+    first = check(folder)
+    assert "infeasible-step" in {each["name"] for each in first[0]}
+    (folder / "tasks.skill").write_text(VISITING + beside.replace("1 s", "2 s"))
+    assert check(folder) == first == check(folder, "--no-cache")
+    assert len(wholes) == 1
+    (folder / "tasks.skill").write_text(VISITING.replace("Eraser-1-approach", "Panda-1") + beside)
+    assert check(folder) != first
+    assert len(wholes) == 2
 
 
 @pytest.mark.slow

@@ -55,10 +55,13 @@ def check_edits(library: LibraryFiles, before: Snapshot, parse: Parser) -> Snaps
         return None
     own = {source.path: source for source in library.sources}
     needed = dependencies.needed(checked)
-    if any(outlines[path].has_tasks or path not in own or "allow" in own[path].text for path in checked):
+    if any(path not in own or "allow" in own[path].text for path in checked):
         return None
     shown = {library.display_path(path) for path in checked}
-    kept = [each for each in before.diagnostics if each.span.path not in shown or each.name in _names_kept()]
+    of_scenes, names = before.diagnostics_of_scenes, _names_kept()
+    kept = [
+        each for each in before.diagnostics if each.span.path not in shown or each.name in names or each in of_scenes
+    ]
     moved = {(library.display_path(path), line) for path, line in changed_places(before.outlines, now)}
     if any(not moved.isdisjoint(_lines_of(each)) for each in kept):
         return None
@@ -113,7 +116,7 @@ def _check_slice(library: LibraryFiles, files: Slice, before: Snapshot, parse: P
     """
     vocabulary = load_vocabulary_once(library.vocabularies)
     read = read_sources(files.sources, library.importable, library.name, parse, library.namespaces)
-    program = resolve_program(read.value, vocabulary, library.name, {})
+    program = resolve_program(read.value, vocabulary, library.name, before.individuals_by_task)
     if not files.needed <= {unit.file.path for unit in read.value}:
         return None
     if not files.checked.isdisjoint(files_with_texts(program.value)):

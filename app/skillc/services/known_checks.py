@@ -54,8 +54,8 @@ def _check_whole(
     memo.checks.files = files
     look = TaskLooks(use_cache=True)
     known = Known(parse_cache.parse_cached, judge_cell_once, memo, look.judge)
-    found, program, library = check_whole(entry.library, entry.scene, known)
-    if program is None or library is None:
-        return found, None, look.in_time
-    now = take_snapshot(program, library, files.outlines, files_with_texts(program), look.looked, found)
-    return found, now, look.in_time
+    checked = check_whole(entry.library, entry.scene, known)
+    if checked.program is None:
+        return checked.diagnostics, None, look.in_time
+    now = take_snapshot(checked, files.outlines, files_with_texts(checked.program), look.looked)
+    return checked.diagnostics, now, look.in_time

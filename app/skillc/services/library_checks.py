@@ -42,11 +42,16 @@ NOTHING = Known()
 
 
 class Checked(NamedTuple):
-    """The diagnostics of a library, its program, and what it is compiled to; both are None if it has errors."""
+    """The diagnostics of a library, its program, and what it is compiled to; both are None if it has errors.
+
+    `of_scenes` are those of the diagnostics that compiling does not find, `scenes` what was read for tasks.
+    """
 
     diagnostics: tuple[Diagnostic, ...]
     program: Program | None = None
     library: SkillLibrary | None = None
+    of_scenes: tuple[Diagnostic, ...] = ()
+    scenes: TaskScenes | None = None
 
 
 def check_library(library: LibraryFiles, scene: Path | None, known: Known = NOTHING) -> tuple[Diagnostic, ...]:
@@ -61,8 +66,11 @@ def check_whole(library: LibraryFiles, scene: Path | None, known: Known = NOTHIN
     assert found.program is not None, "a compiled library has a program"
     sources = [each._replace(path=library.display_path(each.path)) for each in library.sources]
     around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources, known)
-    problems = sort_diagnostics((*outcome.diagnostics, *around, *_named_goals(library, outcome, known.look)))
-    return Checked(problems, found.program, outcome.value) if outcome.ok else Checked(problems)
+    of_scenes = (*around, *_named_goals(library, outcome, known.look))
+    problems = sort_diagnostics((*outcome.diagnostics, *of_scenes))
+    if not outcome.ok:
+        return Checked(problems)
+    return Checked(problems, found.program, outcome.value, of_scenes, found.scenes)
 
 
 def _named_goals(

@@ -5,17 +5,20 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from skillc_compiler.program.outlines import FileOutline
-from skillc_compiler.program.typed import Program
 from skillc_dsl import cache
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.rendering import json
 from skillc_dsl.source import Source
 from skillc_model.planning_view import encode_view
 from skillc_model.skills import SkillLibrary
+
+if TYPE_CHECKING:
+    from skillc.services.library_checks import Checked
 
 _MOST = 500
 """The most entries in the cache; beyond it the older half is deleted."""
@@ -26,7 +29,8 @@ class Snapshot(msgspec.Struct, frozen=True):
 
     `views` are the digests of what the whole library reads of each skill. `texts` are the files with text values that
     may name something in a scene, `looked` the skills whose bodies were looked at in space; `found` is as
-    `skillc check` writes it.
+    `skillc check` writes it, and so is `of_scenes`, what of it compiling does not find. `individuals` are those of
+    scenes by file, with their classes, and `scenes` the files of tasks.
     """
 
     digests: dict[str, str]
@@ -35,11 +39,24 @@ class Snapshot(msgspec.Struct, frozen=True):
     texts: frozenset[str]
     looked: frozenset[str]
     found: str
+    of_scenes: str
+    individuals: dict[str, dict[str, list[str]]]
+    scenes: dict[str, str]
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
         """Everything that was found."""
         return json.read(self.found)
+
+    @property
+    def diagnostics_of_scenes(self) -> frozenset[Diagnostic]:
+        """Those that are no problems of the texts of skills: what compiling does not find."""
+        return frozenset(json.read(self.of_scenes))
+
+    @property
+    def individuals_by_task(self) -> dict[str, dict[str, list[str]]]:
+        """The individuals in the scene of each task, with their classes."""
+        return {task: self.individuals[file] for task, file in self.scenes.items()}
 
     def edited(self, sources: Iterable[Source]) -> dict[str, Source]:
         """Return those of the library's files that have another text now."""
@@ -47,17 +64,23 @@ class Snapshot(msgspec.Struct, frozen=True):
 
 
 def take_snapshot(
-    program: Program,
-    library: SkillLibrary,
-    outlines: Mapping[str, FileOutline],
-    texts: Iterable[str],
-    looked: Iterable[str],
-    found: Iterable[Diagnostic],
+    checked: Checked, outlines: Mapping[str, FileOutline], texts: Iterable[str], looked: Iterable[str]
 ) -> Snapshot:
-    """Return the snapshot of a program without errors, given what it is compiled to and the outlines of its files."""
-    digests = {unit.file.path: digest_of(Source(unit.file.path, unit.text)) for unit in program.files}
-    views = digest_views(library, library.skills)
-    return Snapshot(digests, dict(outlines), views, frozenset(texts), frozenset(looked), json.render(found, {}))
+    """Return the snapshot of a library that was checked and compiles, given the outlines of its files."""
+    program, library, scenes = checked.program, checked.library, checked.scenes
+    assert program is not None and library is not None, "the library compiles"
+    files = {} if scenes is None else {task: str(scenes.files[task]) for task in scenes.individuals}
+    return Snapshot(
+        digests={unit.file.path: digest_of(Source(unit.file.path, unit.text)) for unit in program.files},
+        outlines=dict(outlines),
+        views=digest_views(library, library.skills),
+        texts=frozenset(texts),
+        looked=frozenset(looked),
+        found=json.render(checked.diagnostics, {}),
+        of_scenes=json.render(checked.of_scenes, {}),
+        individuals={} if scenes is None else {files[task]: each for task, each in scenes.individuals.items()},
+        scenes=files,
+    )
 
 
 def update_snapshot(

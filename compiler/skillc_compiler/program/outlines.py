@@ -52,7 +52,6 @@ class FileOutline(msgspec.Struct, frozen=True):
     declared: tuple[DeclarationOutline, ...]
     imports: tuple[str, ...]
     adds_terms: bool
-    has_tasks: bool
 
     @property
     def shown(self) -> tuple[object, ...]:
@@ -83,7 +82,6 @@ def outline_of(unit: ParsedFile) -> FileOutline:
         imports=tuple(path for _, path in unit.imports),
         adds_terms=any(isinstance(line, s.Prefix) for line in file.header)
         or any(isinstance(each, terms) for each in file.declarations),
-        has_tasks=any(isinstance(each, s.TaskDeclaration) for each in file.declarations),
     )
 
 

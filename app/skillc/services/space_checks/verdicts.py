@@ -1,7 +1,8 @@
 """Caches what looking at tasks in space finds, because it imports the simulator, plans and searches postures.
 
-The key of an entry is the digest of the scene, of the goal or body, of what planners read of all skills, and of the
-user's models and Python. An entry holds the digest of the bodies of the skills that were looked into.
+The key of an entry is the digest of the scene, of the goal or body, of what planners read of the skills that they may
+use or that change something, and of the user's models and Python. An entry holds the digest of the skills that were
+looked into, with their bodies.
 """
 
 from __future__ import annotations
@@ -94,11 +95,13 @@ def _store(path: Path | None, entry: _Entry) -> None:
 
 
 def _inputs(library: SkillLibrary, scene: Scene, task: Task) -> Iterator[str | bytes]:
-    """Yield everything that a look depends on but the bodies of skills."""
+    """Yield everything that a look depends on but the bodies of skills, and skills that only calls lead to."""
     yield from describe_scene(scene)
     yield encode_meaning((task.goal, task.body))
-    for name in sorted(library.skills):
-        yield encode_view(library.skills[name], library.implementations_of(name))
+    for name, skill in sorted(library.skills.items()):
+        implementations = library.implementations_of(name)
+        if skill.planned or skill.post or any(each.post for each in implementations):
+            yield encode_view(skill, implementations)
     yield from digest_modules(find_modules(library))
 
 
