@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from functools import cache
+from hashlib import sha256
 from importlib.metadata import EntryPoint, EntryPoints, entry_points
+from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
+import msgspec
+
 from skillc.errors import RequestError, ServiceError
+from skillc_dsl.cache import cache_folder, delete_oldest, load, store
 from skillc_runtime.execution.pace import FAST, REAL
 
 if TYPE_CHECKING:
@@ -24,6 +30,9 @@ DEFAULT_BACKEND = "mujoco"
 """The back end of runs, of trials, and of the twins of cells that cannot be built again."""
 
 
+_MOST = 50
+"""The most entries in the cache; beyond it the older half is deleted."""
+
 SIMULATED = ("mujoco", "kinematic")
 """The back ends that are known to begin with all arms at home, unless the cell was saved."""
 
@@ -35,8 +44,30 @@ def find_installed() -> EntryPoints:
 
 @cache
 def _find_on(path: tuple[str, ...]) -> EntryPoints:
-    """Look for the packages that have back ends on a path of modules, which reads a file of each package there."""
-    return entry_points(group=GROUP)
+    """Look for the packages that have back ends on a path of modules, which reads a file of each package there.
+
+    What was found is kept in the cache folder until something is installed or removed.
+    """
+    entry = _cache_entry(path)
+    known = None if entry is None else load(entry)
+    if known is not None:
+        listed = msgspec.json.decode(known, type=list[tuple[str, str]])
+        return EntryPoints(EntryPoint(name, value, GROUP) for name, value in listed)
+    found = entry_points(group=GROUP)
+    if entry is not None and len(found.names) == len(found):  # of two with one name, the packages are told
+        store(entry, msgspec.json.encode([(each.name, each.value) for each in found]))
+        delete_oldest(entry.parent, _MOST, _MOST // 2)
+    return found
+
+
+def _cache_entry(path: tuple[str, ...]) -> Path | None:
+    """Return where is kept what is found on a path of modules, whose folders change when packages are installed."""
+    folder = cache_folder()
+    if folder is None:
+        return None
+    seen = [(each, os.stat(each or os.curdir)) for each in path if os.path.exists(each or os.curdir)]  # noqa: PTH110, PTH116
+    states = [(each, state.st_ino, state.st_mtime_ns) for each, state in seen]
+    return folder / "backends" / sha256(repr((GROUP, states)).encode()).hexdigest()
 
 
 def list_backends() -> tuple[str, ...]:
