@@ -156,7 +156,8 @@ TO_BIN = [PICK_A, place("Part-A", "Bin-A")]
             "40 x 40 mm do not fit into lab:Bin-A, which is 112 x 112 mm: with room for the hand they need",
         ),
         (
-            [("PositionX 0.5 ; skiros:PositionY -0.2 ; skiros:PositionZ 0.635",
+            [(BIN_A, BIN_A.replace("0.16", "0.13")),
+             ("PositionX 0.5 ; skiros:PositionY -0.2 ; skiros:PositionZ 0.635",
               "PositionX 0.45 ; skiros:PositionY 0.15 ; skiros:PositionZ 0.639")],
             TO_BIN,
             "lab:Bin-A is full: no place of 40 x 40 mm is free",

@@ -136,8 +136,9 @@ def test_a_free_place_on_a_shelf_is_on_its_top_then_on_a_board_with_room_above_i
 @pytest.mark.parametrize(
     ("x_m", "message"),
     [
-        (0.12, "less than 0.25 m from the base of lab:Panda-1, or more than 0.81 m, 95 % of its reach"),
+        (0.12, "less than 0.25 m from the base of lab:Panda-1, or more than 0.85 m, its reach"),
         (0.75, None),
+        (0.83, None),  # farther than things are put down where there is a choice
         (1.5, "no free place on lab:Rack is within the 0.85 m that lab:Panda-1 reaches: the nearest is 1.49 m from"),
     ],
 )
@@ -149,3 +150,20 @@ def test_what_is_too_near_or_too_far_is_said_with_the_distances(x_m: float, mess
     with pytest.raises(PlaceError, match=message) as raised:
         place_height(state)
     assert raised.value.lack == "reach"
+
+
+@pytest.mark.parametrize(("half_m", "fits"), [(0.06, True), (0.04, True), (0.035, False)])
+def test_between_things_fingers_open_only_as_far_as_there_is_room(half_m: float, fits: bool) -> None:
+    """With the room that fingers get elsewhere, 0.04 m are too little."""
+    posts = list[Change]()
+    for number, (x, y) in enumerate(((1, 0), (-1, 0), (0, 1), (0, -1))):
+        place = at(0.55 + x * (half_m + 0.01), y * (half_m + 0.01), 0.7)
+        sides = (0.02 if x else 2 * half_m, 0.02 if y else 2 * half_m, 0.1)
+        posts += thing(f"Post-{number}", place, size=sides, cls=FURNITURE)
+    state = held(*thing("Rack", at(0.55, 0, 0.6), size=(2 * half_m, 2 * half_m, 0.6), cls=FURNITURE), *posts)
+    if fits:
+        assert place_height(state) == pytest.approx(0.615)
+        return
+    with pytest.raises(PlaceError, match="is clear of lab:Post-0 and lab:Post-1") as raised:
+        place_height(state)
+    assert raised.value.lack == "clearance"

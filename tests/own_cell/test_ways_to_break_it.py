@@ -41,12 +41,13 @@ Outcome = Literal["invalid", "refused", "failed"]
 
 
 class Way(NamedTuple):
-    """What somebody writes instead of something, what is said about it, and how `run` ends."""
+    """What somebody writes instead of something, what is said about it, how `run` ends, and another such change."""
 
     before: str
     after: str
     says: str
     ends: Outcome = "refused"
+    also: tuple[str, str] | None = None
 
 
 WAYS = {
@@ -153,7 +154,9 @@ WAYS = {
     "goal that no skill reaches": Way(
         GOAL, "lab:Box-1 contain lab:Table", "lab:Table is a skillc:Furniture, and Place needs"
     ),
-    "goal of two in one small box": Way(GOAL, GOAL.replace("Box-2", "Box-1"), "lab:Box-1 is full", "failed"),
+    "goal of two in one small box": Way(
+        GOAL, GOAL.replace("Box-2", "Box-1"), "lab:Box-1 is full", "failed", (BOX, BOX.replace("0.16", "0.12"))
+    ),
 }
 
 
@@ -175,12 +178,14 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def written(folder: Path, way: Way | None) -> Path:
     """Write the library, which is named after its folder, with one thing wrong."""
     library, found = folder / "own", 0
+    edits = () if way is None else ((way.before, way.after), *((way.also,) if way.also else ()))
     for path in sorted(FOLDER.iterdir()):
         text = path.read_text("utf-8")
-        if way is not None and way.before in text:
-            text, found = text.replace(way.before, way.after, 1), found + 1
+        for before, after in edits:
+            if before in text:
+                text, found = text.replace(before, after, 1), found + 1
         (library / path.name).write_text(text, "utf-8")
-    assert way is None or found == 1
+    assert found == len(edits)
     return library
 
 

@@ -10,13 +10,16 @@ from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.held_load import Load, read_loads
-from skillc_runtime.world.space.no_place import NEAR_BASE_M, REACH_SHARE, Neighbour, PlaceError, WantedRoom
+from skillc_runtime.world.space.no_place import NEAR_BASE_M, REACH_SHARE, Lack, Neighbour, PlaceError, WantedRoom
 from skillc_runtime.world.space.occupants import Occupant, read_occupants
 from skillc_runtime.world.space.overhead import HAND_ABOVE_M, roof_problem
 from skillc_runtime.world.space.place_sampling import PITCH_M, choose_pitch_m, interleave, spread_out
 from skillc_runtime.world.space.supports import Support, face_away, find_supports, name_support, tilt_problem
 from skillc_runtime.world.state.data_sheet import sheet_of
 from skillc_runtime.world.state.world_state import WorldState
+
+OF_ROOM: tuple[Lack, ...] = ("room", "free room", "clearance")
+"""Of what there may be enough if the hand takes less room."""
 
 GAP_M = 0.01
 """How far from what is beside it a thing is put down."""
@@ -78,11 +81,11 @@ def list_free_places(state: WorldState, arm: str, gripper: str, thing: str, to: 
 def _list_with_room(
     state: WorldState, arm: str, support: Support, loads: Iterable[Load], neighbours: list[Neighbour]
 ) -> Iterator[FreePlace] | PlaceError:
-    """Return the free places on a support: with less room around the hand only if it is too small for more."""
+    """Return the free places on a support: with less room around the hand only if there is no place with more."""
     found: Iterator[FreePlace] | PlaceError | None = None
     for load in loads:
         found = _roof_problem(state, support, load) or _list_free(state, arm, support, load, neighbours)
-        if not isinstance(found, PlaceError) or found.lack != "room":
+        if not isinstance(found, PlaceError) or found.lack not in OF_ROOM:
             break
     assert found is not None, "there is a load"
     return found
@@ -111,12 +114,19 @@ def _list_free(
     sheet, base = sheet_of(state, arm), pose(state, arm)
     reach_m, shoulder = sheet.number("reach"), base.apply(np.array([0.0, 0.0, sheet.number("shoulderHeight")]))
 
-    def is_in_reach(hand: Pose) -> bool:
+    def is_in_reach(hand: Pose, share: float = REACH_SHARE) -> bool:
         far_m = float(np.linalg.norm(hand.position - shoulder))
-        return far_m < REACH_SHARE * reach_m and np.hypot(*(hand.position - base.position)[:2]) > NEAR_BASE_M
+        return far_m < share * reach_m and np.hypot(*(hand.position - base.position)[:2]) > NEAR_BASE_M
+
+    def list_from(first: Pose, share: float) -> Iterator[FreePlace]:
+        coarse = _hands(support, load, choose_pitch_m(support.half))
+        free = (support.middle @ each for each in coarse if _find_blocker(each, load, neighbours) is None)
+        others = spread_out(first, (each for each in free if is_in_reach(each, share)))
+        return (FreePlace(support, each) for each in chain((first,), others))
 
     blockers: list[Neighbour] = []
     distances_m: list[float] = []
+    farther: Pose | None = None
     for hand in _hands(support, load, PITCH_M):
         blocker = _find_blocker(hand, load, neighbours)
         if blocker is not None:
@@ -124,11 +134,12 @@ def _list_free(
             continue
         first = support.middle @ hand
         if is_in_reach(first):
-            coarse = _hands(support, load, choose_pitch_m(support.half))
-            free = (support.middle @ each for each in coarse if _find_blocker(each, load, neighbours) is None)
-            others = spread_out(first, filter(is_in_reach, free))
-            return (FreePlace(support, each) for each in chain((first,), others))
+            return list_from(first, REACH_SHARE)
+        if farther is None and is_in_reach(first, 1.0):
+            farther = first
         distances_m.append(float(np.linalg.norm(first.position - shoulder)))
+    if farther is not None:
+        return list_from(farther, 1.0)
     room = WantedRoom(state, support, np.ptp(load.corners, axis=0)[:2], _needed(support, load))
     if distances_m:
         return room.describe_distance(arm, reach_m, distances_m)

@@ -22,7 +22,7 @@ NEAR_BASE_M = 0.25
 """Nothing is put down nearer to the axis of an arm's base."""
 
 REACH_SHARE = 0.95
-"""Things are put down within this share of the reach of an arm, measured from its shoulder."""
+"""Things are put down within this share of the reach of an arm, measured from its shoulder, if there is room."""
 
 MOST_NAMED = 3
 """How many things that are in the way are named."""
@@ -90,7 +90,7 @@ class WantedRoom(msgspec.Struct, frozen=True, eq=False):
         if min(distances_m) < reach_m:
             return PlaceError(
                 f"every free place on {self._where} is less than {NEAR_BASE_M:g} m from the base of {short}, or more "
-                f"than {REACH_SHARE * reach_m:.2f} m, {100 * REACH_SHARE:.0f} % of its reach, from its shoulder",
+                f"than {reach_m:.2f} m, its reach, from its shoulder",
                 "reach",
             )
         return PlaceError(
