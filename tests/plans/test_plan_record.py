@@ -19,7 +19,7 @@ from skillc_runtime.execution.plans.plan_record import (
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries, arrange_plan
 from skillc_runtime.planning.plan import LeftOut, Solved, describe_quality
 from skillc_runtime.recording.events import ArrivedPlan, StepGroup
-from skillc_runtime.recording.space_claim import ChosenWay, SpaceClaim
+from skillc_runtime.recording.space_claim import ChosenImplementation, SpaceClaim
 
 STATE = world({"ann": "a", "bob": "b"}, {"crate": "a", "box": "b"})
 TEXT = "lab:c contain lab:crate and lab:d contain lab:box"
@@ -47,8 +47,8 @@ def test_the_same_body_is_built_of_a_plan_that_was_recorded() -> None:
 def test_a_step_is_tried_first_in_the_way_that_was_looked_at() -> None:
     _, solved = planned()
     number = next(number for number, each in enumerate(solved.plan.steps, 1) if each.skill == "Unload")
-    way = ChosenWay(number, "Unload", "tilt")
-    space = SpaceClaim(checked=len(solved.plan.steps), steps=len(solved.plan.steps), ways=(way,))
+    way = ChosenImplementation(number, "Unload", "tilt")
+    space = SpaceClaim(checked=len(solved.plan.steps), steps=len(solved.plan.steps), implementations=(way,))
     body = build_plan_body(solved.plan, InSeries(tuple(range(len(solved.plan.steps)))), library(), space)
     assert isinstance(body, tree.Sequence) and way.text in space.text
     tried = [each.then for each in body.children if isinstance(each, tree.If)]

@@ -64,7 +64,7 @@ def test_a_part_for_a_narrow_slot_is_taken_by_its_top(tmp_path: Path) -> None:
     with load_task(RunSpec(task=name), SilentReporter()) as task:
         prepared = prepare_task(task.assignment, task.library, look=SpaceLook())
     assert isinstance(prepared, PreparedTask) and prepared.space is not None
-    assert [(each.step, each.implementation) for each in prepared.space.ways] == [(1, "by_top")]
+    assert [(each.step, each.implementation) for each in prepared.space.implementations] == [(1, "by_top")]
 
 
 @pytest.mark.sim

@@ -38,6 +38,7 @@ def test_shipped_plans_are_checked_whole(task):
         "unseen": [],
         "apart": [],
         "stands": [],
+        "ways": [],
         "failure": None,
         "stopped": "",
         "from_home": True,

@@ -26,7 +26,7 @@ class ChosenPosture(msgspec.Struct, frozen=True):
 
 
 class StepsApart(msgspec.Struct, frozen=True):
-    """Two steps of a plan, from 1, that do not run at the same time: these arms of theirs would come into one place."""
+    """Two steps of a plan, from 1, that do not run at the same time: these arms or bases would come into one place."""
 
     one: int
     other: int
@@ -79,7 +79,7 @@ class PlaceAt(msgspec.Struct, frozen=True):
         return f"step {self.step}: {self.thing} is put down at ({x_m:.2f}, {y_m:.2f}) m from the middle of {on}"
 
 
-class ChosenWay(msgspec.Struct, frozen=True):
+class ChosenImplementation(msgspec.Struct, frozen=True):
     """With which implementation a step of a plan, from 1, is tried first: after others a later step does not go."""
 
     step: int
@@ -94,15 +94,35 @@ class ChosenWay(msgspec.Struct, frozen=True):
         )
 
 
+class WayAround(msgspec.Struct, frozen=True):
+    """The way of a base to a place in a step of a plan, from 1, that is not straight, since something is in that way.
+
+    corners_m: (x, y) in the world. A run looks for its way again, in the same way.
+    """
+
+    step: int
+    robot: LabelledIri
+    place: LabelledIri
+    corners_m: tuple[tuple[float, float], ...]
+    around: tuple[LabelledIri, ...]
+
+    @property
+    def text(self) -> str:
+        """It as a sentence."""
+        by = " and ".join(f"({x_m:.2f}, {y_m:.2f}) m" for x_m, y_m in self.corners_m)
+        around = " and ".join(str(each) for each in self.around)
+        return f"step {self.step}: {self.robot} drives to {self.place} by {by}, around {around}"
+
+
 class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
     """How many steps of a plan go in space, of how many, and why the next does not; None if it does or is not known.
 
     unseen: the calls in these steps that were not looked at. postures: those in which arms bring their tools to poses,
     in the order of the steps, which a run takes as well. apart: the steps that do not run at the same time, since arms
     would meet. stands: where bases stand beside where a place wants them. places: where things are put down, which a
-    run does as well. ways: the steps that are done in another way than the first one that goes. stopped: why the look
-    ended before it was through; empty if it was. from_home: whether the arms begin at home; else where they were when
-    the plan was made.
+    run does as well. implementations: the steps that are done with another one than the first that goes. ways: those of
+    bases that are not straight. stopped: why the look ended before it was through; empty if it was. from_home: whether
+    the arms begin at home; else where they were when the plan was made.
     """
 
     checked: int
@@ -112,7 +132,8 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
     apart: tuple[StepsApart, ...] = ()
     stands: tuple[StandAt, ...] = ()
     places: tuple[PlaceAt, ...] = ()
-    ways: tuple[ChosenWay, ...] = ()
+    implementations: tuple[ChosenImplementation, ...] = ()
+    ways: tuple[WayAround, ...] = ()
     failure: str | None = None
     stopped: str = ""
     from_home: bool = True
@@ -132,7 +153,7 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
     @property
     def way_names(self) -> dict[int, str]:
         """The implementations with which steps are tried first, by the index of the step."""
-        return {each.step - 1: each.implementation for each in self.ways}
+        return {each.step - 1: each.implementation for each in self.implementations}
 
     @property
     def summary(self) -> str:
@@ -150,9 +171,10 @@ class SpaceClaim(msgspec.Struct, frozen=True, kw_only=True):
         begin = "at home" if self.from_home else "where they are"
         lines = [f"{self.summary}: reach, joints, torques, paths, room; the arms begin {begin}"]
         lines += (f"step {each.step}: nobody says what {each.what} needs of space" for each in self.unseen)
+        lines += (each.text for each in self.ways)
         lines += (each.text for each in self.stands)
         lines += (each.text for each in self.places)
-        lines += (each.text for each in self.ways)
+        lines += (each.text for each in self.implementations)
         lines += (
             f"steps {each.one} and {each.other} do not run at the same time: {' and '.join(each.arms)} would meet"
             for each in self.apart

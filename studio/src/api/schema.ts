@@ -1573,9 +1573,9 @@ export interface components {
          *         unseen: the calls in these steps that were not looked at. postures: those in which arms bring their tools to poses,
          *         in the order of the steps, which a run takes as well. apart: the steps that do not run at the same time, since arms
          *         would meet. stands: where bases stand beside where a place wants them. places: where things are put down, which a
-         *         run does as well. ways: the steps that are done in another way than the first one that goes. stopped: why the look
-         *         ended before it was through; empty if it was. from_home: whether the arms begin at home; else where they were when
-         *         the plan was made.
+         *         run does as well. implementations: the steps that are done with another one than the first that goes. ways: those of
+         *         bases that are not straight. stopped: why the look ended before it was through; empty if it was. from_home: whether
+         *         the arms begin at home; else where they were when the plan was made.
          */
         SpaceClaim: {
             checked: number;
@@ -1591,7 +1591,9 @@ export interface components {
             /** @default [] */
             places?: components["schemas"]["PlaceAt"][];
             /** @default [] */
-            ways?: components["schemas"]["ChosenWay"][];
+            implementations?: components["schemas"]["ChosenImplementation"][];
+            /** @default [] */
+            ways?: components["schemas"]["WayAround"][];
             /** @default null */
             failure?: string | null;
             /** @default  */
@@ -1619,7 +1621,7 @@ export interface components {
         };
         /**
          * StepsApart
-         * @description Two steps of a plan, from 1, that do not run at the same time: these arms of theirs would come into one place.
+         * @description Two steps of a plan, from 1, that do not run at the same time: these arms or bases would come into one place.
          */
         StepsApart: {
             one: number;
@@ -1662,13 +1664,29 @@ export interface components {
             stated?: boolean;
         };
         /**
-         * ChosenWay
+         * ChosenImplementation
          * @description With which implementation a step of a plan, from 1, is tried first: after others a later step does not go.
          */
-        ChosenWay: {
+        ChosenImplementation: {
             step: number;
             skill: string;
             implementation: string;
+        };
+        /**
+         * WayAround
+         * @description The way of a base to a place in a step of a plan, from 1, that is not straight, since something is in that way.
+         *
+         *         corners_m: (x, y) in the world. A run looks for its way again, in the same way.
+         */
+        WayAround: {
+            step: number;
+            robot: components["schemas"]["LabelledIri"];
+            place: components["schemas"]["LabelledIri"];
+            corners_m: [
+                number,
+                number
+            ][];
+            around: components["schemas"]["LabelledIri"][];
         };
         /**
          * PlanMade

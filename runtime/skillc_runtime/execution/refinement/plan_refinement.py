@@ -11,8 +11,10 @@ from skillc_runtime.execution.refinement.meetings import find_steps_apart
 from skillc_runtime.execution.refinement.scope import call_of
 from skillc_runtime.execution.refinement.siblings import find_hand
 from skillc_runtime.execution.refinement.situation import (
+    BaseDrive,
     ChosenPlace,
     ChosenStand,
+    ChosenWay,
     RefinedMotion,
     Situation,
     begin_at_home,
@@ -34,8 +36,9 @@ RETRIES, WITH_BASES = 4, 40
 class RefinedStep:
     """A step that goes, with the motions of the arms in it, and where bases and things are let stand.
 
-    `stands` are those beside where places want bases. `unseen` are calls in it that nobody could look at.
-    `way` is the implementation with which later steps go, if they do not go with one before it; else None.
+    `stands` are those beside where places want bases, `ways` those that are not straight. `implementation` is that with
+    which later steps go, if they do not go with one before it; else None. `unseen` are calls in it that nobody could
+    look at.
     """
 
     step: Step
@@ -43,7 +46,9 @@ class RefinedStep:
     unseen: tuple[str, ...]
     stands: tuple[ChosenStand, ...] = ()
     places: tuple[ChosenPlace, ...] = ()
-    way: str | None = None
+    implementation: str | None = None
+    ways: tuple[ChosenWay, ...] = ()
+    drives: tuple[BaseDrive, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,7 +89,8 @@ class _Refiner:
         found = next(self._go(steps, here, ()), None)
         if found is None:
             return self._furthest
-        apart = find_steps_apart(self._library, here.state, steps, [each.motions for each in found])
+        moving = [(each.motions, each.drives) for each in found]
+        apart = find_steps_apart(self._library, here.state, steps, moving)
         return PlanRefinement(found, apart=apart)
 
     def _go(
@@ -95,13 +101,11 @@ class _Refiner:
             yield done
             return
         step, walk, went = left[0], Walk(self._library), 0
-        for way in self._library.skills[step.skill].implementations:
+        for name in self._library.skills[step.skill].implementations:
             before = went
-            for after in walk.go(call_of(step, self._library, way), here, Scope({})):
+            for after in walk.go(call_of(step, self._library, name), here, Scope({})):
                 went += 1
-                motions, stands = after.motions[len(here.motions) :], after.stands[len(here.stands) :]
-                places, chosen = after.places[len(here.places) :], way if before else None
-                refined = RefinedStep(step, motions, tuple(walk.unseen), stands, places, chosen)
+                refined = _refine_step(step, here, after, tuple(walk.unseen), name if before else None)
                 self._lacks_place = None
                 yield from self._go(left[1:], self._with_effects(step, after), (*done, refined))
                 if self._left <= 0:
@@ -120,6 +124,22 @@ class _Refiner:
         except (EvaluationError, WorldError):
             return after
         return replace(after, state=state, forces={}, spreads={})
+
+
+def _refine_step(
+    step: Step, before: Situation, after: Situation, unseen: tuple[str, ...], implementation: str | None
+) -> RefinedStep:
+    """Return a step with what has come in it between two situations."""
+    return RefinedStep(
+        step,
+        after.motions[len(before.motions) :],
+        unseen,
+        after.stands[len(before.stands) :],
+        after.places[len(before.places) :],
+        implementation,
+        after.ways[len(before.ways) :],
+        after.drives[len(before.drives) :],
+    )
 
 
 def _lacks_place(why: SpaceFailure | None, here: Situation) -> bool:

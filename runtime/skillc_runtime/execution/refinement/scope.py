@@ -20,7 +20,7 @@ from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import moves_with, pose
 from skillc_runtime.world.state.changes import Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.model import WorldError
-from skillc_runtime.world.state.terms import BASE_FRAME_ID, CONTAIN, MANIPULATABLE, ON
+from skillc_runtime.world.state.terms import AT, BASE_FRAME_ID, CONTAIN, MANIPULATABLE, MOBILE_ROBOT, ON
 from skillc_runtime.world.state.world_state import WorldState
 
 NOWHERE = "nowhere"
@@ -71,8 +71,9 @@ def _find_blocking(library: SkillLibrary, before: Situation, step: Step) -> tupl
     """Return where the things are that keep a step from going; none if it does not go without them either."""
     state = before.state
     named = set(step.arguments.values())
-    things = [each for each in sorted(state.instances(MANIPULATABLE) - named) if not _bears(state, each, named)]
-    placed = {each: holder for each in things for holder in state.subjects(CONTAIN, each)}
+    moving = state.instances(MANIPULATABLE) | state.instances(MOBILE_ROBOT)
+    things = [each for each in sorted(moving - named) if not _bears(state, each, named)]
+    placed = {each: at for each in things for at in (*state.subjects(CONTAIN, each), *state.objects(each, AT))}
     if not placed or len(placed) > MOST_THINGS or not _goes(library, before, step, placed):
         return ()
     blocking = find_blocking(
@@ -83,7 +84,12 @@ def _find_blocking(library: SkillLibrary, before: Situation, step: Step) -> tupl
 
 
 def _where(state: WorldState, thing: str, holder: str, rests: bool) -> Holds:
-    """Return where a thing is: on what it rests, if planners foresee that with the library, else what contains it."""
+    """Return where a thing is: on what it rests, if planners foresee that with the library, else what contains it.
+
+    Of a robot it is where that is at.
+    """
+    if state.is_a(thing, MOBILE_ROBOT):
+        return Holds(Individual(thing), AT, Individual(holder))
     support = min(state.objects(thing, RESTS_ON), default=None) if rests else None
     if support is not None:
         return Holds(Individual(thing), RESTS_ON, Individual(support))

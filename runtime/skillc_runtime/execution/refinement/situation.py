@@ -73,12 +73,35 @@ class ChosenPlace:
     stated: bool
 
 
+@dataclass(frozen=True, slots=True)
+class ChosenWay:
+    """A way of a base to a place that is not straight: its corners (x, y) in m in the world, around what it goes."""
+
+    robot: LabelledIri
+    place: LabelledIri
+    corners: tuple[tuple[float, float], ...]
+    around: tuple[LabelledIri, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class BaseDrive:
+    """A drive of a base, by IRI: straight through points (x, y) in m in the world, first where it starts.
+
+    radius_m: of the circle around its middle in which it is while it turns.
+    """
+
+    robot: str
+    points: tuple[tuple[float, float], ...]
+    radius_m: float
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Situation:
     """The world as it is believed to be then, and the devices in it.
 
     postures: of arms, (nv,) in rad; openings: of grippers, in m; forces: of tools that press, (3,) in N in the world;
-    spreads: offsets (n, 3) in m in the world of tools with a motion that is added; motions, stands, places: all so far.
+    spreads: offsets (n, 3) in m in the world of tools with a motion that is added; motions, stands, places, ways,
+    drives: all so far.
     """
 
     state: WorldState
@@ -89,6 +112,8 @@ class Situation:
     motions: tuple[RefinedMotion, ...] = ()
     stands: tuple[ChosenStand, ...] = ()
     places: tuple[ChosenPlace, ...] = ()
+    ways: tuple[ChosenWay, ...] = ()
+    drives: tuple[BaseDrive, ...] = ()
 
     def with_changes(self, changes: tuple[Change, ...] | list[Change]) -> Situation:
         """Return the situation after changes of the world; WorldError if they contradict it.

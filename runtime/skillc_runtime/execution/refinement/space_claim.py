@@ -7,13 +7,27 @@ from typing import TYPE_CHECKING
 
 from msgspec import structs
 
-from skillc_runtime.recording.space_claim import ChosenPosture, ChosenWay, PlaceAt, SpaceClaim, StandAt, UnseenCall
+from skillc_runtime.recording.space_claim import (
+    ChosenImplementation,
+    ChosenPosture,
+    PlaceAt,
+    SpaceClaim,
+    StandAt,
+    UnseenCall,
+    WayAround,
+)
 from skillc_runtime.world.state.labelling import label, label_pose
 
 if TYPE_CHECKING:
     from skillc_rdf.vocabulary.types import Vocabulary
     from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement
-    from skillc_runtime.execution.refinement.situation import ChosenPlace, ChosenStand, RefinedMotion, Situation
+    from skillc_runtime.execution.refinement.situation import (
+        ChosenPlace,
+        ChosenStand,
+        ChosenWay,
+        RefinedMotion,
+        Situation,
+    )
     from skillc_runtime.execution.refinement.walk import Walk
 
 
@@ -32,9 +46,12 @@ def make_claim(found: PlanRefinement, steps: int, words: Vocabulary, from_home: 
         apart=found.apart,
         stands=tuple(each for number, step in enumerate(found.steps, 1) for each in _stands_of(number, step.stands)),
         places=tuple(each for number, step in enumerate(found.steps, 1) for each in _places_of(number, step.places)),
-        ways=tuple(
-            ChosenWay(number, each.step.skill, each.way) for number, each in enumerate(found.steps, 1) if each.way
+        implementations=tuple(
+            ChosenImplementation(number, each.step.skill, each.implementation)
+            for number, each in enumerate(found.steps, 1)
+            if each.implementation
         ),
+        ways=tuple(each for number, step in enumerate(found.steps, 1) for each in _ways_of(number, step.ways)),
         failure=failure,
         from_home=from_home,
     )
@@ -50,6 +67,7 @@ def claim_of_body(found: Situation | None, walk: Walk, from_home: bool) -> Space
         postures=() if found is None else tuple(_postures_of(1, found.motions, found.state.vocabulary)),
         stands=() if found is None else tuple(_stands_of(1, found.stands)),
         places=() if found is None else tuple(_places_of(1, found.places)),
+        ways=() if found is None else tuple(_ways_of(1, found.ways)),
         failure=failure,
         from_home=from_home,
     )
@@ -73,3 +91,9 @@ def _places_of(step: int, places: Iterable[ChosenPlace]) -> Iterator[PlaceAt]:
     for each in places:
         at = structs.replace(label_pose(each.at), frame=each.support.label)
         yield PlaceAt(step, each.thing, each.place, each.support, at, each.board, each.stated)
+
+
+def _ways_of(step: int, ways: Iterable[ChosenWay]) -> Iterator[WayAround]:
+    """Yield the ways of bases that are not straight, in a step of a number."""
+    for each in ways:
+        yield WayAround(step, each.robot, each.place, each.corners, each.around)

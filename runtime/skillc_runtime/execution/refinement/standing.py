@@ -1,4 +1,4 @@
-"""Where a mobile base may stand at a workstation: where that wants it to, then nearby, the nearest first."""
+"""Where a mobile base may stand at a workstation, and its way there: where that wants it to, then nearby."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ from dataclasses import replace
 from math import hypot
 
 from skillc_runtime.collision.solid_overlaps import overlap_depths
-from skillc_runtime.execution.refinement.situation import ChosenStand, Situation
+from skillc_runtime.execution.refinement.failure import SpaceFailure
+from skillc_runtime.execution.refinement.situation import BaseDrive, ChosenStand, ChosenWay, Situation
 from skillc_runtime.primitives.space_needs import Stand
-from skillc_runtime.world.space.frames import placement_changes
+from skillc_runtime.world.space.base_ways import BaseWay, BlockedWay, describe_blocked, find_base_way
+from skillc_runtime.world.space.floor_plan import FloorPlan
+from skillc_runtime.world.space.frames import placement_changes, pose
 from skillc_runtime.world.space.occupants import near_pairs, read_occupants
 from skillc_runtime.world.space.stands import read_stand, stand_changes, standing_pose
 from skillc_runtime.world.state.changes import AddRelation
@@ -30,7 +33,40 @@ RATIOS = (0.8191725134, 0.6710436067, 0.5497004779)
 """Steps of an additive recurrence that leaves no gaps in three dimensions (M. Roberts 2018)."""
 
 
-def list_stands(need: Stand, here: Situation) -> Iterator[Situation]:
+def list_stands(need: Stand, here: Situation) -> Iterator[Situation | SpaceFailure]:
+    """Yield the situations with a base where a workstation wants it, then at places nearby where it has room.
+
+    Where it would touch something there, or has no way, is a failure. FrameError if it is not known where the base is.
+    """
+    start = pose(here.state, need.robot)
+    plan = FloorPlan(here.state, need.robot, start)
+    for there in _list_rooms(need, here):
+        way = find_base_way(plan, start, standing_pose(there.state, need.to))
+        if isinstance(way, BaseWay):
+            points = tuple((float(at.position[0]), float(at.position[1])) for at in (start, *way.poses))
+            drive = BaseDrive(need.robot, points, plan.radius_m)
+            yield replace(_with_way(need, there, way), drives=(*there.drives, drive))
+            continue
+        yield _explain(need, here.state, way)
+        if not way.at_goal:
+            return  # from anywhere near there is none either
+
+
+def _with_way(need: Stand, there: Situation, way: BaseWay) -> Situation:
+    if len(way.poses) == 1:
+        return there
+    words = there.state.vocabulary
+    corners = tuple((round(float(at.position[0]), 3), round(float(at.position[1]), 3)) for at in way.poses[:-1])
+    around = tuple(label(each, words) for each in way.around)
+    chosen = ChosenWay(label(need.robot, words), label(need.to, words), corners, around)
+    return replace(there, ways=(*there.ways, chosen))
+
+
+def _explain(need: Stand, state: WorldState, way: BlockedWay) -> SpaceFailure:
+    return SpaceFailure("in-the-way" if way.at_goal else "no-path", describe_blocked(way, state, need.robot, need.to))
+
+
+def _list_rooms(need: Stand, here: Situation) -> Iterator[Situation]:
     """Yield the situations with a base where a workstation wants it, then at places nearby where it has room."""
     stated = read_stand(here.state, need.to)
     yield here if stated is None else _place(here, need)
