@@ -17,12 +17,16 @@ class UnseenCall(msgspec.Struct, frozen=True):
 
 
 class ChosenPosture(msgspec.Struct, frozen=True):
-    """The joints `q` (nv,) in rad with which an arm brings its tool to a pose, in a step of a plan, from 1."""
+    """The joints `q` (nv,) in rad with which an arm brings its tool to a pose, in a step of a plan, from 1.
+
+    `base` is where its base stands then; both poses are in the world. None in older recordings.
+    """
 
     step: int
     arm: LabelledIri
     q: tuple[float, ...]
     tool: LabelledPose
+    base: LabelledPose | None = None
 
 
 class StepsApart(msgspec.Struct, frozen=True):

@@ -1612,12 +1612,16 @@ export interface components {
         /**
          * ChosenPosture
          * @description The joints `q` (nv,) in rad with which an arm brings its tool to a pose, in a step of a plan, from 1.
+         *
+         *         `base` is where its base stands then; both poses are in the world. None in older recordings.
          */
         ChosenPosture: {
             step: number;
             arm: components["schemas"]["LabelledIri"];
             q: number[];
             tool: components["schemas"]["LabelledPose"];
+            /** @default null */
+            base?: components["schemas"]["LabelledPose"] | null;
         };
         /**
          * StepsApart

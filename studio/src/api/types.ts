@@ -27,6 +27,7 @@ export type KnownFact = Schemas["KnownFact"];
 export type PlanMade = Schemas["PlanMade"];
 export type PlanStep = Schemas["PlanStep"];
 export type PlanPreview = Required<Schemas["PlanPreview"]>;
+export type ChosenPosture = Schemas["ChosenPosture"];
 export type Prompt = Schemas["Prompt"];
 export type LabelledIri = Schemas["LabelledIri"];
 export type LabelledValue = Schemas["ImplementationChosen"]["bindings"][string];

@@ -1,11 +1,12 @@
 // The bodies of a cell: solid where they really are, a ghost where belief differs, with an outline if they are selected.
 import * as three from "three";
 import { BodyBatch } from "./batch";
+import { PostureGhosts } from "./ghosts";
 import { makeGhost, makeOutline, makeShadow, makeSolid, makeTranslucent } from "./materials";
 import { compose } from "./poses";
 import { makeBodyGeometry, matrixOf, shareNormals } from "./shapes";
 import type { SceneTheme } from "./theme";
-import type { CellModel, PoseNumbers } from "./types";
+import type { CellModel, PlannedPosture, PoseNumbers, Sample } from "./types";
 
 export class SceneBodies {
   readonly group = new three.Group();
@@ -16,6 +17,7 @@ export class SceneBodies {
   private readonly dragged: BodyBatch;
   private readonly draggedMaterial: three.MeshLambertMaterial;
   private readonly outline: BodyBatch;
+  private readonly planned: PostureGhosts;
   private readonly all: readonly BodyBatch[];
   private readonly boxes = new Map<number, three.Box3>();
   private readonly owned = new Map<string, Set<number>>();
@@ -37,6 +39,8 @@ export class SceneBodies {
     this.outline = new BodyBatch(hulls, makeOutline(theme.accent));
     this.all = [this.solid, this.shadow, this.translucent, this.ghost, this.dragged, this.outline];
     for (const each of this.all) this.group.add(each.mesh);
+    this.planned = new PostureGhosts(model, opaque, theme.accent);
+    this.group.add(this.planned.group);
     this.noteBoxes(opaque, glass);
     this.model.bodies.forEach(({ individual }, body) => {
       if (individual !== null)
@@ -68,6 +72,11 @@ export class SceneBodies {
   ): void {
     this.draggedMaterial.color.copy(colour);
     this.placeShifted(this.dragged, poses, shifts);
+  }
+
+  /** Show arms in planned postures. */
+  placePlanned(postures: readonly PlannedPosture[], sample: Sample | null): void {
+    this.planned.show(postures, sample);
   }
 
   outlineThese(individuals: readonly string[]): void {
@@ -102,7 +111,7 @@ export class SceneBodies {
   }
 
   dispose(): void {
-    for (const each of this.all) each.dispose();
+    for (const each of [...this.all, this.planned]) each.dispose();
   }
 
   private placeShifted(

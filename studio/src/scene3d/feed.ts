@@ -2,9 +2,10 @@
 import { computed, effect, signal } from "@preact/signals";
 import { ApiError, call } from "../api/client";
 import { attempt, select } from "../state/actions";
-import type { PoseNumbers } from "../api/types";
+import type { ChosenPosture, PoseNumbers } from "../api/types";
 import { readWorld } from "../state/live";
 import { isReal } from "../state/real_arms";
+import { shownPostures } from "../state/plan_step";
 import { rehearsed } from "../state/replay";
 import {
   cells,
@@ -21,6 +22,7 @@ import type {
   BelievedPoses,
   CellModel,
   Displacement,
+  PlannedPosture,
   Sample,
   SceneActions,
   SceneSources,
@@ -48,6 +50,8 @@ const rehearsedPaths = computed(() => {
 });
 const paths = computed(() => (isPlanned.value ? rehearsedPaths.value : []));
 
+const postures = computed(() => shownPostures.value.map(readPosture));
+
 let last = "";
 let lastSample: Sample | null = null;
 /** The sample that is shown: the same one while nothing but time passes, as nothing has to be drawn then. */
@@ -64,7 +68,17 @@ export const sceneSources: SceneSources = {
   selected: things,
   coverage: computed(() => (replay.value === null ? coverage.value : {})),
   paths,
+  postures,
 };
+
+/** Return a posture of a plan as the view takes it. */
+function readPosture({ arm, q, tool, base }: ChosenPosture): PlannedPosture {
+  return { arm: arm.iri, joints: q, tool: readPose(tool), base: base ? readPose(base) : null };
+}
+
+function readPose({ position_m, quaternion_wxyz }: ChosenPosture["tool"]): PoseNumbers {
+  return [...position_m, ...quaternion_wxyz];
+}
 
 /** Follow a cell until the function that is returned is called. */
 export function followScene(cell: string): () => void {

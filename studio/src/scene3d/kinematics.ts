@@ -6,6 +6,38 @@ import type { Body, CellModel, Joint, PoseNumbers, Sample } from "./types";
 export function placeBodies(model: CellModel, sample: Sample | null): PoseNumbers[] {
   const values = sample === null ? new Map<string, number>() : readJoints(model, sample);
   const known = sample === null ? new Map<number, PoseNumbers>() : readPoses(model, sample);
+  return chainBodies(model, values, known);
+}
+
+/** Return the poses of the bodies of an arm and its hand, by number, in a posture; `base` is where the arm stands. */
+export function placeArm(
+  model: CellModel,
+  arm: string,
+  joints: readonly number[],
+  base: PoseNumbers,
+): Map<number, PoseNumbers> {
+  const [own, individual] = [model.arms[arm], model.individuals[arm]];
+  if (own === undefined || individual === undefined) return new Map();
+  const values = new Map(own.joints.map((name, index) => [name, joints[index] ?? 0]));
+  const known = new Map([[individual.body, compose(base, invert(individual.frame))]]);
+  const poses = chainBodies(model, values, known);
+  return new Map(bodiesUnder(model, individual.body).map((body) => [body, poses[body] ?? IDENTITY]));
+}
+
+/** Return the numbers of a body and of all that it carries. */
+export function bodiesUnder(model: CellModel, body: number): number[] {
+  const found = new Set([body]);
+  model.bodies.forEach(({ parent }, number) => {
+    if (found.has(parent)) found.add(number);
+  });
+  return [...found];
+}
+
+function chainBodies(
+  model: CellModel,
+  values: ReadonlyMap<string, number>,
+  known: ReadonlyMap<number, PoseNumbers>,
+): PoseNumbers[] {
   const poses: PoseNumbers[] = [];
   model.bodies.forEach((body, number) => {
     const parent = poses[body.parent] ?? IDENTITY;

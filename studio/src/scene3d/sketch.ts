@@ -1,5 +1,6 @@
-// The lines over the picture: frames of things and tools, planned paths, and what is measured.
+// The lines over the picture: frames of things and tools, planned postures and paths, and what is measured.
 import type * as three from "three";
+import { sketchPostures } from "./ghosts";
 import { poseOf } from "./kinematics";
 import { axesOf, pathOf, type Segment } from "./lines";
 import type { SceneTheme } from "./theme";
@@ -11,7 +12,7 @@ const FRAME_M = 0.1;
 export function sketch(
   model: CellModel,
   poses: readonly PoseNumbers[],
-  { sample, selected, paths }: SceneSources,
+  { sample, selected, paths, postures }: SceneSources,
   allFrames: boolean,
   measured: readonly three.Vector3[],
   theme: SceneTheme,
@@ -21,6 +22,9 @@ export function sketch(
   const tools = allFrames ? Object.values(sample.value?.arms ?? {}).map(({ tool }) => tool) : [];
   const axes = [...things, ...tools].flatMap((each) => (each === null ? [] : axesOf(each, FRAME_M)));
   const dashed = paths.value.flatMap((path) => pathOf(path, theme.believed));
+  const [toolAxes, ways] = sketchPostures(postures.value, theme.accent);
+  axes.push(...toolAxes);
+  dashed.push(...ways);
   const [from, to] = measured;
   if (from !== undefined && to !== undefined)
     dashed.push({ from: from.toArray(), to: to.toArray(), colour: theme.ink });

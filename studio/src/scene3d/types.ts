@@ -87,6 +87,14 @@ export interface SurfaceCoverage {
 /** A path that a tool is going to take, as points in the world. */
 export type PlannedPath = readonly Vector[];
 
+/** The joints, in rad, with which an arm is to bring its tool to a pose; without `base` it stands where it is. */
+export interface PlannedPosture {
+  arm: string;
+  joints: readonly number[];
+  base: PoseNumbers | null;
+  tool: PoseNumbers;
+}
+
 /** A value that changes; the signals of Preact are such. */
 export interface Source<T> {
   readonly value: T;
@@ -101,6 +109,8 @@ export interface SceneSources {
   selected: Source<readonly string[]>;
   coverage: Source<Readonly<Record<string, SurfaceCoverage>>>;
   paths: Source<readonly PlannedPath[]>;
+  /** The postures of the step of a plan that is chosen, in order. */
+  postures: Source<readonly PlannedPosture[]>;
 }
 
 /** A thing that was moved with the mouse, by (x, y, z) in m. */

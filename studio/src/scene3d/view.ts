@@ -162,7 +162,7 @@ export class SceneView implements SceneHandle {
   }
 
   private followSources(): void {
-    const { model, believed, sample, selected, coverage, paths } = this.sources;
+    const { model, believed, sample, selected, coverage, paths, postures } = this.sources;
     this.ends.push(
       model.subscribe(() => {
         this.trails.clear();
@@ -173,7 +173,7 @@ export class SceneView implements SceneHandle {
         if (now !== null) this.trails.add(now);
         this.refresh();
       }),
-      ...[believed, selected, coverage, paths].map((each) => each.subscribe(() => this.refresh())),
+      ...[believed, selected, coverage, paths, postures].map((each) => each.subscribe(() => this.refresh())),
     );
   }
 
@@ -233,6 +233,7 @@ export class SceneView implements SceneHandle {
     this.forces = options.forces && sample.value !== null ? findForces(sample.value) : [];
     this.bodies.placeGhosts(this.poses, options.reality === "both" ? shiftsOf(this.offsets) : NO_SHIFTS);
     this.bodies.outlineThese(selected.value);
+    this.bodies.placePlanned(this.sources.postures.value, sample.value);
     this.arrows.show(this.forces);
     this.trails.line.visible = options.trails;
     this.coverage.group.visible = options.coverage && options.reality !== "believed";
@@ -264,12 +265,11 @@ export class SceneView implements SceneHandle {
     const [model, bodies] = [this.sources.model.value, this.bodies];
     if (model === null || bodies === null) return;
     const { poses, offsets, forces, measured } = this;
-    const selected = this.sources.selected.value;
     const labels = annotate({
       model,
       bodies,
       poses,
-      selected,
+      selected: this.sources.selected.value,
       offsets,
       forces,
       measured,

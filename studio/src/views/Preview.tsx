@@ -1,5 +1,6 @@
 // A plan before it runs: its steps, what is proved of it, and what was left out; or why there is none.
 import type { PlanPreview } from "../api/types";
+import { posturesOf, shownStep } from "../state/plan_step";
 import { describePlan, formatTime } from "../state/text";
 import { PlaceLink } from "./links";
 import { NothingToDo } from "./NothingToDo";
@@ -16,7 +17,7 @@ export function Preview({ preview }: { preview: PlanPreview }) {
       <ol class="preview">
         {preview.plan.map((each, index) => (
           <li key={index} class="preview-step">
-            <span class="muted small mono">{index + 1}</span>
+            <StepNumber preview={preview} step={index + 1} />
             <span>{each.skill}</span>
             <Source text={each.source} />
             <span class="plan-arguments muted small truncate" title={argumentsOf(each.arguments)}>
@@ -34,6 +35,25 @@ export function Preview({ preview }: { preview: PlanPreview }) {
       {preview.note && <p class="small muted">{preview.note}</p>}
       {preview.space?.failure && <p class="small muted">does not go in space: {preview.space.failure}</p>}
     </section>
+  );
+}
+
+/** The number of a step; one whose postures are known shows them in the 3-D view, and hides them again. */
+function StepNumber({ preview, step }: { preview: PlanPreview; step: number }) {
+  if (posturesOf(preview, step).length === 0) return <span class="muted small mono">{step}</span>;
+  const isShown = shownStep.value === step;
+  const name = `${isShown ? "Hide" : "Show"} the postures of step ${step}`;
+  return (
+    <button
+      type="button"
+      class="link small mono"
+      aria-pressed={isShown}
+      aria-label={name}
+      title={`${name} in the 3-D view`}
+      onClick={() => (shownStep.value = isShown ? null : step)}
+    >
+      {step}
+    </button>
   );
 }
 

@@ -3,6 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { api, ApiError, type PlanWish } from "../api/client";
 import type { PlanPreview } from "../api/types";
 import { fixesFor, type GoalFix } from "../state/goal_fixes";
+import { shownStep } from "../state/plan_step";
 import { cell, preview, worldSequence } from "../state/studio";
 
 /** How long nothing has to change before there is a plan, and when a server that was busy is asked again. */
@@ -23,7 +24,10 @@ export function usePreview(request: PlanWish, isPlanned: boolean): Found {
   const name = cell.value?.name;
   useEffect(() => {
     preview.value = found.preview;
-    return () => (preview.value = null);
+    return () => {
+      preview.value = null;
+      shownStep.value = null;
+    };
   }, [found.preview]);
   useEffect(() => {
     if (name === undefined || !isPlanned) return;

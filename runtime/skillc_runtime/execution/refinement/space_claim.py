@@ -77,7 +77,8 @@ def _postures_of(step: int, motions: Iterable[RefinedMotion], words: Vocabulary)
     """Yield the postures that were found for poses of tools, in a step of a number."""
     for each in motions:
         if each.tool is not None:
-            yield ChosenPosture(step, label(each.arm, words), tuple(each.postures[-1].tolist()), label_pose(each.tool))
+            q = tuple(each.postures[-1].tolist())
+            yield ChosenPosture(step, label(each.arm, words), q, label_pose(each.tool), label_pose(each.base))
 
 
 def _stands_of(step: int, stands: Iterable[ChosenStand]) -> Iterator[StandAt]:
