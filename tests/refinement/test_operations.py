@@ -3,6 +3,7 @@
 import shutil
 from contextlib import closing
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from msgspec import structs
@@ -12,10 +13,12 @@ from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.settings import CellSettings
 from skillc.cells.snapshot import decode_snapshot
-from skillc.contract.jobs import PreviewPlan
+from skillc.contract.jobs import PreviewPlan, Rehearse
 from skillc.contract.operation import OperationRequest, OperationStatus
+from skillc.contract.rehearsal import RehearsalRequest
 from skillc.services.reporting import SilentReporter
 from skillc.workers.planning import preview_plan
+from skillc.workers.rehearsing import rehearse
 from skillc_ontology import catalogue
 from skillc_runtime.recording.events import PlanMade
 from skillc_runtime.recording.states import ENDS
@@ -88,6 +91,23 @@ def test_a_preview_says_why_the_arm_cannot_carry_it_out_unless_nobody_looks(tmp_
     assert found.status == "gave-up" and "joint 4 would be at -3." in found.failure
     unseen = preview_plan(PreviewPlan(None, GOAL, {}, "work", 30.0, geometry=False), known)
     assert (unseen.status, unseen.space) == ("solved", None)
+
+
+@pytest.mark.slow
+def test_a_rehearsal_of_a_plan_that_was_previewed_does_not_look_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("skillc.services.run_looks.cache", SimpleNamespace(cache_folder=lambda: tmp_path))
+    looks = tmp_path / "looks"
+    with open_cell(settings_of(tmp_path, write_door(tmp_path, 0.5, -20.0, 0.75)), SilentReporter()) as host:
+        known = decode_snapshot(host.take_snapshot(with_arms=True))
+        twin = decode_snapshot(host.take_twin())
+    preview_plan(PreviewPlan(None, GOAL, {}, "work", 30.0), known)
+    (found,) = looks.rglob("*")
+    kept = found.stat()
+    rehearsed = rehearse(Rehearse(RehearsalRequest(goal=GOAL, film=False), str(tmp_path / "out")), twin)
+    assert rehearsed.status == "succeeded"
+    assert list(looks.rglob("*")) == [found] and found.stat().st_mtime_ns == kept.st_mtime_ns
 
 
 @pytest.mark.slow
