@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from skillc_runtime.control.arm_task import ArmTask
+from skillc_runtime.control.blind_stop import BlindStop, make_blind_stop
 from skillc_runtime.control.command_validator import CommandValidator
 from skillc_runtime.control.compliance_control import ComplianceControl
 from skillc_runtime.control.controller import ControlError
@@ -11,6 +12,7 @@ from skillc_runtime.control.period import (
     BAD_COMMAND,
     BEYOND_LIMIT,
     BLOCKED,
+    IMPLAUSIBLE,
     NOT_FINITE,
     OVERLAY_OVER,
     PUSH_ACTS,
@@ -47,6 +49,7 @@ class CompliantArmDriver:
         self.fault: str | None = None
         self.broken: str | None = None
         self.violation: str | None = None
+        self._blind: BlindStop | None = None
 
     @property
     def speed(self) -> float:
@@ -60,6 +63,8 @@ class CompliantArmDriver:
     @property
     def at_rest(self) -> bool:
         """Whether reference and joints are at rest and no skill pushes."""
+        if self._blind is not None:
+            return self._blind.is_over
         return self.motion.at_rest and not self.compliance.pushing and self.measured.still
 
     @property
@@ -79,6 +84,9 @@ class CompliantArmDriver:
         period = self._period
         period.begin(now)
         self._task.measured.state = period.measure()
+        if self._blind is not None:
+            self._arm.command(self._blind.command())
+            return
         self.act(period.control() if period.is_computed else period.watch())
 
     @property
@@ -87,7 +95,7 @@ class CompliantArmDriver:
 
         None if only Python can; if the second one returns bits, `act` does the rest.
         """
-        return self._period.functions
+        return self._period.functions if self._blind is None else None
 
     @property
     def values(self) -> Array:
@@ -109,6 +117,9 @@ class CompliantArmDriver:
         task, period = self._task, self._period
         if events & WATCHED:
             self._handle(events, state)
+            if self._blind is not None:
+                self._arm.command(self._blind.command())
+                return False
             events = period.control(is_watched=True) if period.is_computed else 0
         if period.is_computed:
             return self._take(events, state)
@@ -138,6 +149,8 @@ class CompliantArmDriver:
         """Act on what was found in the measured state."""
         if events & NOT_FINITE:
             self._validator.refuse_measurement()
+        if events & IMPLAUSIBLE:
+            self._stop_blindly(state)
         if events & TOOL_MOVED:
             self._task.restart_tool(state)
         if events & BEYOND_LIMIT:
@@ -154,8 +167,13 @@ class CompliantArmDriver:
         self._validator.check(self._arm.state())
 
     def recover(self) -> None:
-        """Forget why the arm stopped by itself."""
+        """Forget why the arm stopped by itself; what is measured from then on counts again."""
         self.broken = self.violation = None
+        if self._blind is not None:
+            self._blind = None
+            self._arm.set_brakes(False)
+            self._safety.forget_signals()
+            self._task.hold_joints(self._arm.state())
 
     def abort(self, reason: str) -> None:
         """Stop motion, overlays and push, and hold released axes; the reason is reported in `fault`."""
@@ -169,6 +187,14 @@ class CompliantArmDriver:
         self.fault = reason
         self._task.hold_still()
         self.compliance.abandon()
+
+    def _stop_blindly(self, state: ArmState) -> None:
+        """Come to rest by nothing that is measured now, until `recover`."""
+        signals, pushes = self._safety.memory.signals, self.compliance.active_pushes
+        axis = pushes[0].axis if pushes else None
+        self._blind = make_blind_stop(self._arm, signals, self._task, state, self._validator.holds, axis)
+        self.violation = self._safety.describe_signals()
+        self.hold_still(self.violation)
 
     def secure(self) -> bool:
         """Come to rest, stop pushing and restore all releases; tell whether any were left."""

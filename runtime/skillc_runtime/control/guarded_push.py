@@ -23,7 +23,7 @@ class ActivePush:
     """
 
     def __init__(self, push: GuardedPush, axis: Array, memory: Array) -> None:
-        self.push, self._memory = push, memory
+        self.push, self.axis, self._memory = push, axis, memory
         write_push(memory, push, axis)
 
     @property

@@ -18,6 +18,7 @@ from skillc_runtime.control.impedance import ImpedanceMemory, impedance
 from skillc_runtime.control.joint_position import computed_torque, move_servos
 from skillc_runtime.control.limits import COMMANDED, DRIVEN
 from skillc_runtime.control.momentum_observer import add_impulse
+from skillc_runtime.control.plausibility import check_signals
 from skillc_runtime.control.push_memory import advance_pushes
 from skillc_runtime.control.safety import SafetyMemory, check_limits
 from skillc_runtime.control.task_error import EXERTED
@@ -31,11 +32,14 @@ from skillc_runtime.motion.numerics.linear import copy_vector, squared, times
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.reference_plan import ReferencePlan, sample_plan
 
-NOT_FINITE, TOOL_MOVED, BEYOND_LIMIT, BAD_COMMAND, OVERLAY_OVER, PUSH_ACTS, BLOCKED = (1 << bit for bit in range(7))
+NOT_FINITE, TOOL_MOVED, BEYOND_LIMIT, BAD_COMMAND, OVERLAY_OVER, PUSH_ACTS, BLOCKED, IMPLAUSIBLE = (
+    1 << bit for bit in range(8)
+)
 """Bits of what has happened: the measurement is no number; the tool was moved on the hand; a safety limit was exceeded;
-the law yields no number; an overlay has faded out; a push has come to an action; the joints do not follow."""
+the law yields no number; an overlay has faded out; a push has come to an action; the joints do not follow; what is
+measured cannot be true."""
 
-WATCHED: Final = NOT_FINITE | TOOL_MOVED | BEYOND_LIMIT
+WATCHED: Final = NOT_FINITE | TOOL_MOVED | BEYOND_LIMIT | IMPLAUSIBLE
 """What is found before a command is computed."""
 
 SEEN, LOST, TASK, IS_WATCHED = range(4)
@@ -97,6 +101,8 @@ def watch(arm: ArmMemory) -> int:
     at = state.tool.position
     if not squared(state.q) + squared(state.dq) + squared(state.wrench) + squared(at) < inf:
         return NOT_FINITE
+    if check_signals(arm.safety.signals, arm.safety.observer, state, period, arm.clock[LOST]):
+        return IMPLAUSIBLE
     if arm.bias_holds != 0.0:
         copy_vector(state.bias, arm.holds)
     else:

@@ -17,6 +17,16 @@ from skillc_runtime.control.momentum_observer import (
     find_unexplained_torque,
     observe_momentum,
 )
+from skillc_runtime.control.signal_memory import (
+    COMPARES,
+    FEELS,
+    KNOWN,
+    MOST_N,
+    REPEATS,
+    SignalMemory,
+    describe_signals,
+    make_signal_memory,
+)
 from skillc_runtime.devices.arm import ArmState, Capabilities, Command, Mode, Torque
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
@@ -74,6 +84,7 @@ class SafetyMemory:
     size: OutVector
     clock: OutVector
     observer: ObserverMemory
+    signals: SignalMemory
 
 
 @inlined
@@ -127,7 +138,12 @@ class SafetyMonitor:
         self._takes_torques, self._measures_effort = mode == "torque", measures_effort and mode != "torque"
         observer = MomentumObserver(state)
         self.momentum_observer = observer if self._takes_torques or measures_effort else None
-        self.memory = SafetyMemory(np.zeros(8), np.zeros(3), np.eye(3), np.zeros(3), np.zeros(2), observer.memory)
+        signals = make_signal_memory(state, able.limits)
+        signals.facts[REPEATS], signals.facts[FEELS] = able.never_repeats, able.feels_force
+        signals.facts[COMPARES] = able.feels_force and self._measures_effort
+        self.memory = SafetyMemory(
+            np.zeros(8), np.zeros(3), np.eye(3), np.zeros(3), np.zeros(2), observer.memory, signals
+        )
         self.limits = limits
 
     @property
@@ -142,6 +158,7 @@ class SafetyMonitor:
             limits.contact_force_n, limits.collision_torque_n_m, limits.tool_speed_m_s, self._takes_torques,
             self._measures_effort, self.momentum_observer is not None, self._feels_force, space is not None,
         )  # fmt: skip
+        memory.signals.facts[MOST_N] = limits.contact_force_n
         if space is not None:
             memory.middle[:], memory.axes[:], memory.size[:] = space.middle.position, space.middle.rotation, space.size
 
@@ -158,6 +175,14 @@ class SafetyMonitor:
         if self._feels_force:
             return state.wrench
         return None if self.momentum_observer is None else self.momentum_observer.wrench(state, MEASURING)
+
+    def forget_signals(self) -> None:
+        """Compare what is measured from now on with nothing that was measured before."""
+        self.memory.signals.numbers[KNOWN] = 0.0
+
+    def describe_signals(self) -> str:
+        """Describe what is implausible of the signals."""
+        return describe_signals(self.memory.signals)
 
     def describe(self, state: ArmState) -> str | None:
         """Describe the limit that is violated; None if there is none."""

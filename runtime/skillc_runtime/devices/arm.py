@@ -112,12 +112,16 @@ class ArmLimits:
 
 @dataclass(frozen=True, slots=True)
 class Capabilities:
-    """The modes of an arm, whether it measures the wrench at its tool and the effort of its motors, and its limits."""
+    """The modes of an arm, whether it measures the wrench at its tool and the effort of its motors, and its limits.
+
+    never_repeats: whether what it measures is never exactly the same twice while it moves or is loaded otherwise.
+    """
 
     modes: tuple[Mode, ...]
     feels_force: bool
     measures_effort: bool
     limits: ArmLimits
+    never_repeats: bool = False
 
 
 class Arm(Protocol):

@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import inf
 
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.wrist import Wrist
 from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
+from skillc_runtime.backends.simulation.brakes import Brakes
 from skillc_runtime.backends.simulation.joint_friction import make_joint_friction
 from skillc_runtime.backends.simulation.noise import make_joint_noise, make_wrist_noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.backends.simulation.whole_mass import WholeMass
 from skillc_runtime.devices.reality import NO_SIZES, Sizes
 from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.world.state.data_sheet import number_of
+from skillc_runtime.world.state.terms import BRAKE_DELAY
 
 
 class SimulatedArm(ModelledArm):
     """One arm of a simulated cell; it is called between `mj_step1` and `mj_step2`."""
+
+    never_repeats = True
 
     def __init__(
         self,
@@ -35,12 +41,34 @@ class SimulatedArm(ModelledArm):
         noise, model, data, self._physics = make_joint_noise(facts, seed), physics.model, physics.data, physics
         self._wrist: Wrist | None = None
         super().__init__(facts, names, model, data, start, steps_per_command, noise, sizes)
+        delay_s = number_of(facts.sheet.state, facts.sheet.individual, BRAKE_DELAY, inf)
+        joints, step_s = self.motors.joints, model.opt.timestep
+        self.brakes = None if facts.has_servos or delay_s == inf else Brakes(joints, delay_s, step_s)
         self.friction = make_joint_friction(facts, sizes, self.motors.joints, model.opt.timestep)
         if self._feels_force and (gripper := self._gripper_name) is not None:
             time_s = facts.sheet.number("forceTorqueTime")
             noise = make_wrist_noise(facts, seed, sizes, model.opt.timestep)
             self._wrist = Wrist(model, data, gripper, time_s, self._gain, self._readings, noise, sizes)
             self.set_load(None)
+
+    @property
+    def braked(self) -> bool:
+        """Whether the arm stands still whatever is commanded, or will once its brakes act."""
+        return self._braked if self.brakes is None else not self.brakes.is_off
+
+    @property
+    def takes_commands(self) -> bool:
+        """Whether commands move the arm: until its brakes act."""
+        return not self._braked if self.brakes is None else not self.brakes.act(self._data.time)
+
+    def set_brakes(self, on: bool) -> None:
+        """Hold the joints still from now on, or as soon as its brakes act, or let commands take effect again."""
+        super().set_brakes(on)
+        if self.brakes is not None:
+            if on:
+                self.brakes.engage(self._data.time)
+            else:
+                self.brakes.release()
 
     @property
     def wrist(self) -> Wrist | None:

@@ -11,6 +11,7 @@ from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
 from skillc_runtime.backends.mujoco.parts import Drive, HalfStep, SlipWatch
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.stillness import lie_still
+from skillc_runtime.backends.simulation.brakes import Brakes
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_checkpoint
 from skillc_runtime.backends.simulation.observer import Carrier
@@ -93,6 +94,8 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         self.physics.take_changes()
 
     def _parts(self) -> Iterator[Part]:
+        brakes = [arm.brakes for arm in self.arms.values() if arm.brakes is not None]
+        yield from (ForItself(each.step, partial(_are_released, each)) for each in brakes)
         yield from (arm.friction for arm in self.arms.values() if arm.friction is not None)
         yield HalfStep(self.physics, "mj_step2")
         yield from (arm.wrist for arm in self.arms.values() if arm.wrist is not None)
@@ -108,3 +111,7 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
 
     def _look_for_loss(self, arm: str, events: int, now: float) -> bool:
         return self._notice_loss(arm)
+
+
+def _are_released(brakes: Brakes) -> bool:
+    return brakes.is_off

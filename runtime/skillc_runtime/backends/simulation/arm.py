@@ -37,6 +37,7 @@ from skillc_runtime.backends.simulation.motors import Joints, Motors, ServoGains
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.noise import Noise, make_no_noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
+from skillc_runtime.backends.simulation.signal_faults import FaultySignals, SignalFault
 from skillc_runtime.backends.simulation.whole_mass import WholeMass
 from skillc_runtime.devices.arm import Arm, ArmLoad, ArmState, Capabilities, Command, Mode, NotOffered
 from skillc_runtime.devices.reality import NO_SIZES, Sizes, make_tool_error
@@ -65,6 +66,9 @@ class ModelledArm(Arm):
 
     measures_effort: ClassVar[bool] = True
     """Whether `ArmState.effort` is what the motors exert."""
+
+    never_repeats: ClassVar[bool] = False
+    """Whether what is measured is never exactly the same twice while the arm moves."""
 
     has_own_law: bool = False
     """Whether the robot itself has a compliant law, which takes targets of the tool."""
@@ -114,6 +118,7 @@ class ModelledArm(Arm):
         self._measure, mass = bind(measure, self._sensing), self._make_mass()
         self._take_mass, self._update_mass = bind(take_mass, mass), bind(update_mass, mass)
         self._times[MEASURED_AT], self._braked = data.time, False
+        self._faulty: FaultySignals | None = None
         self._configure(NO_PAYLOAD, self.fixed_tool)
         self._q[:] = start
         self._motors = self._make_motors(facts, slice(actuator, actuator + count), steps_per_command)
@@ -121,7 +126,9 @@ class ModelledArm(Arm):
     @property
     def capabilities(self) -> Capabilities:
         """The capabilities of the arm."""
-        return Capabilities(self._motors.modes, self._feels_force, self.measures_effort, self.limits)
+        return Capabilities(
+            self._motors.modes, self._feels_force, self.measures_effort, self.limits, self.never_repeats
+        )
 
     @property
     def interface(self) -> Mode:
@@ -171,20 +178,36 @@ class ModelledArm(Arm):
             self._measure(now)
         if now >= self._times[MASS_DUE]:
             self._update_mass_matrix()
+        if self._faulty is not None:
+            self._faulty.falsify(now)
         return self._state
+
+    @property
+    def is_faulty(self) -> bool:
+        """Whether a fault changes what is measured, now or later."""
+        return self._faulty is not None
+
+    def set_fault(self, fault: SignalFault | None) -> None:
+        """Let a fault change what is measured; None ends it."""
+        made = isinstance(self._motors, TorqueMotors)
+        self._faulty = None if fault is None else FaultySignals(fault, self._here, self._velocity, made)
 
     @property
     def measuring(self) -> Rows | None:
         """The functions that update the state; None if only Python can."""
+        if self.is_faulty:
+            return None
         return join(row_of(self._measure), row_of(self._update_mass) if address_of("mj_fullM") else None)
 
     def taking(self, values: Array) -> Rows | None:
         """Return the function that takes commands of the interface from there (nv,); None if only Python can."""
-        return IDLE if self._braked else self._motors.taking(values)
+        if self.braked:
+            return None if self.takes_commands else IDLE
+        return self._motors.taking(values)
 
     def command(self, command: Command) -> None:
         """Take a command for the next step; TypeError for another kind than `interface`."""
-        if not self._braked:
+        if self.takes_commands:
             self._motors.command(command)
 
     @property
@@ -233,6 +256,11 @@ class ModelledArm(Arm):
     def braked(self) -> bool:
         """Whether the arm stands still whatever is commanded."""
         return self._braked
+
+    @property
+    def takes_commands(self) -> bool:
+        """Whether commands move the arm."""
+        return not self._braked
 
     def set_brakes(self, on: bool) -> None:
         """Hold the joints still from now on, or let commands take effect again."""

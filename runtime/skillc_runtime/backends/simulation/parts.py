@@ -29,7 +29,7 @@ class ControlledArm:
         if functions is None:
             self._found = (), None
             return None
-        state = (*functions, arm.braked, arm.interface)
+        state = (*functions, arm.braked, arm.is_faulty, arm.interface)
         if state != self._found[0]:
             begin, control = map(row_of, functions)
             self._found = state, join(begin, arm.measuring, control, arm.taking(driver.values))
