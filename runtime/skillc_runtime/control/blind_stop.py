@@ -119,5 +119,5 @@ def make_blind_stop(
     else:
         q, dq = state.q, predict_speeds(signals, state)
         with suppress(NotOffered):
-            arm.set_brakes(True)
+            arm.drop_brakes()
     return BlindStop(mode, dq, q, holds, state.mass_matrix, task.limits, back, task.period)

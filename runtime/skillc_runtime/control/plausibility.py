@@ -16,6 +16,7 @@ from skillc_runtime.control.momentum_observer import DAMPING, WINDOW_S, Observer
 from skillc_runtime.control.signal_memory import (
     AMOUNT,
     BEYOND_RANGE,
+    COMMANDED,
     COMPARES,
     CONTRADICTS,
     DIFFERS_S,
@@ -74,7 +75,8 @@ MOVING_RAD_S = 0.01
 
 LOADED_N_M, LOADED_SHARE = 1.0, 0.01
 """Joints at the same place whose external torque seems to change by more than both, the share being of their effort,
-are frozen: the torque that is commanded does not change them."""
+are frozen: the torque that is commanded does not change them. Torques that are measured change with a joint that is
+blocked."""
 
 RANGE_RAD, SPEED_SHARE = 0.1, 4.0
 """How far joints may be beyond their range, and how many times its limit a speed may be."""
@@ -164,11 +166,11 @@ def _are_flipped(joints: Array, state: ArmState) -> bool:
 def _check_repetition(memory: SignalMemory, observer: ObserverMemory, state: ArmState, period: float) -> float:
     """Return what is implausible as it is exactly the same for too long."""
     joints, numbers, same_q, same_speed, moves, worst = memory.joints, memory.numbers, True, True, False, -1
-    loaded = False
+    loaded, rests = False, True
     for j in range(state.q.size):
         same_q = same_q and state.q[j] == joints[LAST_Q, j]
         same_speed = same_speed and state.dq[j] == joints[LAST_SPEED, j]
-        moves = moves or abs(state.dq[j]) > MOVING_RAD_S
+        moves, rests = moves or abs(state.dq[j]) > MOVING_RAD_S, rests and state.dq[j] == 0.0
         change = abs(observer.torque[j] - joints[LOADED, j])
         loaded = loaded or change > max(LOADED_N_M, LOADED_SHARE * joints[EFFORT, j])
         if abs(joints[GAP, j]) > STALE_GAP_RAD:
@@ -178,9 +180,9 @@ def _check_repetition(memory: SignalMemory, observer: ObserverMemory, state: Arm
     numbers[SAME_S] = numbers[SAME_S] + period if same_q and same_speed else 0.0
     numbers[SAME_SPEED_S] = numbers[SAME_SPEED_S] + period if same_speed else 0.0
     least = max(FROZEN_S, 3.5 * period)
-    if numbers[SAME_S] > least and (moves or loaded):
+    if numbers[SAME_S] > least and (moves or (loaded and memory.facts[COMMANDED] != 0.0)):
         return _report(numbers, FROZEN, 0, numbers[SAME_S])
-    if numbers[SAME_SPEED_S] > least and worst >= 0:
+    if numbers[SAME_SPEED_S] > least and worst >= 0 and not (same_q and rests):
         return _report(numbers, OLD_SPEED, worst, numbers[SAME_SPEED_S])
     return NOTHING
 

@@ -18,6 +18,7 @@ from skillc_runtime.control.momentum_observer import (
     observe_momentum,
 )
 from skillc_runtime.control.signal_memory import (
+    COMMANDED,
     COMPARES,
     FEELS,
     KNOWN,
@@ -140,6 +141,7 @@ class SafetyMonitor:
         self.momentum_observer = observer if self._takes_torques or measures_effort else None
         signals = make_signal_memory(state, able.limits)
         signals.facts[REPEATS], signals.facts[FEELS] = able.never_repeats, able.feels_force
+        signals.facts[COMMANDED] = self._takes_torques
         signals.facts[COMPARES] = able.feels_force and self._measures_effort
         self.memory = SafetyMemory(
             np.zeros(8), np.zeros(3), np.eye(3), np.zeros(3), np.zeros(2), observer.memory, signals

@@ -26,9 +26,9 @@ then; SAME_S, SAME_SPEED_S, SAME_WRENCH_S: for how long joints, their speeds, th
 how long wrist and motors differ; AGE s of the newest row of the history, NEXT the row after it; FOUND: what is
 implausible, in what JOINT and by what AMOUNT."""
 
-REPEATS, FEELS, COMPARES, MOST_N = range(4)
-"""Entries of `SignalMemory.facts`: 1 if measurements that are the same are old ones, if there is a wrist, and if it is
-compared with the torques of the motors; the limit of the contact force in N."""
+REPEATS, FEELS, COMPARES, COMMANDED, MOST_N = range(5)
+"""Entries of `SignalMemory.facts`: 1 if measurements that are the same are old ones, if there is a wrist, if it is
+compared with the torques of the motors, and if these are commanded; the limit of the contact force in N."""
 
 (
     NOTHING, FROZEN, OLD_SPEED, CONTRADICTS, FLIPPED, JUMPS, BEYOND_RANGE, TOO_FAST, WRENCH_FROZEN, WRENCH_JUMPS,
@@ -41,7 +41,7 @@ compared with the torques of the motors; the limit of the contact force in N."""
 class SignalMemory:
     """What is kept of the signals of an arm.
 
-    joints (11, nv), numbers (11,), facts (4,): see above; wrench (8,): measured before, N and N m, and the squares of
+    joints (11, nv), numbers (11,), facts (5,): see above; wrench (8,): measured before, N and N m, and the squares of
     its halves; history (8, 3 nv): speeds in rad/s, GAINED and external torques, a row every `HISTORY_S`.
     """
 
@@ -58,7 +58,7 @@ def make_signal_memory(state: ArmState, limits: ArmLimits) -> SignalMemory:
     joints = np.zeros((11, count))
     joints[LOW], joints[HIGH] = limits.range[:, 0], limits.range[:, 1]
     joints[FASTEST], joints[EFFORT] = limits.velocity, limits.effort
-    return SignalMemory(joints, np.zeros(11), np.zeros(4), np.zeros(8), np.zeros((HISTORY, 3 * count)))
+    return SignalMemory(joints, np.zeros(11), np.zeros(5), np.zeros(8), np.zeros((HISTORY, 3 * count)))
 
 
 @inlined

@@ -198,3 +198,7 @@ class Arm(Protocol):
         """Engage or release the brakes of an arm at rest; NotOffered without any."""
         if on:
             raise NotOffered("the arm has no brakes that can be engaged")
+
+    def drop_brakes(self) -> None:
+        """Engage the brakes of an arm that may be moving: commands have an effect until they act; NotOffered."""
+        raise NotOffered("the arm has no brakes that can be engaged")

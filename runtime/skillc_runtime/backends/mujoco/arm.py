@@ -13,6 +13,7 @@ from skillc_runtime.backends.simulation.joint_friction import make_joint_frictio
 from skillc_runtime.backends.simulation.noise import make_joint_noise, make_wrist_noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.backends.simulation.whole_mass import WholeMass
+from skillc_runtime.devices.arm import NotOffered
 from skillc_runtime.devices.reality import NO_SIZES, Sizes
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.state.data_sheet import number_of
@@ -54,21 +55,27 @@ class SimulatedArm(ModelledArm):
     @property
     def braked(self) -> bool:
         """Whether the arm stands still whatever is commanded, or will once its brakes act."""
-        return self._braked if self.brakes is None else not self.brakes.is_off
+        return self._braked or (self.brakes is not None and not self.brakes.is_off)
 
     @property
     def takes_commands(self) -> bool:
-        """Whether commands move the arm: until its brakes act."""
-        return not self._braked if self.brakes is None else not self.brakes.act(self._data.time)
+        """Whether commands move the arm: until it holds still by itself, or its brakes act."""
+        return not self._braked and (self.brakes is None or not self.brakes.act(self._data.time))
 
     def set_brakes(self, on: bool) -> None:
-        """Hold the joints still from now on, or as soon as its brakes act, or let commands take effect again."""
+        """Hold the joints still from now on, or let commands take effect again."""
         super().set_brakes(on)
         if self.brakes is not None:
             if on:
                 self.brakes.engage(self._data.time)
             else:
                 self.brakes.release()
+
+    def drop_brakes(self) -> None:
+        """Let the brakes act as soon as they can; NotOffered by an arm with servos, or whose brakes are not known."""
+        if self.brakes is None:
+            raise NotOffered("nothing is known of the brakes of the arm")
+        self.brakes.engage(self._data.time)
 
     @property
     def wrist(self) -> Wrist | None:
