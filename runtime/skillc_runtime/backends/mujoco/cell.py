@@ -18,7 +18,7 @@ from skillc_runtime.backends.simulation.observer import Carrier
 from skillc_runtime.backends.simulation.parts import HeldTool
 from skillc_runtime.backends.simulation.saved_cell import read_scene_again
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
-from skillc_runtime.backends.simulation.steps import OnMemory
+from skillc_runtime.backends.simulation.steps import ForItself, OnMemory
 from skillc_runtime.backends.simulation.variation import Variation, draw_variation
 from skillc_runtime.devices.backend import BackendStart
 from skillc_runtime.motion.numerics.program import Part
