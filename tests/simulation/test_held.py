@@ -171,8 +171,8 @@ def test_what_is_held_slides_with_the_forces_of_an_exact_solver() -> None:
         errors.append(np.linalg.norm(forces[0] - forces[1]) / np.linalg.norm(forces[1]))
         sliding += mujoco.mjtConstraintState.mjCNSTRSTATE_CONE in exact.efc_state
     assert sliding > 20
-    assert max(errors) < 3e-3
-    assert np.median(errors) < 1e-4
+    assert max(errors) < 5e-3
+    assert np.median(errors) < 5e-4
 
 
 def total_force(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
