@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -55,7 +54,7 @@ def wipe_door(
         prepared = prepare_task(task.assignment, task.library, look=SpaceLook())
         assert isinstance(prepared, PreparedTask) and prepared.space is not None
         postures = tuple(filter(None, map(change, prepared.space.postures)))
-        prepared = replace(prepared, space=structs.replace(prepared.space, postures=postures))
+        prepared = structs.replace(prepared, space=structs.replace(prepared.space, postures=postures))
         world = WorldModel(task.assignment.state)
         ended = execute_task(
             prepared, task.library, SimulatedCell(world) if physics else KinematicCell(world), [events.append]

@@ -9,7 +9,6 @@ import weakref
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from contextvars import copy_context
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, Unpack
 
@@ -128,7 +127,7 @@ def begin(load: Loading, options: RunOptions, name: str) -> Operation:
 def _work(load: Loading, options: RunOptions, state: OperationState, loaded: threading.Event) -> None:
     """Load and run a task, in the thread of its operation."""
     notes, monitor = NoticeList(), Monitor(state)
-    watched = replace(options, run_id=state.id, recorders=(monitor.record,))
+    watched = structs.replace(options, run_id=state.id, recorders=(monitor.record,))
     result: Run | None = None
     error: BaseException | None = None
     try:
