@@ -122,12 +122,14 @@ class CollisionChecker:
         """Return the first overlap of links or the palm along postures (nv,), None if there is none.
 
         Fingers and what they hold may touch anything, the palm the things with the names `spared`; what overlaps at the
-        posture `start` (nv,) may do so on the way.
+        posture `start` (nv,) may do so on the way: two parts of the arm, and others no deeper.
         """
-        allowed = self.overlapping_pairs(start) | self._touching_at_home
+        begin = {pair: far for pair, far in self.near_pairs(start).items() if far <= 0.0}
+        allowed = frozenset(filter(self._within, begin)) | self._touching_at_home
         for q in way:
             for pair, far in self.near_pairs(q).items():
-                if far < -SLACK_M and pair not in allowed and self._is_unwanted(pair, spared):
+                is_deeper = far < begin.get(pair, 0.0) - SLACK_M
+                if is_deeper and pair not in allowed and self._is_unwanted(pair, spared):
                     return self._collision(far, pair)
         return None
 
