@@ -8,6 +8,7 @@ from skillc.extras import install_command, missing_extras
 from skillc.services.planning import Answer, Measure, plan_goal
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import Excluded, GaveUp, Unsolvable
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
@@ -40,10 +41,13 @@ def plan_goal_in_space(
         why = f"what looks at it is not installed: {install_command('run')}"
         return answer, SpaceClaim(checked=0, steps=len(answer.plan.steps), stopped=why)
     # The simulator is slow to import.
+    from skillc_runtime.execution.refinement.goal_places import name_goal_places
     from skillc_runtime.execution.refinement.replanning import plan_in_space
     from skillc_runtime.execution.refinement.space_claim import make_claim
 
     answer, found = plan_in_space(loaded.library, loaded.assignment.state, plan, cancel)
+    if isinstance(loaded.assignment.objective, AchieveGoal):
+        answer = name_goal_places(answer, loaded.assignment.objective.goal, loaded.assignment.state)
     if found is None or isinstance(answer, Unsolvable | GaveUp):
         return answer, None
     claim = make_claim(found, len(answer.plan.steps), loaded.library.vocabulary)

@@ -15,6 +15,8 @@ from skillc.services.planning import Answer, plan_goal, prepare_planners
 from skillc.services.run_looks import look_from_postures
 from skillc.services.task_loading import LoadedTask
 from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.execution.assignment import AchieveGoal
+from skillc_runtime.execution.refinement.goal_places import name_goal_places
 from skillc_runtime.execution.refinement.run_planning import plan_for_run
 from skillc_runtime.planning.plan import Excluded
 from skillc_runtime.world.state.model import WorldModel
@@ -32,6 +34,8 @@ def preview_plan(job: PreviewPlan, known: CellSnapshot) -> PlanPreview:
     if job.geometry:
         look = look_from_postures(known.postures, known.library)
         answer, space = plan_for_run(known.library, known.state, plan, look, cancel)
+        if isinstance(assignment.objective, AchieveGoal):
+            answer = name_goal_places(answer, assignment.objective.goal, known.state)
     else:
         answer, space = plan(()), None
     text = format_plan(answer, loaded, space)

@@ -14,6 +14,7 @@ from skillc_model.tree import Node
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.plan_body import build_plan_body
+from skillc_runtime.execution.refinement.goal_places import name_goal_places
 from skillc_runtime.execution.refinement.run_planning import SpaceLook, look_at_body_for_run, plan_for_run
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.planning.arrangement import Arrangement, arrange_plan, step_numbers
@@ -177,6 +178,7 @@ def _prepare_plan(
         result, space = plan(()), None
     else:
         result, space = plan_for_run(library, assignment.state, plan, search.look, search.cancel)
+        result = name_goal_places(result, objective.goal, assignment.state)
     if isinstance(result, Unsolvable | GaveUp):
         return _refuse(result)
     apart = keep_apart(result, space.apart_pairs if space is not None else (), library, assignment.state)

@@ -12,11 +12,9 @@ from skillc_model.skills import Let
 from skillc_runtime.execution.refinement.situation import ChosenPlace, Situation
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.space.chosen_places import at_support, list_places, reservation_changes
+from skillc_runtime.world.space.place_foresight import PLACE_POSE
 from skillc_runtime.world.state.labelling import label
 from skillc_runtime.world.state.values import Value
-
-PLACE_POSE: Final = "skillc_runtime.world.handling:place_pose"
-"""The function that says where a held thing is put down."""
 
 MOST: Final = 64
 """How many places are tried at most."""
