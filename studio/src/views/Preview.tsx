@@ -40,7 +40,7 @@ export function Preview({ preview }: { preview: PlanPreview }) {
 
 /** The number of a step; one whose postures are known shows them in the 3-D view, and hides them again. */
 function StepNumber({ preview, step }: { preview: PlanPreview; step: number }) {
-  if (posturesOf(preview, step).length === 0) return <span class="muted small mono">{step}</span>;
+  if (posturesOf(preview.space, step).length === 0) return <span class="muted small mono">{step}</span>;
   const isShown = shownStep.value === step;
   const name = `${isShown ? "Hide" : "Show"} the postures of step ${step}`;
   return (

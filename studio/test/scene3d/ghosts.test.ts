@@ -1,11 +1,11 @@
 // Arms in the postures of a step of a plan, and which postures those are.
 import * as three from "three";
 import { expect, test } from "vitest";
-import type { PlanPreview } from "../../src/api/types";
 import { sketchPostures, thinOut } from "../../src/scene3d/ghosts";
 import { placeArm } from "../../src/scene3d/kinematics";
 import type { Body, CellModel, PlannedPosture, PoseNumbers } from "../../src/scene3d/types";
-import { posturesOf } from "../../src/state/plan_step";
+import type { OperationState } from "../../src/state/operation";
+import { posturesOf, posturesOfCall } from "../../src/state/plan_step";
 
 const at = (x: number, z = 0): PoseNumbers => [x, 0, z, 1, 0, 0, 0];
 const body = (name: string, parent: number, z: number, isTurned: boolean): Body => ({
@@ -59,12 +59,18 @@ test("the way of each arm leads from one pose of its tool to the next", () => {
   ]);
 });
 
-test("a step has the postures of its number, and none if nobody has looked", () => {
+test("a step has the postures of its number, and a call those of the step that it is in while that runs", () => {
   const pose = { type: "pose" as const, position_m: [0, 0, 0] as [number, number, number] };
   const tool = { ...pose, quaternion_wxyz: [1, 0, 0, 0] as [number, number, number, number] };
   const arm = { type: "iri" as const, iri: "Arm", label: "Arm" };
   const postures = [1, 2, 2].map((step) => ({ step, arm, q: [step], tool, base: tool }));
-  const plan = { space: { checked: 2, steps: 2, postures } } as unknown as PlanPreview;
-  expect(posturesOf(plan, 2)).toEqual(postures.slice(1));
-  expect(posturesOf(plan, null)).toBe(posturesOf(null, 1));
+  const space = { checked: 2, steps: 2, postures };
+  expect(posturesOf(space, 2)).toEqual(postures.slice(1));
+  expect(posturesOf(space, null)).toBe(posturesOf(null, 1));
+  const call = (key: number, parent: number, status: string) => [key, { key, parent, status }] as const;
+  const state = {
+    nodes: new Map([call(1, 0, "success"), call(2, 0, "running"), call(3, 2, "running")]),
+    attempts: [{ plan: { space }, nodes: [1, 2] }],
+  } as unknown as OperationState;
+  expect([1, 2, 3, 9].map((key) => posturesOfCall(state, key).length)).toEqual([0, 2, 2, 0]);
 });
