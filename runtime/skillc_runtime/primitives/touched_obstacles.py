@@ -47,10 +47,11 @@ STEEP: Final = 0.7
 def note_obstacle(cell: Cell, arm: str, into: Array, origin: str) -> None:
     """Write what an arm touches in the direction `into`, a unit vector (3,) in the world.
 
-    Nothing is written where people work, near another arm, or if it is not known where the parts of the arm are.
+    Nothing is written where people work, near another arm, if it is not known where the parts of the arm are, or if the
+    library was compiled before there were touched obstacles.
     """
     state = cell.world.snapshot()
-    if state.instances(PERSON):
+    if state.instances(PERSON) or TOUCHED_OBSTACLE not in state.vocabulary.classes:
         return
     with suppress(FrameError, SheetError, KeyError, ValueError):
         into = _straighten(into)
