@@ -20,8 +20,8 @@ from skillc_runtime.motion.pose import Array, Pose, rotation_from_angles
 from skillc_runtime.world.space.floor_plan import FloorPlan, place_of
 from skillc_runtime.world.state.world_state import WorldState
 
-STEP_M: Final = 0.025
-STEP_RAD: Final = 0.1
+STEP_M: Final = 0.01
+STEP_RAD: Final = 0.03
 """How far apart the poses are that are looked at on a way."""
 
 SEARCHES_M: Final = ((0.2, 0.05), (0.1, 0.0))
@@ -34,7 +34,7 @@ TURN_M: Final = 0.2
 AROUND_M: Final = 2.0
 """How far around all things ways are looked for."""
 
-MOST: Final = 8_000
+MOST: Final = 5_000
 """How many nodes of the lattice are looked at."""
 
 NEAR_M: Final = 1.0
