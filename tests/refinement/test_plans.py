@@ -39,6 +39,7 @@ def test_shipped_plans_are_checked_whole(task):
         "apart": [],
         "stands": [],
         "ways": [],
+        "implementations": [],
         "failure": None,
         "stopped": "",
         "from_home": True,
