@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace
 
 from simulation.cells import ARM, LAB, world
 from skillc_runtime.backends.mujoco.arm import SimulatedArm

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import itertools
 import os
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from skillc_runtime.motion.lanes import OVERHANG_M, plan_lanes
 from skillc_runtime.motion.layout import Hole, Layout, Patch

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -139,7 +138,7 @@ def test_what_does_not_fit_is_refused_and_changes_nothing(tmp_path: Path) -> Non
 def test_a_cell_that_cannot_be_built_again_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with opened(write_yard(tmp_path, 10)) as host:
         capabilities = host.loop.backend.capabilities
-        monkeypatch.setattr(host.loop.backend, "capabilities", replace(capabilities, checkpoints=None))
+        monkeypatch.setattr(host.loop.backend, "capabilities", structs.replace(capabilities, checkpoints=None))
         assert not host.describe(None).resettable
         for wanted in (RESET, Save(name="one", who="bo")):
             assert "yard is no simulation" in refusal(host, wanted)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from skillc_runtime.collision.scenery import SolidObstacle, make_obstacles, pose_key
 from skillc_runtime.world.space.bodies import has_body, read_solids
@@ -13,8 +13,7 @@ from skillc_runtime.world.state.terms import BASE_FRAME_ID, CLEARANCE, CONTAIN, 
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class Hand:
+class Hand(msgspec.Struct, frozen=True):
     """A gripper: its short name, its MJCF, the distance of its fingers in m, held solids in the frame of its `tcp`."""
 
     name: str
@@ -23,8 +22,7 @@ class Hand:
     held: tuple[SolidObstacle, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class ArmAssembly:
+class ArmAssembly(msgspec.Struct, frozen=True):
     """An arm: its short name, its MJCF, its hand, and the clearance in m that it keeps from obstacles."""
 
     name: str

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from math import inf
 from typing import TypeAlias
 
+import msgspec
 import mujoco
 import numpy as np
 
@@ -24,8 +24,7 @@ Pair: TypeAlias = tuple[int, int]
 """Two geoms of a model."""
 
 
-@dataclass(frozen=True, slots=True)
-class Collision:
+class Collision(msgspec.Struct, frozen=True):
     """Two parts by name, the first one of the arm, and their distance in m, below 0 if they overlap."""
 
     one: str

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations, product
 from typing import Any
 
+import msgspec
 import mujoco
 import numpy as np
 
@@ -29,8 +29,7 @@ SEEN_BEYOND_M = 0.04
 ORIGIN = Pose.of((0.0, 0.0, 0.0))
 
 
-@dataclass(frozen=True, slots=True)
-class CollisionModel:
+class CollisionModel(msgspec.Struct, frozen=True):
     """A compiled model in the arm's base frame; the first `joints` positions are the arm's, `fingers` the others.
 
     names: of each geom, for messages; links, palm: geoms of the arm, and of the gripper without its fingers and what

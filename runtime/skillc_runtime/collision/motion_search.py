@@ -6,10 +6,10 @@ It may take seconds, and ends after a number of looks, so that a motion does not
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import chain
 from typing import Protocol
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.collision.arm_assembly import ArmAssembly
@@ -26,8 +26,7 @@ BLEND_SHARES = (1.0, 0.5, 0.25)
 """Shares of each corner that are blended, in the order in which they are tried."""
 
 
-@dataclass(frozen=True, slots=True)
-class Surroundings:
+class Surroundings(msgspec.Struct, frozen=True):
     """An arm with what it holds, the scenery, the arm's posture (nv,) `home` in rad, and the parts of other arms."""
 
     assembly: ArmAssembly

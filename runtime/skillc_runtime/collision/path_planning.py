@@ -7,9 +7,9 @@ half of its clearance.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.cancellation import check_current
@@ -32,8 +32,7 @@ class NoPath(ValueError):
     """There is no collision-free path to a posture; the message says what is in the way."""
 
 
-@dataclass(frozen=True, slots=True)
-class JointSpace:
+class JointSpace(msgspec.Struct, frozen=True):
     """The joint space of an arm: the range (nv, 2) of its joints and safe postures (nv,), in rad."""
 
     range: Array

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
 from typing import TypeAlias
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 from skillc_runtime.world.space.bodies import read_body
@@ -26,16 +27,14 @@ FAR_M = 3.0
 Numbers: TypeAlias = tuple[float, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class PoseKey:
+class PoseKey(msgspec.Struct, frozen=True):
     """A pose as hashable numbers: position in m, unit quaternion (w, x, y, z)."""
 
     position: Numbers
     quaternion: Numbers
 
 
-@dataclass(frozen=True, slots=True)
-class SolidObstacle:
+class SolidObstacle(msgspec.Struct, frozen=True):
     """A convex solid: the short name of what it belongs to, its pose, half its size in m, and the points of a hull.
 
     `points` are the bytes of an array (n, 3) in m, along the axes of the solid; empty for all other kinds.
@@ -54,8 +53,7 @@ class SolidObstacle:
         return Solid(self.kind, (x, y, z), frame @ Pose.of(self.place.position, self.place.quaternion), hull)
 
 
-@dataclass(frozen=True, slots=True)
-class ModelObstacle:
+class ModelObstacle(msgspec.Struct, frozen=True):
     """An object with its own model: its short name, its pose, the path of its MJCF."""
 
     name: str
@@ -63,8 +61,7 @@ class ModelObstacle:
     model: str
 
 
-@dataclass(frozen=True, slots=True)
-class Scenery:
+class Scenery(msgspec.Struct, frozen=True):
     """The obstacles in order of IRI, and the floor, in the plane of the map frame."""
 
     floor: PoseKey

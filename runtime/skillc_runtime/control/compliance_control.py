@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf
 
 import numpy as np
+from msgspec.structs import replace
 
 from skillc_runtime.control import push_memory
 from skillc_runtime.control.arm_task import ArmTask

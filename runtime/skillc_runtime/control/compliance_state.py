@@ -6,10 +6,12 @@ released, so it rotates with the tool.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import inf
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from skillc_runtime.control.filters import lag_share, step_lag
@@ -30,8 +32,7 @@ RELEASED_FIRST = 2
 """The axis of C along which the first release is."""
 
 
-@dataclass(frozen=True, slots=True)
-class ComplianceSetpoint:
+class ComplianceSetpoint(msgspec.Struct, frozen=True):
     """The compliance that skills command, along the axes of the compliance frame C.
 
     stiffness (6,): N/m and N m/rad; force (3,): N that the tool exerts; frame (3, 3): axes of C in the tool frame;

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import assert_never
 
+import msgspec
 import mujoco
 
 from skillc_runtime.control.controller import Controller
@@ -27,8 +27,7 @@ from skillc_runtime.devices.arm import ArmLimits, ArmState
 from skillc_runtime.motion.pose import Array
 
 
-@dataclass(frozen=True, slots=True)
-class ControllerPair:
+class ControllerPair(msgspec.Struct, frozen=True):
     """A controller for the tool, and the limits that it shares with that of the joints, so switching is smooth."""
 
     tool: Controller

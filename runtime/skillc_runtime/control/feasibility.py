@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.control.inverse_kinematics import pose_error, step_towards
@@ -131,8 +131,7 @@ def _check(arm: VirtualArm, target: Pose, q: Array, error: Array, limits: ArmLim
         )
 
 
-@dataclass(frozen=True, slots=True)
-class SlowedTrajectory:
+class SlowedTrajectory(msgspec.Struct, frozen=True):
     """A trajectory that takes `factor` >= 1 times as long, along the same path in the same frame."""
 
     trajectory: Trajectory

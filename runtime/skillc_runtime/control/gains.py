@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, TypeAlias, get_args
+
+import msgspec
 
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.devices.arm_driver import TaskLimits
@@ -23,8 +24,7 @@ class UnknownController(ValueError):
     """There is no controller of that name; the message lists the existing ones."""
 
 
-@dataclass(frozen=True, slots=True)
-class ImpedanceGains:
+class ImpedanceGains(msgspec.Struct, frozen=True):
     """Gains of Cartesian impedance, for a torque-controlled arm. Names as in the data sheet vocabulary.
 
     damping_floor N s/m, rotational_damping_floor N m s/rad: least damping, the only one of a released axis;
@@ -52,8 +52,7 @@ class ImpedanceGains:
         return self.damping_floor
 
 
-@dataclass(frozen=True, slots=True)
-class ForwardDynamicsGains:
+class ForwardDynamicsGains(msgspec.Struct, frozen=True):
     """Gains of forward-dynamics compliance, for an arm with its own servos and a force/torque sensor.
 
     admittance m/(s N), rotational_admittance rad/(s N m): steady tool velocity per wrench; admittance_time s: its lag.
@@ -79,8 +78,7 @@ class ForwardDynamicsGains:
         return 1 / self.admittance
 
 
-@dataclass(frozen=True, slots=True)
-class VelocityGains:
+class VelocityGains(msgspec.Struct, frozen=True):
     """Gains of forward-dynamics compliance for a velocity-controlled arm, whose joints track the virtual ones.
 
     tracking_rate 1/s: speed per rad of error; tracking_time s: lag of the joints behind speeds, which is not an error.
@@ -106,8 +104,7 @@ class VelocityGains:
         return self.compliance.release_damping
 
 
-@dataclass(frozen=True, slots=True)
-class RobotGains:
+class RobotGains(msgspec.Struct, frozen=True):
     """Gains of a law that runs on the robot's side, as far as they have to be known here.
 
     damping_floor N s/m: how that law brakes a released axis.
@@ -131,8 +128,7 @@ class RobotGains:
         return self.damping_floor
 
 
-@dataclass(frozen=True, slots=True)
-class OwnGains:
+class OwnGains(msgspec.Struct, frozen=True):
     """What the law of a user reads from the data sheet: `number` returns any number of it.
 
     law: a class as `control.own_law.OwnLaw`; mode, needs_force, release_damping: as below.
@@ -158,8 +154,7 @@ speed of a released axis, F = release_damping * v.
 """
 
 
-@dataclass(frozen=True, slots=True)
-class Gains:
+class Gains(msgspec.Struct, frozen=True):
     """The gains of all compliant arms, and those of their law.
 
     linear_stiffness N/m, rotational_stiffness N m/rad: of every axis that is not released; damping_ratio: 1 is

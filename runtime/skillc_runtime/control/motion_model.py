@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from skillc_runtime.control.feasibility import sample_offsets
 from skillc_runtime.control.kinematics import Kinematics
@@ -16,8 +17,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Trajectory
 
 
-@dataclass(frozen=True, slots=True)
-class ArmMotionModel:
+class ArmMotionModel(msgspec.Struct, frozen=True):
     """Implements `MotionModel` for an arm as it was at one instant.
 
     base: in the world. start, now (nv,): rad, where the joints come to rest, and from where a motion of the tool

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar, Protocol
 
+import msgspec
 import mujoco
 
 from skillc_runtime.control.controller import ControlError, Controller
@@ -15,8 +15,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Compliance, Reference
 
 
-@dataclass(frozen=True, slots=True)
-class LawSetup:
+class LawSetup(msgspec.Struct, frozen=True):
     """What a law is made from.
 
     number: returns a number of the arm's data sheet by the name of its property; gains: stiffness, damping ratio,

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 
+import msgspec
 import mujoco
 
 from skillc_runtime.control.gains import Gains
@@ -13,8 +13,7 @@ from skillc_runtime.devices.arm import Arm, ArmLimits
 from skillc_runtime.motion.pose import Pose
 
 
-@dataclass(frozen=True, slots=True)
-class ArmSetup:
+class ArmSetup(msgspec.Struct, frozen=True):
     """One arm, the gains of its controller and the limits of its joints.
 
     `virtual` is of `load_virtual_model`; `base` returns the pose of the arm's base in the world, whose arrays may
@@ -27,4 +26,4 @@ class ArmSetup:
     limits: ArmLimits
     base: Callable[[], Pose]
     period: float
-    safety: SafetyLimits = field(default_factory=SafetyLimits)
+    safety: SafetyLimits = msgspec.field(default_factory=SafetyLimits)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, Protocol
+
+import msgspec
 
 from skillc_runtime.devices.capabilities import NO_CAPABILITIES, BackendCapabilities
 
@@ -21,8 +22,7 @@ class BackendUnavailable(Exception):
     """A cell cannot be made, because a device does not answer or a program is missing; the message says what to do."""
 
 
-@dataclass(frozen=True, slots=True)
-class DeviceStop:
+class DeviceStop(msgspec.Struct, frozen=True):
     """Why devices have stopped by themselves, and may not move before somebody has acknowledged that.
 
     `devices` are the IRIs of those that report it; none if it concerns the cell as a whole.
@@ -127,8 +127,7 @@ class Backend(Protocol):
         """End the threads of the backend, and give its devices back; idempotent."""
 
 
-@dataclass(frozen=True, slots=True)
-class BackendStart:
+class BackendStart(msgspec.Struct, frozen=True):
     """How a cell begins: the seed by which a simulation differs from the facts, and what was saved, None for nothing.
 
     Only what its `checkpoints` have saved is given to a back end. A cell that is only `observed` takes nothing under

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Protocol
+
+import msgspec
 
 from skillc_runtime.motion.pose import Array, Pose
 
 
-@dataclass(frozen=True, slots=True)
-class PoseEstimate:
+class PoseEstimate(msgspec.Struct, frozen=True):
     """The pose of an object in the frame of a camera, from the image that was taken at `taken_s` of its clock.
 
     position_m, angle_rad: the standard deviations along and about each axis that the camera states.

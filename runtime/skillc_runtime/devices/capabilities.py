@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
+
+import msgspec
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.checkpoints import Checkpoints
@@ -41,8 +42,7 @@ class LockStep(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class BackendCapabilities:
+class BackendCapabilities(msgspec.Struct, frozen=True):
     """What a back end offers; whoever needs what is None does without, or says so.
 
     lock_step: time stands still between calls, so that a run can be repeated. judge: claims are judged, and what

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Protocol
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.arm import ArmLimits, Mode
@@ -13,8 +13,7 @@ from skillc_runtime.motion.pose import Array
 UNITS: dict[Mode, str] = {"torque": "N m", "position": "rad", "velocity": "rad/s"}
 
 
-@dataclass(frozen=True, slots=True)
-class ArmCommands:
+class ArmCommands(msgspec.Struct, frozen=True):
     """The commands of one arm: `values` (n, nv) in N m, rad or rad/s at `times_s` (n,); `altered` by limits were so
     many."""
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+import msgspec
 
 ControlState: TypeAlias = Literal[
     "ready", "in-control", "not-in-control", "wrong-mode", "protective-stop", "emergency-stop", "lost"
@@ -19,8 +20,7 @@ WINDOW_S = 5.0
 """The time over which control periods are described."""
 
 
-@dataclass(frozen=True, slots=True)
-class ControlReport:
+class ControlReport(msgspec.Struct, frozen=True):
     """The state of an arm's device, with a sentence about what keeps it from moving, and its control periods.
 
     name: the short name of the arm. period_s: the nominal control period. rate_hz: control periods a second, and

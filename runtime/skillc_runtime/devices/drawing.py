@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, Literal, Protocol, TypeAlias
+
+import msgspec
 
 from skillc_runtime.motion.pose import Array
 
 
-@dataclass(frozen=True, slots=True)
-class Posture:
+class Posture(msgspec.Struct, frozen=True):
     """Where everything is at one instant: MuJoCo's qpos (nq,), mocap_pos (m, 3) and mocap_quat (m, 4)."""
 
     joints: Array
@@ -22,8 +22,7 @@ IndividualKind: TypeAlias = Literal["arm", "gripper", "base", "tool", "surface",
 """What an individual is in a drawn cell; a robot is its `base`, and a `body` any other thing."""
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnIndividual:
+class DrawnIndividual(msgspec.Struct, frozen=True):
     """An individual with its short name, and the name in the model of its first body; `movable` if it lies free."""
 
     label: str

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array, Pose
 
 
-@dataclass(frozen=True, slots=True)
-class Recording:
+class Recording(msgspec.Struct, frozen=True):
     """A time interval of a run, one row a simulation step, read-only. True values in the world frame, SI units.
 
     force (n,): N, normal force of all contacts of the tool's working face. position (n, 3), quaternion (n, 4),
@@ -92,8 +91,7 @@ def join_recordings(intervals: Sequence[Recording]) -> Recording:
     return intervals[0] if len(intervals) == 1 else Recording(np.concatenate([each.rows for each in intervals]))
 
 
-@dataclass(frozen=True, slots=True)
-class Guidance:
+class Guidance(msgspec.Struct, frozen=True):
     """How a person guided a tool: the intended place (3,) of its centre point, m in the world, and forces (n,) in N.
 
     There is a force, and its time in s, for each simulation step in which they guided it; `arm` holds the tool.
@@ -105,8 +103,7 @@ class Guidance:
     arm: str
 
 
-@dataclass(frozen=True, slots=True)
-class Touching:
+class Touching(msgspec.Struct, frozen=True):
     """A contact of a part of a robot, or of what it holds, that is neither a grasp nor its tool's work.
 
     part, other: what touched what, by short names; start_s, end_s: s; peak_force_n: N, None where it is not computed.
@@ -119,8 +116,7 @@ class Touching:
     peak_force_n: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class HandSample:
+class HandSample(msgspec.Struct, frozen=True):
     """A gripper at one instant: its tool centre point (3,) in m in the world, and how far its fingers are apart in m.
 
     finger_force_n: N, with which each finger presses; while something is held, that with which it was grasped. None

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Protocol, TypeAlias
+
+import msgspec
 
 from skillc_runtime.motion.pose import Array
 
 
-@dataclass(frozen=True, slots=True)
-class Contact:
+class Contact(msgspec.Struct, frozen=True):
     """The contact force exceeds `force_n` N for `for_s` s, once the tool approaches steadily."""
 
     force_n: float = 2.0
     for_s: float = 0.005
 
 
-@dataclass(frozen=True, slots=True)
-class Standstill:
+class Standstill(msgspec.Struct, frozen=True):
     """The tool is slower than a share of its approach speed for `for_s` s, or `from_start_s` if it has not moved."""
 
     share: float = 1 / 3
@@ -25,8 +24,7 @@ class Standstill:
     from_start_s: float = 0.5
 
 
-@dataclass(frozen=True, slots=True)
-class Travel:
+class Travel(msgspec.Struct, frozen=True):
     """The tool has moved farther than `distance_m` m."""
 
     distance_m: float
@@ -36,8 +34,7 @@ StopCondition: TypeAlias = Contact | Standstill | Travel
 """A condition that ends a phase of a motion; evaluated once a control period, without code of skills."""
 
 
-@dataclass(frozen=True, slots=True)
-class GuardedPush:
+class GuardedPush(msgspec.Struct, frozen=True):
     """Approach a surface opposite to `along`, a unit vector (3,) in the world, and press on it with `force_n` N.
 
     There is contact when any of the conditions is met; if it is lost later, the tool approaches again. The arm stops if
@@ -51,8 +48,7 @@ class GuardedPush:
     touch_conditions: tuple[Contact | Standstill, ...] = (Standstill(), Contact())
 
 
-@dataclass(frozen=True, slots=True)
-class MeasuredForce:
+class MeasuredForce(msgspec.Struct, frozen=True):
     """The mean force in N with which a tool presses, as it is measured and not as it is commanded.
 
     `free_n` was measured before contact, where it should be 0. None is what was not measured, or not for long enough.

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from typing import TypeAlias
+
+import msgspec
 
 from skillc_runtime.devices.control_report import ControlReport
 from skillc_runtime.motion.numerics.program import Part
@@ -19,8 +20,7 @@ ReadBytes = Callable[[], bytes]
 """Returns a copy of an array of float64."""
 
 
-@dataclass(frozen=True, slots=True)
-class LiveArm:
+class LiveArm(msgspec.Struct, frozen=True):
     """An arm with `joints` joints, in its base frame, whose pose in the world `base` returns.
 
     measured (2, joints): angles in rad, speeds in rad/s. wrench (6,): N and N m, on the tool, by a force-torque
@@ -45,8 +45,7 @@ class LiveArm:
     control: Callable[[], ControlReport] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class LiveSensors:
+class LiveSensors(msgspec.Struct, frozen=True):
     """The sensors of a simulation, (count,); `faces` has of each tool where those of its working face begin.
 
     These are the normal force in N, position (3,) m, unit quaternion (4,), velocity (3,) m/s, true and in the world.
@@ -57,8 +56,7 @@ class LiveSensors:
     faces: tuple[tuple[str, int], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class LiveBodies:
+class LiveBodies(msgspec.Struct, frozen=True):
     """The bodies of the model of a simulation: positions (n, 3) in m and unit quaternions (n, 4) in the world."""
 
     positions: ReadBytes
@@ -73,8 +71,7 @@ NO_SENSORS, NO_BODIES = LiveSensors(0, _read_nothing, ()), LiveBodies(_read_noth
 """What a real cell has of the sensors and the model of a simulation."""
 
 
-@dataclass(frozen=True, slots=True)
-class LiveSignals:
+class LiveSignals(msgspec.Struct, frozen=True):
     """What a cell offers: the time in s, arms in order of IRI, sensors, bodies; `listeners` are called in each period.
 
     `period_s` is the control period; that of a device with its own time may vary. Listeners are called after the
@@ -89,7 +86,7 @@ class LiveSignals:
     arms: Sequence[LiveArm]
     sensors: LiveSensors = NO_SENSORS
     bodies: LiveBodies = NO_BODIES
-    listeners: list[Callable[[], None]] = field(default_factory=list)
+    listeners: list[Callable[[], None]] = msgspec.field(default_factory=list)
     refresh: Callable[[], None] = lambda: None
     places: Callable[[], Places] | None = None
-    parts: list[Part] = field(default_factory=list)
+    parts: list[Part] = msgspec.field(default_factory=list)

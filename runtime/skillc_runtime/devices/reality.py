@@ -7,10 +7,10 @@ devices of the type. An ideal device has none, a wide one any size of the range,
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Final, TypeAlias
 from zlib import crc32
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.rng import rng_for
@@ -35,8 +35,7 @@ Sizes: TypeAlias = Mapping[str, tuple[float, ...]]
 NO_SIZES: Final[Sizes] = {}
 
 
-@dataclass(frozen=True, slots=True)
-class Kind:
+class Kind(msgspec.Struct, frozen=True):
     """A kind of imperfection: the property of sheets with its range, the unit of its size, and how many sizes it has.
 
     per_joint: as many as the arm has joints. signed: of either sign. at_wrist: only arms with a force/torque sensor
@@ -70,8 +69,7 @@ TOOL_KINDS: Final = (Kind("massError", "kg"), Kind("padStiffnessFactor", "", sig
 KINDS: Final = (*ARM_KINDS, *TOOL_KINDS)
 
 
-@dataclass(frozen=True, slots=True)
-class Reality:
+class Reality(msgspec.Struct, frozen=True):
     """A level, and the kinds of imperfections that there are; all if there are none."""
 
     level: str

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import atan2, cos, pi, sin, sqrt
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.motion import segment_sampling as piece
@@ -17,8 +17,7 @@ STRAIGHT = 1e-6
 """Sine of the angle between two chords below which three points count as collinear."""
 
 
-@dataclass(frozen=True, slots=True)
-class Arc:
+class Arc(msgspec.Struct, frozen=True):
     """A motion along a circle and a rotation about a fixed axis; all vectors in the parent frame.
 
     way, turn: the profiles of path length in m and of the rotation angle in rad. spoke (3,) m: from the centre to the

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.motion.numerics.compiled import inlined
@@ -16,8 +16,7 @@ STARTS_AT, PROFILE, JOINTS = 0, 1, 6
 """Columns of a table of segments: s; the five numbers of a profile; then start and change (nv,) of the joints, rad."""
 
 
-@dataclass(frozen=True, slots=True)
-class JointReference:
+class JointReference(msgspec.Struct, frozen=True):
     """The reference of the joints at one instant: q, dq, ddq (nv,) in rad, rad/s, rad/s^2."""
 
     q: Array
@@ -56,8 +55,7 @@ class JointTrajectory(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class JointMotion:
+class JointMotion(msgspec.Struct, frozen=True):
     """A motion from `start` by `change`, both joint positions (nv,) in rad; the profile goes from 0 to 1."""
 
     start: Array

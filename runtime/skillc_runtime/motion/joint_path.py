@@ -9,17 +9,16 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.motion.joint import JointMotion, JointReference, joint_motion, segments_of
 from skillc_runtime.motion.pose import Array
 
 
-@dataclass(frozen=True, slots=True)
-class JointPath:
+class JointPath(msgspec.Struct, frozen=True):
     """At least one straight segment, with start times in s; at most two overlap at any time. Joints: (nv,) in rad."""
 
     pieces: tuple[JointMotion, ...]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
@@ -12,8 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-@dataclass(frozen=True, slots=True)
-class Hole:
+class Hole(msgspec.Struct, frozen=True):
     """A rectangle that the tool must not touch: its centre and size (2,) in m along the axes of the surface frame.
 
     The area within `margin` m of it need not be worked on; planned motions keep half of that distance. It protrudes
@@ -36,16 +36,14 @@ class Hole:
         return Hole(away, np.abs(axes.T) @ self.size, self.margin, self.height)
 
 
-@dataclass(frozen=True, slots=True)
-class Patch:
+class Patch(msgspec.Struct, frozen=True):
     """A rectangle of a surface: the pose of its centre in the surface frame, and its size (2,) in m."""
 
     pose: Pose
     size: Array
 
 
-@dataclass(frozen=True, slots=True)
-class Layout:
+class Layout(msgspec.Struct, frozen=True):
     """A surface of size (2,) in m, in its frame; only its patches are worked on, or all of it if it has none."""
 
     size: Array

@@ -5,10 +5,11 @@ The axes of an overlay are those that are passed to `ReferenceGenerator.add`, wh
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from math import asinh, cos, inf, pi, sin, sqrt
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 
 from skillc_runtime.motion.arrays import OutMatrix, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
@@ -90,8 +91,7 @@ def spiral_at(motion: OutMatrix, pitch: float, speed: float, radius: float, time
     motion[2, 0], motion[2, 1] = inward * c - around * s, inward * s + around * c
 
 
-@dataclass(frozen=True, slots=True)
-class Circle:
+class Circle(msgspec.Struct, frozen=True):
     """A circle in the x-y plane of the overlay frame: radius in m, rate in turns per s."""
 
     radius: float
@@ -114,8 +114,7 @@ class Circle:
         return motion
 
 
-@dataclass(frozen=True, slots=True)
-class Lissajous:
+class Lissajous(msgspec.Struct, frozen=True):
     """A sine along each axis of the overlay frame: amplitude (3,) m, frequency (3,) Hz, phase (3,) rad."""
 
     amplitude: Array
@@ -139,8 +138,7 @@ class Lissajous:
         return motion
 
 
-@dataclass(frozen=True, slots=True)
-class Spiral:
+class Spiral(msgspec.Struct, frozen=True):
     """An Archimedean spiral in the x-y plane of the overlay frame, at constant speed; it ends in a circle.
 
     pitch: m between turns; speed: m/s; radius: m, of the circle.
@@ -162,8 +160,7 @@ class Spiral:
         return motion
 
 
-@dataclass(frozen=True, slots=True)
-class FadedOverlay:
+class FadedOverlay(msgspec.Struct, frozen=True):
     """An overlay that fades in for `fade` s from `start` on, and out for as long from `end` on; times in s.
 
     Its frame is that of the overlay.

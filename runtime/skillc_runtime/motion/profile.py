@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from math import sqrt
+
+import msgspec
+from msgspec.structs import replace
 
 from skillc_runtime.motion.numerics.compiled import compiled
 
 
-@dataclass(frozen=True, slots=True)
-class Profile:
+class Profile(msgspec.Struct, frozen=True):
     """Accelerate, cruise, decelerate over a `length` in m or rad.
 
     peak: speed, m/s or rad/s; acceleration, deceleration: m/s^2 or rad/s^2. rate: factor of time, below 1 for a slower

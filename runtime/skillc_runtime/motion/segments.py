@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.motion import segment_sampling as piece
@@ -13,8 +13,7 @@ from skillc_runtime.motion.profile import Profile, trapezoidal_profile
 from skillc_runtime.motion.smooth import SmoothProfile, smooth_profile, window_for
 
 
-@dataclass(frozen=True, slots=True)
-class MotionLimits:
+class MotionLimits(msgspec.Struct, frozen=True):
     """Limits of a planned motion: m/s, m/s^2, rad/s, rad/s^2, m/s^3, rad/s^3.
 
     In a blend, acceleration and jerk of both segments add up.
@@ -33,8 +32,7 @@ class MotionLimits:
         return max(window_for(self.acceleration, self.jerk), window_for(self.turn_acceleration, self.turn_jerk))
 
 
-@dataclass(frozen=True, slots=True)
-class Segment:
+class Segment(msgspec.Struct, frozen=True):
     """A straight displacement and a rotation about a fixed axis.
 
     way, turn: the profiles of path length in m and of the rotation angle in rad. axes (2, 6): [direction, 0] of the

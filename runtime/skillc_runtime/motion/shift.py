@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.profile import Profile, trapezoidal_profile
 
 
-@dataclass(frozen=True, slots=True)
-class Shift:
+class Shift(msgspec.Struct, frozen=True):
     """A displacement that changes from `start` to `end`, each (3,) in m, with a profile of progress 0 to 1.
 
     All vectors are in the frame of the reference, the arm's base. It begins at `since` s. Times `now` are in s.

@@ -5,15 +5,15 @@ s_w(t) = 1/w int_(t-w)^t s;  v_w = (s(t) - s(t-w)) / w;  a_w = (v(t) - v(t-w)) /
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isinf
+
+import msgspec
 
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.profile import Profile, trapezoid_at
 
 
-@dataclass(frozen=True, slots=True)
-class SmoothProfile:
+class SmoothProfile(msgspec.Struct, frozen=True):
     """A profile averaged over a window in s, which makes it longer by as much; speed and acceleration do not increase.
 
     Rise and fall are half of the duration each if it does not cruise.

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 
 from skillc_runtime.motion.arrays import OutMatrix, Vector
@@ -11,8 +10,7 @@ from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array
 
 
-@dataclass(frozen=True, slots=True)
-class StoppingMotion:
+class StoppingMotion(msgspec.Struct, frozen=True):
     """A velocity (n,) in m/s or rad/s that decreases linearly to zero within `duration` s.
 
     Displacements in m or rad are relative to where it comes to rest.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from skillc_runtime.motion.numerics.compiled import compiled
 
@@ -10,8 +10,7 @@ RAMP_S = 0.5
 """Least time from full speed to standstill."""
 
 
-@dataclass(frozen=True, slots=True)
-class TimeScaling:
+class TimeScaling(msgspec.Struct, frozen=True):
     """A change of the rate of motion time, linear in time, from `rate` to `goal`, each from 0 to 1.
 
     It begins at `since` s, when motion time is `time` s, and would take `ramp_s` s between standstill and full speed.

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.collision.arm_assembly import read_arm_assembly
@@ -101,8 +101,7 @@ def move_tool_along(cell: Cell, arm: str, make: Callable[[], Trajectory]) -> Com
     raise _restless()
 
 
-@dataclass(frozen=True, slots=True)
-class _Seen:
+class _Seen(msgspec.Struct, frozen=True):
     """What was around an arm in a version of the world; `around` is None if a model or a pose is missing.
 
     standing: the joints (nv,) in rad of other arms that stood still.

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
-from dataclasses import dataclass
 from typing import Any, TypeAlias
+
+import msgspec
 
 LIMIT_S = 60.0
 """How long a computation may take by default, in s of wall time."""
 
 
-@dataclass(frozen=True, slots=True)
-class Computation:
+class Computation(msgspec.Struct, frozen=True):
     """A call of a function of a module, in another process: its arguments and its result are copied, with `pickle`.
 
     The function uses no devices and starts no programs. So that its result does not depend on the machine, it limits

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from math import degrees
+
+import msgspec
 
 from skillc_runtime.motion.arrays import Array, np
 from skillc_runtime.motion.pose import Pose, log
@@ -14,8 +15,7 @@ TURNED_RAD = 0.2
 """How far a tool may be turned from where it was planned to be, in rad."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class PlannedPosture:
+class PlannedPosture(msgspec.Struct, frozen=True, eq=False):
     """The joints `q` (nv,) in rad with which an arm was planned to bring its tool to a pose in the world."""
 
     arm: str

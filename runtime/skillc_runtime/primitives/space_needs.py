@@ -8,27 +8,26 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
+import msgspec
+
 from skillc_runtime.motion.pose import Array, Pose
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Reach:
+class Reach(msgspec.Struct, frozen=True, eq=False):
     """The arm takes any posture with its tool at a pose, on a way on which it touches nothing."""
 
     arm: str
     tool: Pose
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Take:
+class Take(msgspec.Struct, frozen=True, eq=False):
     """The arm takes a posture (nv,) in rad, on a way on which it touches nothing."""
 
     arm: str
     q: Array
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Follow:
+class Follow(msgspec.Struct, frozen=True, eq=False):
     """The tool moves along straight lines through poses; it may touch things on its way, links and palm may not."""
 
     arm: str
@@ -43,24 +42,21 @@ class Press:
     force: Array
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Spread:
+class Spread(msgspec.Struct, frozen=True, eq=False):
     """While others move the tool it is also at offsets (n, 3) in m from where they bring it."""
 
     arm: str
     offsets: Array
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Open:
+class Open(msgspec.Struct, frozen=True, eq=False):
     """The fingers of a gripper are this far apart from now on, in m, or as far as something between them lets them."""
 
     gripper: str
     opening_m: float
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Hold:
+class Hold(msgspec.Struct, frozen=True, eq=False):
     """A gripper holds a thing from now on; `at` is where the hand closed around it."""
 
     gripper: str
@@ -68,8 +64,7 @@ class Hold:
     at: Pose
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Leave:
+class Leave(msgspec.Struct, frozen=True, eq=False):
     """What the arm holds stands at a place from now on, where the arm has brought it."""
 
     arm: str
@@ -78,8 +73,7 @@ class Leave:
     to: str
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Stand:
+class Stand(msgspec.Struct, frozen=True, eq=False):
     """A mobile base stands at a workstation from now on: where that wants it to, or nearby where the arm can work."""
 
     robot: str

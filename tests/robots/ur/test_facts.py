@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace
 
 from robots.ur.tasks import ARM, HAND
 from skillc.world import load_scene, load_vocabulary

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import replace
 
 import numpy as np
+from msgspec.structs import replace
 
 from skillc_runtime.backends.control_process.command_limits import CommandLimits
 from skillc_runtime.backends.control_process.command_slot import NOTHING

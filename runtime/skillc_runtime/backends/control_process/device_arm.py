@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import mujoco
 import numpy as np
+from msgspec.structs import replace
 
 from skillc_runtime.backends.control_process.command_slot import CommandSlot
 from skillc_runtime.backends.control_process.fingers import find_fingers

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
+from msgspec.structs import replace
 
 from skillc_runtime.backends.control_process.dry_arm import CommandKeeper, DryArm
 from skillc_runtime.backends.control_process.fingers import find_fingers

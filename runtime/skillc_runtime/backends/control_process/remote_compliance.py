@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from math import inf
 from typing import Any
+
+from msgspec.structs import replace
 
 from skillc_runtime.backends.control_process.host import ControlProcess
 from skillc_runtime.devices.guarded_push import GuardedPush, MeasuredForce, PushProgress

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,8 +20,7 @@ USUAL_SHEET = SKILLC + "inspection-camera-sheet"
 """The data sheet of the camera in a scene that has no inspection camera."""
 
 
-@dataclass(frozen=True, slots=True)
-class InspectionSpec:
+class InspectionSpec(msgspec.Struct, frozen=True):
     """A camera that inspects surfaces: how it errs in each spot of an image, and how many images vote on a spot.
 
     miss: share of the unclean spots that it takes for clean; false_alarm: share of the clean ones it takes for unclean.

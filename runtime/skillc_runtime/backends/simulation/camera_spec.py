@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 
 from skillc_runtime.backends.simulation.imperfections import Bias, Dropout, Imperfection, WhiteNoise
@@ -19,8 +18,7 @@ LEAST_VISIBLE = 0.3
 """Which share of an object must be visible, unless the data sheet states it."""
 
 
-@dataclass(frozen=True, slots=True)
-class CameraErrors:
+class CameraErrors(msgspec.Struct, frozen=True):
     """The errors of a camera: m and rad for each axis, shares of the images for the others."""
 
     position_bias_m: float = 0.0
@@ -32,8 +30,7 @@ class CameraErrors:
     false_alarm: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class CameraSpec:
+class CameraSpec(msgspec.Struct, frozen=True):
     """A camera that does not move: its pose in the world, what it sees, and how it errs.
 
     It takes an image each `period_s`, whose estimate arrives `delay_s` later, if the share `least_visible` of an object

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from math import degrees
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import GroundTruth
@@ -28,8 +28,7 @@ REST_M = 0.01
 """How far above what it lies on, or inside it, the lowest point of a thing may be."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class TrueBody:
+class TrueBody(msgspec.Struct, frozen=True, eq=False):
     """A body where it really is: its pose in the world, and its bounding box there."""
 
     body: RigidBody

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import degrees
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.backends.simulation.signed import format_signed
@@ -15,8 +15,7 @@ from skillc_runtime.world.state.terms import POSITION_RANGE, PRODUCT, TURN_RANGE
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class DisplacementRange:
+class DisplacementRange(msgspec.Struct, frozen=True):
     """A thing, and how far it may lie beside its believed place: m along x and y, rad about z, in the world."""
 
     individual: str
@@ -24,8 +23,7 @@ class DisplacementRange:
     turn_rad: float
 
 
-@dataclass(frozen=True, slots=True)
-class Displacement:
+class Displacement(msgspec.Struct, frozen=True):
     """How far a thing really lies beside its believed place: m along x and y, rad about z, in the world."""
 
     individual: str

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from math import inf
 
+from msgspec import structs
+
 from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.control.driver import CompliantArmDriver
@@ -49,7 +51,7 @@ def read_setup(facts: ArmSpec, arm: ModelledArm, period_s: float) -> ArmSetup:
         chosen = read_gains(facts.controller, facts.sheet.number)
     except UnknownController as error:
         raise SheetError(f"{facts.sheet.state.vocabulary.short(facts.individual)}: {error}") from error
-    chosen = replace(chosen, limits=replace(chosen.limits, jerk_m_s3=jerk_limit))
+    chosen = structs.replace(chosen, limits=replace(chosen.limits, jerk_m_s3=jerk_limit))
     _switch_mode(facts, arm, chosen.law)
     virtual, limits = load_virtual_model(facts.model), read_safety_limits(facts)
     return ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.live_base, period_s, limits)

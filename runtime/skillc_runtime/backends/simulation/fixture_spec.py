@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf
 from pathlib import Path
+
+import msgspec
 
 from skillc_runtime.backends.simulation.friction import has_friction_range, read_friction_range
 from skillc_runtime.motion.pose import Pose
@@ -23,8 +24,7 @@ from skillc_runtime.world.state.terms import (
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class FixtureSpec:
+class FixtureSpec(msgspec.Struct, frozen=True):
     """A fixture at its assumed pose in the world, its model and its sheet.
 
     The true pose may differ by `place_range_m` across its z and `depth_range_m` along it, and be tilted by

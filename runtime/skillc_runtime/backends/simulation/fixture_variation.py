@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 
 from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec
@@ -12,8 +11,7 @@ from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Pose, exp
 
 
-@dataclass(frozen=True, slots=True)
-class FixtureVariation:
+class FixtureVariation(msgspec.Struct, frozen=True):
     """One fixture: the offset in m from its assumed pose along its axes, the tilt in rad about its x and y.
 
     friction: sliding, None for that of the model; stiffness_share: how much stiffer its springs are; switch_m: how much

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.motion.pose import Array
@@ -19,8 +19,7 @@ class Imperfection(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class Bias:
+class Bias(msgspec.Struct, frozen=True):
     """A constant error (n,)."""
 
     error: Array
@@ -30,8 +29,7 @@ class Bias:
         return sample + self.error
 
 
-@dataclass(frozen=True, slots=True)
-class WhiteNoise:
+class WhiteNoise(msgspec.Struct, frozen=True):
     """Normally distributed errors with standard deviations (n,), independent between samples."""
 
     deviation: Array
@@ -42,8 +40,7 @@ class WhiteNoise:
         return sample + self.deviation * self.rng.standard_normal(sample.size)
 
 
-@dataclass(frozen=True, slots=True)
-class Dropout:
+class Dropout(msgspec.Struct, frozen=True):
     """Loses this share of the samples, independently of each other."""
 
     share: float

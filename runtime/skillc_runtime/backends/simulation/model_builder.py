@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from itertools import product
 from typing import Any
 
@@ -118,7 +117,8 @@ def _set_solver(spec: Any, scene: SceneSpec, holds: Mapping[str, Hold]) -> None:
 def _add_graspable(spec: Any, scene: SceneSpec, variation: Variation, holds: Mapping[str, Hold]) -> None:
     """Add tools and movable bodies, where they lie or in the hands that hold them."""
     for tool in scene.tools:
-        there = replace(tool, pose=variation.true_pose(tool.individual, tool.pose), mass_kg=variation.mass(tool))
+        pose = variation.true_pose(tool.individual, tool.pose)
+        there = structs.replace(tool, pose=pose, mass_kg=variation.mass(tool))
         stiffness = None if tool.rigid else variation.pad_stiffness(tool)
         add_tool(spec, scene.names, there, stiffness, holds.get(tool.individual))
     for body in scene.movable:

@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar, NoReturn
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.arm import Command, JointPosition, JointVelocity, Mode, ModeRefused, Torque
@@ -22,8 +23,7 @@ HOLD_RATE = 20.0
 """1/s: natural frequency, critically damped, with which a torque-controlled arm holds its joints by itself."""
 
 
-@dataclass(frozen=True, slots=True)
-class Joints:
+class Joints(msgspec.Struct, frozen=True):
     """The joints of a simulated arm: views (nv,) in rad, rad/s, N m.
 
     control, applied: actuator commands, and additional torques, both written here. q, dq, own_bias: present values,

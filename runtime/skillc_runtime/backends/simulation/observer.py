@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.backends.simulation.names import contact_sensor_name, face_sensor_name, pressing_sensor_name
@@ -34,8 +35,7 @@ IS_FULL = 1
 """What an observer asks for: room for further steps."""
 
 
-@dataclass(frozen=True, slots=True)
-class Carrier:
+class Carrier(msgspec.Struct, frozen=True):
     """The driver of an arm that carries a tool, and the pose of its base in the world, whose arrays change."""
 
     driver: CompliantArmDriver

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Array
@@ -12,8 +12,7 @@ from skillc_runtime.world.state.terms import LEAD_RANGE, LEADS, PERSON, STRENGTH
 from skillc_runtime.world.state.world_state import WorldState
 
 
-@dataclass(frozen=True, slots=True)
-class PersonSpec:
+class PersonSpec(msgspec.Struct, frozen=True):
     """A person: the arm they guide, the goal of its tool in the world (3,) m, and their greatest force in N.
 
     The true goal may differ by `range_m` along each axis, the force by `strength_range_n`.
@@ -43,8 +42,7 @@ def read_people(state: WorldState) -> tuple[PersonSpec, ...]:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class PersonVariation:
+class PersonVariation(msgspec.Struct, frozen=True):
     """One person: the offset in m of the goal along each world axis, the greatest force in N, and whether present."""
 
     person: str

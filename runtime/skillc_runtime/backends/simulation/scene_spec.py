@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
+
+import msgspec
 
 from skillc_runtime.backends.simulation.camera import EXACT_INSPECTION, InspectionSpec, read_inspection_camera
 from skillc_runtime.backends.simulation.camera_spec import CameraSpec, read_cameras
@@ -61,8 +62,7 @@ NOISE_DEVIATIONS: Final = 3.0
 """Standard deviations of noise that count as its greatest error."""
 
 
-@dataclass(frozen=True, slots=True)
-class GripperSpec:
+class GripperSpec(msgspec.Struct, frozen=True):
     """A gripper: its model, greatest opening m, force N and finger speed m/s.
 
     Its sensor measures the opening each `sensing_period_s`, with a constant error up to `opening_bias_m` either way and
@@ -89,8 +89,7 @@ class GripperSpec:
         return self.opening_bias_m + NOISE_DEVIATIONS * self.opening_noise_m
 
 
-@dataclass(frozen=True, slots=True)
-class ArmSpec:
+class ArmSpec(msgspec.Struct, frozen=True):
     """An arm: its base in the world, what it takes, home posture (nv,) rad, its compliant controller, and its sheet.
 
     Each joint may start `posture_range_rad` off home. Standard deviations of what is measured: joint speed rad/s, force
@@ -119,8 +118,7 @@ class ArmSpec:
         return "torque" not in self.modes
 
 
-@dataclass(frozen=True, slots=True)
-class BaseSpec:
+class BaseSpec(msgspec.Struct, frozen=True):
     """A mobile base: pose in the world, size (3,) m, speed m/s, acceleration m/s^2, turn rate rad/s, rad/s^2."""
 
     individual: str
@@ -132,8 +130,7 @@ class BaseSpec:
     turn_acceleration: float
 
 
-@dataclass(frozen=True, slots=True)
-class ToolSpec:
+class ToolSpec(msgspec.Struct, frozen=True):
     """A tool: the frame in the middle of its block in the world, size (3,) m of the block, mass kg, its sheet.
 
     Its working face may be stiffer or softer than its sheet says by the share `stiffness_range`; that of a rigid one
@@ -151,8 +148,7 @@ class ToolSpec:
     reality: Reality = IDEAL_REALITY
 
 
-@dataclass(frozen=True, slots=True)
-class SurfaceSpec:
+class SurfaceSpec(msgspec.Struct, frozen=True):
     """A surface at its assumed pose, and the ranges of true values: m along the normal, rad, friction.
 
     `layout` gives the area to work on; a tool works if it is pressed with at least `least_n` N.
@@ -168,8 +164,7 @@ class SurfaceSpec:
     least_n: float = LEAST_FORCE_N
 
 
-@dataclass(frozen=True, slots=True)
-class SceneSpec:
+class SceneSpec(msgspec.Struct, frozen=True):
     """Everything that is built, each kind in order of IRI; `names` are the short names of all individuals.
 
     mounted: the mobile robots that carry fixed bodies, by IRI of the body.

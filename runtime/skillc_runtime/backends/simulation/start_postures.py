@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.collision.arm_assembly import read_arm_assembly

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.backends.simulation.button import SimulatedButton
@@ -21,8 +21,7 @@ from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array, Pose
 
 
-@dataclass(frozen=True, slots=True)
-class SimulatedTruth:
+class SimulatedTruth(msgspec.Struct, frozen=True):
     """Implements `GroundTruth` from the parts of a simulated cell; mappings are by IRI."""
 
     scene: SceneSpec

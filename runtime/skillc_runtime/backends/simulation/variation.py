@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
 from math import hypot
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 
 from skillc_runtime.backends.simulation.displacement import Displacement, draw_displacement
 from skillc_runtime.backends.simulation.fixture_variation import FixtureVariation, draw_fixture, exact_fixture
@@ -25,16 +26,14 @@ OBSTACLE_SHARE = 0.5
 """An obstacle lies within this share of the surface, around its centre."""
 
 
-@dataclass(frozen=True, slots=True)
-class Obstacle:
+class Obstacle(msgspec.Struct, frozen=True):
     """A box on a surface: its position (2,) in m along the surface's x and y, and its size (3,) in m."""
 
     place: tuple[float, float]
     size: tuple[float, float, float] = OBSTACLE_M
 
 
-@dataclass(frozen=True, slots=True)
-class SurfaceVariation:
+class SurfaceVariation(msgspec.Struct, frozen=True):
     """One surface: the offset in m along its assumed normal, the tilt in rad about its assumed x and y, its friction.
 
     present: false if it is absent; obstacle: a box on it that the world model does not have.
@@ -60,8 +59,7 @@ class SurfaceVariation:
         return f"{offset}{format_tilt(x, y)}, friction {self.friction:.2f}"
 
 
-@dataclass(frozen=True, slots=True)
-class Variation:
+class Variation(msgspec.Struct, frozen=True):
     """All differences of one simulated run.
 
     start_rad: offsets of the joints of an arm from home at the start; pad_share: relative difference of the stiffness
@@ -76,7 +74,7 @@ class Variation:
     fixtures: tuple[FixtureVariation, ...] = ()
     people: tuple[PersonVariation, ...] = ()
     displacements: tuple[Displacement, ...] = ()
-    imperfections: Mapping[str, Sizes] = field(default_factory=dict)
+    imperfections: Mapping[str, Sizes] = msgspec.field(default_factory=dict)
 
     def true_pose(self, thing: str, believed: Pose) -> Pose:
         """Return where a thing really is at the start, in the world."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict
 from typing import Any, Literal, cast
 
 from msgspec import structs
@@ -73,7 +72,7 @@ def summarise_run(
         wipings=judged,
         placements=measure_placements(backend.cell.world, truth, targets),
         works=works,
-        touches=() if truth is None else tuple(TouchResult(**asdict(each)) for each in truth.contacts()),
+        touches=() if truth is None else tuple(TouchResult(**structs.asdict(each)) for each in truth.contacts()),
         failure=describe_failure(execution.failure) if execution.failure else None,
         cause=execution.failure,
     )
