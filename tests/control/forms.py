@@ -16,9 +16,11 @@ from skillc_runtime.control.command_validator import update_holding
 from skillc_runtime.control.controllers import make_controllers
 from skillc_runtime.control.limits import EXPECTED, SpeedLimit
 from skillc_runtime.control.momentum_observer import MomentumObserver
-from skillc_runtime.control.safety import distance_outside, tool_speed
+from skillc_runtime.control.period import ArmMemory, copy_state, make_state, watch_arm
+from skillc_runtime.control.safety import SafetyLimits, SafetyMonitor, distance_outside, tool_speed
+from skillc_runtime.control.signal_memory import find_speeds
 from skillc_runtime.control.virtual_arm import load_virtual_model
-from skillc_runtime.devices.arm import command_values
+from skillc_runtime.devices.arm import Capabilities, command_values
 from skillc_runtime.motion.arc import arc_through
 from skillc_runtime.motion.coverage import add_dose
 from skillc_runtime.motion.overlays import Circle, Lissajous
@@ -119,6 +121,28 @@ def watched(count: int) -> list[list[float]]:
     return found
 
 
+def signals(count: int) -> list[list[float]]:
+    """What is kept of the signals of an arm with a wrist, most of them plausible, and the speeds at a stop."""
+    chance, bench, found = np.random.default_rng(13), Bench("ur5e"), []
+    able = Capabilities(("position",), True, True, bench.limits, never_repeats=True)
+    safety = SafetyMonitor(SafetyLimits(80.0, 5.0), bench.state(), "position", able)
+    state, nv = make_state(bench.nv), bench.nv
+    copy_state(bench.state_at_rest(), state)
+    arm = ArmMemory(state, np.zeros(nv), 0.0, np.zeros(3), safety.memory, np.zeros(4), 0.002)
+    for step in range(count):
+        before = state.dq.copy()
+        state.dq[:] += chance.uniform(-0.05, 0.05, nv)
+        state.q[:] += 0.001 * (before + state.dq) + chance.choice([0.0, 1e-2], nv, p=[0.98, 0.02])
+        state.wrench[:], state.effort[:] = chance.uniform(-9, 9, 6), state.bias + chance.uniform(-5, 5, nv)
+        bits, dq = watch_arm(arm, 0.0), np.zeros(nv)
+        find_speeds(dq, safety.memory.signals, state.mass_matrix.copy())
+        kept = safety.memory.signals
+        found.append([float(bits), *dq, *kept.joints.ravel(), *kept.numbers, *kept.wrench, *kept.history.ravel()])
+        if step % 10 == 9:
+            safety.forget_signals()
+    return found
+
+
 def measurements(count: int) -> list[list[float]]:
     """What an arm makes of link, base, payload and wrist readings."""
     chance, hand, found = np.random.default_rng(6), LastLink(), []
@@ -154,7 +178,9 @@ def measurements(count: int) -> list[list[float]]:
 def everything(count: int) -> dict[str, list[list[float]]]:
     """All of it, a row for each input."""
     results = {robot: laws(robot, count) for robot in LAWS}
-    others = {part.__name__: part(count) for part in (references, curves, watched, measurements, speeds, servos)}
+    others = {
+        part.__name__: part(count) for part in (references, curves, watched, measurements, speeds, servos, signals)
+    }
     return {**results, **others}
 
 

@@ -100,9 +100,8 @@ class Outcome:
 
     @property
     def is_safe(self) -> bool:
-        """Whether the arm stopped by itself, is at rest, presses on nothing, and never did too hard."""
-        rests = self.speed_rad_s < 0.03 and self.left_n < 5.0
-        return self.noticed_s is not None and rests and self.force_n <= 1.25 * LIMIT_N
+        """Whether the arm is at rest, presses on nothing, and never did too hard."""
+        return self.speed_rad_s < 0.03 and self.left_n < 5.0 and self.force_n <= 1.25 * LIMIT_N
 
 
 def try_fault(arm: str, kind: FaultKind, phase: str, seed: int = 0) -> Outcome | None:
@@ -120,7 +119,7 @@ def try_fault(arm: str, kind: FaultKind, phase: str, seed: int = 0) -> Outcome |
     with closing(SimulatedCell(WorldModel(state), seed)) as cell:
         trial = Trial(cell, kind, phase)
         ended = execute_task(prepared, known, cell, [trial.listen], trial.look, lambda: trial.is_over)
-        if trial.noticed_s is None and ended.failure is not None and cell.now > trial.starts_s:
+        if trial.noticed_s is None and ended.failure is not None and not trial.is_over and cell.now > trial.starts_s:
             trial.noticed_s, trial.reason = cell.now, f"(task) {ended.failure}"
         until = (trial.noticed_s or cell.now) + REST_S
         if cell.now < until and cell.broken is None:

@@ -5,29 +5,31 @@ from __future__ import annotations
 import pytest
 
 from safety.fault_trials import try_fault
+from skillc_runtime.backends.simulation.signal_faults import FaultKind
 
 pytestmark = pytest.mark.sim
 
 WORST = (
-    ("iiwa", "speed-negated", "approach"),
-    ("iiwa", "speed-negated", "wipe"),
-    ("iiwa", "all-frozen", "carry"),
-    ("iiwa", "position-jumps", "free"),
-    ("iiwa", "all-intermittent", "insert"),
-    ("panda", "speed-negated", "press"),
-    ("panda", "all-frozen", "approach"),
-    ("ur5e", "wrench-frozen", "wipe"),
-    ("ur5e", "wrench-zero", "approach"),
-    ("ur5e", "wrench-negated", "approach"),
+    ("iiwa", "speed-negated", "approach", 0.1),
+    ("iiwa", "speed-negated", "wipe", 0.1),
+    ("iiwa", "all-frozen", "carry", 0.1),
+    ("iiwa", "position-jumps", "free", 0.1),
+    ("iiwa", "all-intermittent", "insert", 0.1),
+    ("panda", "speed-negated", "press", 0.1),
+    ("panda", "all-frozen", "approach", 0.1),
+    ("ur5e", "wrench-frozen", "wipe", 0.1),
+    ("ur5e", "wrench-zero", "approach", 0.1),
+    ("ur5e", "wrench-negated", "approach", 2.0),
 )
-"""Those that ended with hundreds to thousands of newtons when nothing looked at the signals, or without a word."""
+"""Those that ended with hundreds to thousands of newtons when nothing looked at the signals, or without a word; within
+how many s they have to be noticed: a force of the wrong sign once there is one."""
 
 
-@pytest.mark.parametrize(("arm", "kind", "phase"), WORST)
-def test_an_arm_stops_before_it_presses_too_hard(arm: str, kind: str, phase: str) -> None:
+@pytest.mark.parametrize(("arm", "kind", "phase", "within_s"), WORST)
+def test_an_arm_stops_before_it_presses_too_hard(arm: str, kind: FaultKind, phase: str, within_s: float) -> None:
     found = try_fault(arm, kind, phase)
     assert found is not None
     assert found.is_safe, found
     assert found.noticed_s is not None
-    assert found.noticed_s < 0.1
+    assert found.noticed_s < within_s
     assert "measure" in found.reason

@@ -15,7 +15,7 @@ import numpy as np
 
 from skillc_runtime.control.arm_task import ArmTask
 from skillc_runtime.control.limits import JointLimit
-from skillc_runtime.control.signal_memory import SignalMemory, find_speeds
+from skillc_runtime.control.signal_memory import FOUND, OF_WRIST, SignalMemory, find_speeds
 from skillc_runtime.devices.arm import (
     Arm,
     ArmLimits,
@@ -109,15 +109,18 @@ def make_blind_stop(
     """Return the stop of an arm, whose brakes engage if it takes torques and has some.
 
     holds (nv,): N m, what carries it where it was measured last; axis (3,): out of the surface that its tool presses
-    on, in base, None if it presses on none.
+    on, in base, None if it presses on none. If only the wrist is wrong, servos stop from where they are, else from
+    where they were commanded to be.
     """
     limit, mode, back = task.controllers.limit, arm.interface, np.zeros_like(state.q)
     if isinstance(limit, JointLimit):
-        q, dq = limit.q, limit.dq
+        is_measured = signals.numbers[FOUND] in OF_WRIST
+        q, dq = (state.q, state.dq) if is_measured else (limit.q, limit.dq)
         if axis is not None:
             back = find_way_back(task.kinematics.tool_at(q, state)[1], RETREAT_M * axis)
     else:
         q, dq = state.q, predict_speeds(signals, state)
-        with suppress(NotOffered):
-            arm.drop_brakes()
+        if hasattr(arm, "drop_brakes"):  # An arm need not be derived from `Arm`.
+            with suppress(NotOffered):
+                arm.drop_brakes()
     return BlindStop(mode, dq, q, holds, state.mass_matrix, task.limits, back, task.period)

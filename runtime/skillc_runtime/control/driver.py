@@ -171,7 +171,8 @@ class CompliantArmDriver:
         self.broken = self.violation = None
         if self._blind is not None:
             self._blind = None
-            self._arm.set_brakes(False)
+            if hasattr(self._arm, "set_brakes"):  # An arm need not be derived from `Arm`.
+                self._arm.set_brakes(False)
             self._safety.forget_signals()
             self._task.hold_joints(self._arm.state())
 

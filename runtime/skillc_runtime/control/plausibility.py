@@ -8,11 +8,11 @@ The wrench of a wrist is compared with the torques of the motors, which the mome
 
 from __future__ import annotations
 
-from math import sqrt
+from math import exp, sqrt
 
 import numpy as np
 
-from skillc_runtime.control.momentum_observer import DAMPING, WINDOW_S, ObserverMemory, estimate_wrench
+from skillc_runtime.control.momentum_observer import DAMPING, LAG_S, WINDOW_S, ObserverMemory, estimate_wrench
 from skillc_runtime.control.signal_memory import (
     AMOUNT,
     BEYOND_RANGE,
@@ -33,6 +33,7 @@ from skillc_runtime.control.signal_memory import (
     KNOWN,
     LAST_Q,
     LAST_SPEED,
+    LATE,
     LOADED,
     LOST,
     LOW,
@@ -43,6 +44,8 @@ from skillc_runtime.control.signal_memory import (
     SAME_S,
     SAME_SPEED_S,
     SAME_WRENCH_S,
+    SUM,
+    SUMMED_S,
     TOO_FAST,
     WAY,
     WRENCH_DIFFERS,
@@ -92,9 +95,8 @@ WRENCH_JUMP_SHARE = 2.0
 """How many times the limit of the contact force a wrench cannot change by in a period: with 1 MN/m and 0.1 m/s a force
 grows by 100 N in 1 ms."""
 
-CONTRADICTION_SHARE, CONTRADICTION_S = 0.5, 0.06
-"""Share of the limit of the contact force by which wrist and motors may differ, and for how long: the
-estimate by the motors is late by twice 10 ms."""
+CONTRADICTION_SHARE, CONTRADICTION_S = 0.5, 0.035
+"""Share of the limit of the contact force by which wrist and motors may differ, and for how long."""
 
 
 @inlined
@@ -219,15 +221,24 @@ def _check_wrench(memory: SignalMemory, observer: ObserverMemory, state: ArmStat
 
 @inlined
 def _compare_wrench(memory: SignalMemory, observer: ObserverMemory, state: ArmState, period: float) -> float:
-    """Return whether the torques of the motors contradict the wrench; looked at once the observer has an estimate."""
-    numbers, facts = memory.numbers, memory.facts
-    if facts[COMPARES] == 0.0 or observer.elapsed[0] != 0.0:
+    """Return whether the torques of the motors contradict the wrench, which is made as late as what these tell."""
+    numbers, facts, wrench = memory.numbers, memory.facts, memory.wrench
+    if facts[COMPARES] == 0.0:
         return NOTHING
-    felt, square = np.empty(6), 0.0
+    for i in range(3):
+        wrench[SUM + i] += period * state.wrench[i]
+    numbers[SUMMED_S] += period
+    if observer.elapsed[0] != 0.0:
+        return NOTHING
+    felt, square, share = np.empty(6), 0.0, 1.0 - exp(-numbers[SUMMED_S] / LAG_S)
     estimate_wrench(felt, observer.torque, state.jacobian, DAMPING)
     for i in range(3):
-        square += (felt[i] - state.wrench[i]) * (felt[i] - state.wrench[i])
-    if square <= (CONTRADICTION_SHARE * facts[MOST_N]) ** 2:
+        wrench[LATE + i] += share * (wrench[SUM + i] / numbers[SUMMED_S] - wrench[LATE + i])
+        wrench[SUM + i] = 0.0
+        square += (felt[i] - wrench[LATE + i]) * (felt[i] - wrench[LATE + i])
+    numbers[SUMMED_S] = 0.0
+    most = CONTRADICTION_SHARE * facts[MOST_N]
+    if square <= most * most:
         numbers[DIFFERS_S] = 0.0
         return NOTHING
     numbers[DIFFERS_S] += WINDOW_S

@@ -20,11 +20,11 @@ LAST_Q, LAST_SPEED, GAP, WAY, LOADED, GAINED, TAKEN, LOW, HIGH, FASTEST, EFFORT 
 external torque when joints began to be the same; GAINED N m s: all the impulse of motors and surroundings, and TAKEN
 what it has of that of the observer; LOW, HIGH rad, FASTEST rad/s, EFFORT N m: limits."""
 
-KNOWN, LOST, SAME_S, SAME_SPEED_S, SAME_WRENCH_S, DIFFERS_S, AGE, NEXT, FOUND, JOINT, AMOUNT = range(11)
+KNOWN, LOST, SAME_S, SAME_SPEED_S, SAME_WRENCH_S, DIFFERS_S, SUMMED_S, AGE, NEXT, FOUND, JOINT, AMOUNT = range(12)
 """Entries of `SignalMemory.numbers`. KNOWN: 1 if there is a measurement before; LOST s: time lost between periods until
 then; SAME_S, SAME_SPEED_S, SAME_WRENCH_S: for how long joints, their speeds, the wrench are the same; DIFFERS_S: for
-how long wrist and motors differ; AGE s of the newest row of the history, NEXT the row after it; FOUND: what is
-implausible, in what JOINT and by what AMOUNT."""
+how long wrist and motors differ; SUMMED_S: since when forces of the wrist are added up; AGE s of the newest row of the
+history, NEXT the row after it; FOUND: what is implausible, in what JOINT and by what AMOUNT."""
 
 REPEATS, FEELS, COMPARES, COMMANDED, MOST_N = range(5)
 """Entries of `SignalMemory.facts`: 1 if measurements that are the same are old ones, if there is a wrist, if it is
@@ -37,12 +37,20 @@ compared with the torques of the motors, and if these are commanded; the limit o
 """What is implausible."""
 
 
+OF_WRIST = (WRENCH_FROZEN, WRENCH_JUMPS, WRENCH_DIFFERS)
+"""Those of which the joints are still measured as they are."""
+
+SUM, LATE = 8, 11
+"""Where in `SignalMemory.wrench` the force of the wrist is added up, N s, and where it is as late as an observer, N."""
+
+
 @dataclass(frozen=True, slots=True)
 class SignalMemory:
     """What is kept of the signals of an arm.
 
-    joints (11, nv), numbers (11,), facts (5,): see above; wrench (8,): measured before, N and N m, and the squares of
-    its halves; history (8, 3 nv): speeds in rad/s, GAINED and external torques, a row every `HISTORY_S`.
+    joints (11, nv), numbers (12,), facts (5,): see above; wrench (14,): measured before, N and N m, the squares of
+    its halves, SUM and LATE, see above; history (8, 3 nv): speeds in rad/s, GAINED and external torques, a row every
+    `HISTORY_S`.
     """
 
     joints: OutMatrix
@@ -58,7 +66,7 @@ def make_signal_memory(state: ArmState, limits: ArmLimits) -> SignalMemory:
     joints = np.zeros((11, count))
     joints[LOW], joints[HIGH] = limits.range[:, 0], limits.range[:, 1]
     joints[FASTEST], joints[EFFORT] = limits.velocity, limits.effort
-    return SignalMemory(joints, np.zeros(11), np.zeros(5), np.zeros(8), np.zeros((HISTORY, 3 * count)))
+    return SignalMemory(joints, np.zeros(12), np.zeros(5), np.zeros(14), np.zeros((HISTORY, 3 * count)))
 
 
 @inlined
@@ -72,6 +80,8 @@ def begin_signals(memory: SignalMemory, observer: ObserverMemory, state: ArmStat
         joints[GAP, j], joints[WAY, j], joints[GAINED, j], joints[TAKEN, j] = 0.0, 0.0, 0.0, observer.impulse[j]
         joints[LOADED, j] = observer.torque[j]
     keep_signals(memory, state)
+    for i in range(3):
+        memory.wrench[SUM + i], memory.wrench[LATE + i] = 0.0, state.wrench[i]
     for row in range(HISTORY):
         _write_history(memory, observer, state, row)
 
