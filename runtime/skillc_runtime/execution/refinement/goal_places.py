@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TypeVar
+
+from msgspec import structs
 
 from skillc_model.conditions import Condition
 from skillc_runtime.planning.plan import GaveUp
@@ -30,4 +31,4 @@ def name_goal_places(answer: T, goal: Condition, state: WorldState) -> T | GaveU
     wanted = list(list_wanted(state, goal))[:MOST]
     problems = (str(each) for each in (find_place_problem(state, *one) for one in wanted) if each is not None)
     more = [each for each in dict.fromkeys(problems) if each not in answer.why]
-    return replace(answer, why="; ".join((answer.why, *(f"also: {each}" for each in more))))
+    return structs.replace(answer, why="; ".join((answer.why, *(f"also: {each}" for each in more))))
