@@ -11,7 +11,7 @@ from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
 
 from skillc_runtime.backends.mujoco.wrist import WristFilter, filter_wrist
 from skillc_runtime.backends.simulation.arm_sensing import ArmSensing, LastLink, MassMemory, measure, take_mass
-from skillc_runtime.backends.simulation.motors import MotorMemory, pursue
+from skillc_runtime.backends.simulation.motor_memory import MotorMemory, pursue
 from skillc_runtime.control.command_validator import update_holding
 from skillc_runtime.control.controllers import make_controllers
 from skillc_runtime.control.limits import EXPECTED, SpeedLimit

@@ -16,7 +16,8 @@ from skillc_runtime.backends.simulation.arm import ModelledArm
 from skillc_runtime.backends.simulation.base import BaseStep
 from skillc_runtime.backends.simulation.checkpoint import SavedGrip
 from skillc_runtime.backends.simulation.finger_sensor import make_finger_sensor
-from skillc_runtime.backends.simulation.gripper import LossWatch, ModelledGripper, may_be_lost
+from skillc_runtime.backends.simulation.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.loss_watch import LossWatch, may_be_lost
 from skillc_runtime.backends.simulation.names import part_name, weld_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
 from skillc_runtime.motion.numerics.compiled import Bound, bind

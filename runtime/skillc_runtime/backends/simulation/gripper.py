@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 from typing import Any
 
 import mujoco
@@ -14,15 +13,14 @@ from skillc_runtime.backends.simulation.base import BaseStep
 from skillc_runtime.backends.simulation.checkpoint import SavedGrip, SavedGripper, list_numbers, make_pose
 from skillc_runtime.backends.simulation.contact_bits import HANDLE, PAD
 from skillc_runtime.backends.simulation.contacts import Contacts
-from skillc_runtime.backends.simulation.finger_sensor import LAST, FingerSensor, Opening, measure
+from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
 from skillc_runtime.backends.simulation.gripper_geoms import find_handles, find_pads
+from skillc_runtime.backends.simulation.loss_watch import COUNTS, HELD_AT
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
 from skillc_runtime.devices.arm import ArmLoad
-from skillc_runtime.devices.gripper import CLOSED_FURTHER_M, has_closed_further
+from skillc_runtime.devices.gripper import has_closed_further
 from skillc_runtime.devices.ground_truth import HandSample
-from skillc_runtime.motion.arrays import Vector
-from skillc_runtime.motion.numerics.compiled import compiled
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.space.bodies import RigidBody
@@ -31,34 +29,6 @@ OPPOSING = -0.7
 """Cosine below which two contact normals count as opposite sides."""
 
 NOTHING: frozenset[int] = frozenset()
-
-
-COUNTS, HELD_AT = 0, 1
-"""Entries of `LossWatch.held`: 1 while something counts as held; the measured opening in m when it began to."""
-
-
-@dataclass(frozen=True, slots=True)
-class LossWatch:
-    """What tells of a loss: `sensor`; opening (1,): the true one in m; held (2,): see above.
-
-    step_s: how much later than at the beginning of a step the opening is measured.
-    """
-
-    sensor: Opening
-    opening: Vector
-    held: Vector
-    step_s: float
-
-
-@compiled
-def may_be_lost(watch: LossWatch, now: float) -> int:
-    """Return 1 if what counts as held may be lost, or Python has to measure; `has_closed_further` tells."""
-    if watch.held[COUNTS] == 0.0:
-        return 0
-    if not measure(watch.sensor, now + watch.step_s, watch.opening[0]):
-        return 1
-    held_at = watch.held[HELD_AT]
-    return 1 if watch.sensor.values[LAST] < held_at - min(CLOSED_FURTHER_M, held_at / 2) else 0
 
 
 class ModelledGripper(ABC):
