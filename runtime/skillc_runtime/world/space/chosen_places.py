@@ -49,7 +49,7 @@ def list_places(state: WorldState, arm: str, gripper: str, thing: str, to: str) 
     """
     poses = list_placing_poses(state, thing, to)
     chosen = chosen_place(thing, to)
-    yield from (PossiblePlace(each, pose(state, each), stated=each != chosen) for each in poses)
+    yield from (PossiblePlace(each, pose(state, each), stated=True) for each in poses)
     if any(not state.objects(each, RESERVED_FOR) for each in poses):
         return
     held = pose_in_hand(state, gripper, thing) @ working_face(size(state, thing))
@@ -71,8 +71,13 @@ def chosen_place(thing: str, to: str) -> str:
 
 
 def reservation_changes(state: WorldState, thing: str, to: str, support: str, at: Pose) -> list[Change]:
-    """Return the changes that reserve a place for a thing, with its pose as a tool there in the frame of a support."""
+    """Return the changes that reserve a place for a thing, with its pose as a tool there in the frame of a support.
+
+    There are none if `support` is the place that is reserved for it already.
+    """
     chosen = chosen_place(thing, to)
+    if support == chosen:
+        return []
     return [
         *end_of_reservation(state, thing, to),
         AddIndividual(chosen, (PLACING_POSE,)),
