@@ -39,6 +39,7 @@ from skillc_runtime.control.signal_memory import (
     LOW,
     MOST_N,
     NOTHING,
+    OLD_S,
     OLD_SPEED,
     REPEATS,
     SAME_S,
@@ -103,7 +104,8 @@ CONTRADICTION_SHARE, CONTRADICTION_S = 0.5, 0.035
 def check_signals(memory: SignalMemory, observer: ObserverMemory, state: ArmState, period: float, lost: float) -> bool:
     """Tell, once, whether what is measured cannot be true; to be called every `period` s, before momentum is observed.
 
-    lost: s, all time lost between periods; after a gap there is nothing to compare with.
+    lost: s, all time lost between periods; after a gap there is nothing to compare with. That an arm is silent is for
+    others to tell: what comes then is compared with what came last, over the time between.
     """
     numbers = memory.numbers
     if numbers[KNOWN] == 0.0 or numbers[LOST] != lost:
@@ -112,12 +114,30 @@ def check_signals(memory: SignalMemory, observer: ObserverMemory, state: ArmStat
     if numbers[FOUND] != NOTHING:
         return False
     remember(memory, observer, state, period)
-    found = _check_joints(memory, observer, state, period)
+    found = NOTHING
+    if memory.facts[REPEATS] == 0.0 and _is_old(memory.joints, state):
+        numbers[OLD_S] += period
+    elif numbers[OLD_S] > FORGETTING_S:
+        begin_signals(memory, observer, state, lost)
+        return False
+    else:
+        elapsed = period + numbers[OLD_S]
+        numbers[OLD_S] = 0.0
+        found = _check_joints(memory, observer, state, elapsed)
     if found == NOTHING and memory.facts[FEELS] != 0.0:
         found = _check_wrench(memory, observer, state, period)
     keep_signals(memory, state)
     numbers[FOUND] = found
     return found != NOTHING
+
+
+@inlined
+def _is_old(joints: Array, state: ArmState) -> bool:
+    """Tell whether all joints are measured exactly as in the period before."""
+    same = True
+    for j in range(state.q.size):
+        same = same and state.q[j] == joints[LAST_Q, j] and state.dq[j] == joints[LAST_SPEED, j]
+    return same
 
 
 @inlined
@@ -135,7 +155,7 @@ def _check_joints(memory: SignalMemory, observer: ObserverMemory, state: ArmStat
 @inlined
 def _check_joint(memory: SignalMemory, state: ArmState, j: int, period: float) -> float:
     """Update the sums of a joint, and return what is implausible of it."""
-    joints, numbers, kept = memory.joints, memory.numbers, 1.0 - period / FORGETTING_S
+    joints, numbers, kept = memory.joints, memory.numbers, max(0.0, 1.0 - period / FORGETTING_S)
     q, dq = state.q[j], state.dq[j]
     step, expected = q - joints[LAST_Q, j], 0.5 * period * (dq + joints[LAST_SPEED, j])
     joints[GAP, j] = kept * joints[GAP, j] + step - expected

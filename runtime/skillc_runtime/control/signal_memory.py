@@ -20,11 +20,14 @@ LAST_Q, LAST_SPEED, GAP, WAY, LOADED, GAINED, TAKEN, LOW, HIGH, FASTEST, EFFORT 
 external torque when joints began to be the same; GAINED N m s: all the impulse of motors and surroundings, and TAKEN
 what it has of that of the observer; LOW, HIGH rad, FASTEST rad/s, EFFORT N m: limits."""
 
-KNOWN, LOST, SAME_S, SAME_SPEED_S, SAME_WRENCH_S, DIFFERS_S, SUMMED_S, AGE, NEXT, FOUND, JOINT, AMOUNT = range(12)
+(
+    KNOWN, LOST, SAME_S, SAME_SPEED_S, SAME_WRENCH_S, DIFFERS_S, SUMMED_S, AGE, NEXT, FOUND, JOINT, AMOUNT, OLD_S,
+) = range(13)  # fmt: skip
 """Entries of `SignalMemory.numbers`. KNOWN: 1 if there is a measurement before; LOST s: time lost between periods until
 then; SAME_S, SAME_SPEED_S, SAME_WRENCH_S: for how long joints, their speeds, the wrench are the same; DIFFERS_S: for
 how long wrist and motors differ; SUMMED_S: since when forces of the wrist are added up; AGE s of the newest row of the
-history, NEXT the row after it; FOUND: what is implausible, in what JOINT and by what AMOUNT."""
+history, NEXT the row after it; FOUND: what is implausible, in what JOINT and by what AMOUNT; OLD_S: for how long no
+new measurement of the joints has come, of an arm of which the same one may be an old one."""
 
 REPEATS, FEELS, COMPARES, COMMANDED, MOST_N = range(5)
 """Entries of `SignalMemory.facts`: 1 if measurements that are the same are old ones, if there is a wrist, if it is
@@ -48,7 +51,7 @@ SUM, LATE = 8, 11
 class SignalMemory:
     """What is kept of the signals of an arm.
 
-    joints (11, nv), numbers (12,), facts (5,): see above; wrench (14,): measured before, N and N m, the squares of
+    joints (11, nv), numbers (13,), facts (5,): see above; wrench (14,): measured before, N and N m, the squares of
     its halves, SUM and LATE, see above; history (8, 3 nv): speeds in rad/s, GAINED and external torques, a row every
     `HISTORY_S`.
     """
@@ -66,7 +69,7 @@ def make_signal_memory(state: ArmState, limits: ArmLimits) -> SignalMemory:
     joints = np.zeros((11, count))
     joints[LOW], joints[HIGH] = limits.range[:, 0], limits.range[:, 1]
     joints[FASTEST], joints[EFFORT] = limits.velocity, limits.effort
-    return SignalMemory(joints, np.zeros(12), np.zeros(5), np.zeros(14), np.zeros((HISTORY, 3 * count)))
+    return SignalMemory(joints, np.zeros(13), np.zeros(5), np.zeros(14), np.zeros((HISTORY, 3 * count)))
 
 
 @inlined
