@@ -2,8 +2,9 @@
 
 With the step of a joint s = q - q_before and what its speed says of it, e = h (dq + dq_before) / 2, two sums forget
 with the time T: gap' = gap - h gap / T + s - e and way' = way - h way / T + max(|s|, |e|). A speed that a filter delays
-leaves a small gap, one of the wrong sign twice the way. What measures noise or a motion never measures the same twice.
-The wrench of a wrist is compared with the torques of the motors, which the momentum observer has.
+leaves a small gap, one of the wrong sign twice the way. Both are compared only of arms whose measurements come once a
+period: of others it is not known over which time a step went. What measures noise or a motion never measures the same
+twice. The wrench of a wrist is compared with the torques of the motors, which the momentum observer has.
 """
 
 from __future__ import annotations
@@ -166,7 +167,7 @@ def _check_joint(memory: SignalMemory, state: ArmState, j: int, period: float) -
         return _report(numbers, BEYOND_RANGE, j, q)
     if abs(dq) > SPEED_SHARE * joints[FASTEST, j]:
         return _report(numbers, TOO_FAST, j, dq)
-    if abs(joints[GAP, j]) > GAP_RAD + GAP_SHARE * joints[WAY, j]:
+    if memory.facts[REPEATS] != 0.0 and abs(joints[GAP, j]) > GAP_RAD + GAP_SHARE * joints[WAY, j]:
         return _report(numbers, CONTRADICTS, j, joints[GAP, j])
     return NOTHING
 
