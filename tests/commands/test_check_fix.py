@@ -186,6 +186,7 @@ def test_a_file_that_was_changed_meanwhile_is_left_alone(library: Path, monkeypa
     assert "was changed by another program" in result.stderr
 
 
+@pytest.mark.slow
 def test_scenes_are_fixed_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     scene = Path("own.ttl")

@@ -248,6 +248,7 @@ def test_what_a_device_contradicts_is_the_reason(place: Path) -> None:
     assert "pre `held: gripper contain object` does not hold" in json.dumps(answer["cause"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["full box", "place without size"])
 def test_what_may_change_until_then_is_a_warning(name: str, place: Path) -> None:
     result = invoke(written(place, WAYS[name]), "check", "DIR")
