@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from itertools import product
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
@@ -32,13 +33,16 @@ def main() -> None:
     parser.add_argument("--kinds", default=",".join(KINDS))
     parser.add_argument("--phases", default=",".join(PHASES))
     options = parser.parse_args()
-    for arm in options.arms or WIPES:
-        for phase in options.phases.split(","):
-            for kind in options.kinds.split(","):
-                if kind not in WRENCH_KINDS or arm == "ur5e":
-                    found = try_fault(arm, kind, phase)
-                    if found is not None:
-                        print(f"{arm:6} {phase:9} {kind:19} {describe(found)}", flush=True)
+    arms, phases, kinds = options.arms or list(WIPES), options.phases.split(","), options.kinds.split(",")
+    for given, known in ((arms, WIPES), (phases, PHASES), (kinds, KINDS)):
+        if unknown := sorted(set(given) - set(known)):
+            parser.error(f"unknown: {', '.join(unknown)}; there are: {', '.join(known)}")
+    for arm, phase, kind in product(arms, phases, kinds):
+        if kind in WRENCH_KINDS and arm != "ur5e":
+            continue
+        found = try_fault(arm, kind, phase)
+        if found is not None:
+            print(f"{arm:6} {phase:9} {kind:19} {describe(found)}", flush=True)
 
 
 if __name__ == "__main__":

@@ -20,6 +20,17 @@ def show(page: Page, what: str) -> None:
     page.get_by_label("What to show").select_option(label=what)
 
 
+def add_while_terms_are_late(page: Page) -> list[Route]:
+    """Open the form for a new fact about a crate; the requests for what can be stated stay unanswered."""
+    late: list[Route] = []
+    page.route("**/world/terms*", lambda route: late.append(route))
+    show(page, "facts")
+    page.get_by_label("Search in the facts").fill("contain lab:crate-4")
+    page.locator(".world tbody button.link", has_text="crate-4").first.click()
+    page.get_by_role("button", name="Add", exact=True).click()
+    return late
+
+
 def test_an_edit_is_undone_with_who_and_why(page: Page, server: RunningServer) -> None:
     edit(server, 'lab:crate-2 skiros:FrameId "first"', "it has a name")
     edit(server, 'lab:crate-2 skiros:FrameId "second"', "it has another name")
@@ -65,12 +76,7 @@ def test_a_fact_is_edited_by_a_click_and_the_edit_undone(page: Page, server: Run
 
 def test_what_was_refused_stays_told_when_a_slow_answer_comes(page: Page) -> None:
     """What a form can state is read while somebody edits already; its answer takes no message away."""
-    late: list[Route] = []
-    page.route("**/world/terms*", lambda route: late.append(route))
-    show(page, "facts")
-    page.get_by_label("Search in the facts").fill("contain lab:crate-4")
-    page.locator(".world tbody button.link", has_text="crate-4").first.click()
-    page.get_by_role("button", name="Add", exact=True).click()
+    late = add_while_terms_are_late(page)
     page.get_by_role("button", name="Several facts").click()
     page.get_by_label("Fact 1").fill("lab:crate-4 nonsense lab:crate-5")
     page.get_by_label("Why", exact=True).fill("it is tried")
@@ -146,12 +152,7 @@ def test_what_robots_can_do_is_found_by_a_word(page: Page, scheme: str) -> None:
 
 
 def test_a_new_fact_does_not_move_under_a_click_when_what_can_be_stated_is_known(page: Page) -> None:
-    late: list[Route] = []
-    page.route("**/world/terms*", lambda route: late.append(route))
-    show(page, "facts")
-    page.get_by_label("Search in the facts").fill("contain lab:crate-4")
-    page.locator(".world tbody button.link", has_text="crate-4").first.click()
-    page.get_by_role("button", name="Add", exact=True).click()
+    late = add_while_terms_are_late(page)
     terms = page.get_by_label("What is stated")
     expect(terms).to_be_disabled()
     several = page.get_by_role("button", name="Several facts")

@@ -54,7 +54,8 @@ def _find_on(path: tuple[str, ...]) -> EntryPoints:
         listed = msgspec.json.decode(known, type=list[tuple[str, str]])
         return EntryPoints(EntryPoint(name, value, GROUP) for name, value in listed)
     found = entry_points(group=GROUP)
-    if entry is not None and len(found.names) == len(found):  # of two with one name, the packages are told
+    # If two packages offer one name, the refusal names both packages, which the cache does not keep.
+    if entry is not None and len(found.names) == len(found):
         store(entry, msgspec.json.encode([(each.name, each.value) for each in found]))
         delete_oldest(entry.parent, _MOST, _MOST // 2)
     return found

@@ -130,7 +130,7 @@ class Attempt(_Part, frozen=True, kw_only=True):
 
     Steps that were not started come last. `planned` is how many steps the plan has.
     `quality` is how good the plan is known to be, `space` what is known of it in space, None if nobody has looked;
-    `replaces` is why the previous plan was abandoned. `notes` were told meanwhile: they had no effect on the run.
+    `replaces` is why the previous plan was abandoned. `notes` are what the run noted meanwhile, without effect on it.
     """
 
     steps: tuple[RecordedCall, ...]

@@ -14,7 +14,7 @@ DEPTH_M = 0.002
 """How far the bumper gives way; what overlaps more than at the start of a drive counts as touched."""
 
 SEEN_M = 0.5
-"""Up to which distance obstacles are told apart."""
+"""The distance beyond which all obstacles count as equally far away."""
 
 
 class Bumper:

@@ -39,8 +39,8 @@ DAMPING_S: Final = 0.001
 class Friction:
     """The friction of an arm's joints, (nv,) in N m, rad and rad/s.
 
-    applied: the torques that it becomes a part of. added: 1 if motors write these anew in each step, so that friction
-    is added to them; 0 if there are no others. slow: friction of a joint that moves slowly; bent: of the bristles.
+    applied: torques on the joints, the friction included. added: 1 if motors write them in each step, so that the
+    friction is added; 0 if friction is all there is. slow: friction of a joint that moves slowly; bent: of bristles.
     """
 
     applied: OutVector

@@ -45,9 +45,12 @@ WELD_SOLIMP = (0.99, 0.999, 0.0005, 0.5, 2.0)
 NO_HOLDS: Mapping[str, Hold] = {}
 
 SLIDING_TOLERANCE = 1e-4
-"""Conjugate gradients end where they would gain less. The force on a soft face differs by up to 2e-3 of itself from an
-exact solution, 1.5e-4 in the median; with MuJoCo's 1e-8 it differs by up to 2e-5, and a step takes an eighth to a
-quarter longer. Wipes of the same seeds are the same: no force RMSE changed by more than 0.005 % of the force."""
+"""Conjugate gradients stop when a further step would improve the solution by less.
+
+The force on a soft face differs by up to 2e-3 of itself from an exact solution, 1.5e-4 in the median; with MuJoCo's
+1e-8 it differs by up to 2e-5, and a step takes an eighth to a quarter longer. Wipes of the same seeds are the same: no
+force RMSE changed by more than 0.005 % of the force.
+"""
 
 BOARD, STEEL = (0.93, 0.94, 0.95, 1.0), (0.4, 0.43, 0.47, 1.0)
 

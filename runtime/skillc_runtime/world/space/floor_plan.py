@@ -17,7 +17,7 @@ DEPTH_M: Final = 0.002
 """How deep a base may overlap a thing, as far as its bumper gives way."""
 
 DIRECTIONS: Final = 64
-"""Along how many directions footprints are told apart: the corners of things count as blunt by 2 mm a metre."""
+"""The number of directions along which footprints are separated; it rounds corners by 2 mm per metre of a thing."""
 
 NEAR_M: Final = 0.25
 """To what is nearer where a base starts or where it shall stand it need not keep away."""
