@@ -179,11 +179,13 @@ clean:           ## remove the environment and all output
 	$(BIN)/python studio/build.py
 	@touch $@
 
-# Compile what the tests import once, on all cores; otherwise each test process does it. Some files need another
-# Python; a quarter of all are tests of the packages, which nobody imports.
+# Compile what the tests import, and the control laws, once, on all cores; otherwise each test process does it. Some
+# files need another Python; a quarter of all are tests of the packages, which nobody imports.
+LAWS := import skillc_runtime.backends.kinematic.cell, skillc_runtime.backends.mujoco.cell; \
+    from skillc_runtime.motion.numerics.compiled import compile_imported; compile_imported()
 .venv/.dev: .venv/.runtime
 	$(INSTALL) -e '.[all,docs,dev]'
-	$(BIN)/python -m compileall -qq -j 0 -x '/tests/' .venv/lib || true
+	$(BIN)/python -c "$(LAWS)" & laws=$$!; $(BIN)/python -m compileall -qq -j 0 -x '/tests/' .venv/lib; wait $$laws
 	@touch $@
 
 # The client libraries of robots. Where there is no wheel of one, the tests that need it are skipped, and say so.
