@@ -12,7 +12,7 @@ from forms import everything
 
 from skillc_runtime.motion.numerics.compiled import COMPILES
 
-INPUTS = int(os.environ.get("SKILLC_LAW_INPUTS", "40"))
+INPUTS = int(os.environ.get("SKILLC_LAW_INPUTS", "15"))
 
 
 @pytest.mark.skipif(not COMPILES, reason="nothing is compiled here")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import pyoxigraph as ox
@@ -24,6 +25,7 @@ t:of a owl:ObjectProperty ; rdfs:range t:Sample .
 """
 
 
+@cache
 def sensing() -> Vocabulary:
     found = beside(Source("t.ttl", HEAD + SENSING))
     assert found.diagnostics == ()
