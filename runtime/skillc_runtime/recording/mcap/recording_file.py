@@ -18,7 +18,7 @@ from skillc_runtime.recording.mcap.signal_tap import RecordedCell, SampledBlock
 MAX_EVENTS, MAX_BLOCKS = 100_000, 200
 """How many items, and how many blocks of samples among them, may wait for the disk; with more the recording ends."""
 
-FLUSH_S = 1.0
+FLUSH_S = 0.5
 """What was recorded is in the file after this wall time in s: a process that is killed loses no more."""
 
 

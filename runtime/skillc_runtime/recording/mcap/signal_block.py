@@ -22,6 +22,10 @@ NO_UNIT = 1e-6
 LARGEST = 2.0**40
 """Values with more steps than this are stored as they are."""
 
+WIDTHS = np.array([1, 2, 4, 8])
+TOO_LARGE = np.array([1 << 8, 1 << 16, 1 << 32], dtype=np.uint64)
+"""Bytes of a number, and from which number on each is not enough."""
+
 MAX_ROWS = 1 << 16
 Integers = npt.NDArray[np.int64]
 
@@ -53,35 +57,44 @@ class SignalBlock(msgspec.Struct, frozen=True):
 def encode_columns(rows: Array, units: Sequence[str]) -> tuple[Column, ...]:
     """Encode rows (n, m) of signals with these m units."""
     quanta = np.array([QUANTA.get(unit, NO_UNIT) for unit in units])
-    steps = rows / quanta
-    is_whole = (np.abs(steps) < LARGEST).all(axis=0)
-    whole = np.rint(np.where(is_whole, steps, 0.0)).astype(np.int64)
-    once = np.diff(whole, axis=0)
-    twice = np.diff(once, axis=0)
-    is_smooth = np.abs(twice).sum(axis=0) < np.abs(once[1:]).sum(axis=0)
-    by_order = {1: _zigzag(once), 2: _zigzag(twice)}
+    steps = np.divide(rows.T, quanta[:, None], order="C")
+    is_whole = (steps.max(axis=1) < LARGEST) & (steps.min(axis=1) > -LARGEST)  # neither holds for NaN
+    steps[~is_whole] = 0.0
+    whole = np.rint(steps, out=steps).astype(np.int64)
+    orders, planes = _difference(whole)
+    firsts = np.diff(whole[:, :2], prepend=0).tolist()
     columns = []
-    for number, quantum in enumerate(quanta.tolist()):
+    for number, (quantum, order) in enumerate(zip(quanta.tolist(), orders, strict=True)):
         if not is_whole[number]:
             columns.append(Column(quantum, 0, 0, (), rows[:, number].astype("<f8").tobytes()))
             continue
-        order = 2 if is_smooth[number] else 1
-        first = tuple(int(each[0, number]) for each in (whole, once)[:order])
-        values, largest = by_order[order]
-        columns.append(_pack(quantum, order, first, values[number], largest[number]))
+        first = tuple(firsts[number][:order])
+        columns.append(Column(quantum, len(planes[number]), order, first, planes[number][:, order - 1 :].tobytes()))
     return tuple(columns)
 
 
-def _zigzag(differences: Integers) -> tuple[npt.NDArray[np.uint64], list[int]]:
-    """Return differences (n, m) as zigzag numbers (m, n), and the largest of each column."""
-    numbers = ((differences << 1) ^ (differences >> 63)).view(np.uint64)
-    return np.ascontiguousarray(numbers.T), numbers.max(axis=0, initial=0).tolist()
+def _difference(whole: Integers) -> tuple[list[int], list[npt.NDArray[np.uint8]]]:
+    """Return the order of differences with which each of rows (m, n) takes least, and their bytes (width, n - 1).
+
+    The first of those of order 2 is none.
+    """
+    chosen = np.diff(whole)
+    twice = np.diff(chosen)
+    is_smooth = np.abs(twice).sum(axis=1) < np.abs(chosen[:, 1:]).sum(axis=1)
+    chosen[is_smooth, 1:] = twice[is_smooth]
+    chosen[is_smooth, :1] = 0
+    return (1 + is_smooth).tolist(), _split(np.bitwise_xor(chosen << 1, chosen >> 63, out=chosen).view(np.uint64))
 
 
-def _pack(quantum: float, order: int, first: tuple[int, ...], numbers: npt.NDArray[np.uint64], largest: int) -> Column:
-    width = next(each for each in (1, 2, 4, 8) if largest < 1 << 8 * each)
-    planes = numbers.astype(f"<u{width}").view(np.uint8).reshape(-1, width).T
-    return Column(quantum, width, order, first, planes.tobytes())
+def _split(zigzag: npt.NDArray[np.uint64]) -> list[npt.NDArray[np.uint8]]:
+    """Return the bytes (width, n) of the numbers in each of the rows (m, n), all lowest bytes first."""
+    widths = WIDTHS[np.searchsorted(TOO_LARGE, zigzag.max(axis=1, initial=0), side="right")]
+    planes: dict[int, npt.NDArray[np.uint8]] = {}
+    for width in WIDTHS.tolist():
+        rows = np.flatnonzero(widths == width)
+        parts = zigzag[rows].astype(f"<u{width}").view(np.uint8).reshape(len(rows), zigzag.shape[1], width)
+        planes.update(zip(rows.tolist(), parts.transpose(0, 2, 1), strict=True))
+    return [planes[row] for row in range(len(widths))]
 
 
 def decode_columns(block: SignalBlock) -> Array:

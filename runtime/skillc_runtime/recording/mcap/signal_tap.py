@@ -22,8 +22,8 @@ from skillc_runtime.motion.reference import ROTATION, TWIST
 from skillc_runtime.recording.signals.channels import COMMANDED_FORCE, WORLD, XYZ, Columns
 from skillc_runtime.recording.signals.signal import Signal
 
-BLOCK_ROWS = 400
-"""How many samples are handed over at once."""
+BLOCK_S = 1.0
+"""Samples of so many s of the cell are handed over at once."""
 
 POSES_S = 0.04
 """The time between two samples of the poses of all bodies, in s of the cell: that of the pictures of a film."""
@@ -90,6 +90,7 @@ class SignalTap:
         self._live, self._row_bytes = live, self.layout.row_bytes
         self._reads = (*(read for arm in live.arms for read in _reads(arm)), live.sensors.read)
         self._per_pose = max(1, round(POSES_S / live.period_s))
+        self._block_rows = max(1, round(BLOCK_S / live.period_s))
         self._sinks: list[Callable[[SampledBlock], None]] = []
         self._content, self._first_s = bytearray(), 0.0
         self._poses: list[tuple[float, bytes, bytes]] = []
@@ -165,7 +166,7 @@ class SignalTap:
     def _make_memory(self) -> TapMemory:
         self._places: Places = ()
         places = np.zeros((sum(1 for arm in self._live.arms for _ in _reads(arm)) + 1, 2), dtype=np.int64)
-        rows = np.zeros((BLOCK_ROWS + self._per_pose, self._row_bytes // ITEM))
+        rows = np.zeros((self._block_rows + self._per_pose, self._row_bytes // ITEM))
         copying = np.array([[int(MEMMOVE), rows.ctypes.data]])
         memory = TapMemory(places, rows, np.zeros(2), copying)
         self._copy = bind(copy_signals, memory)
@@ -187,7 +188,7 @@ class SignalTap:
 
     def _sample_poses(self) -> None:
         """Copy the poses of bodies; begin another block where that is due."""
-        if self._rows >= BLOCK_ROWS:
+        if self._rows >= self._block_rows:
             self.flush()
         now, bodies = self._live.now(), self._live.bodies
         if abs(now - self._expect()) > self._live.period_s / 2:
