@@ -292,7 +292,7 @@ def _convert_arm(arm: LiveArm, base: Pose, content: Array) -> Iterator[Array]:
 
 def _rotate(vectors: Array, rotation: Array) -> Array:
     """Return rows of some vectors (3,) each in the parent frame of a frame with this rotation."""
-    return (vectors.reshape(len(vectors), -1, 3) @ rotation.T).reshape(vectors.shape)
+    return (vectors.reshape(-1, 3) @ rotation.T).reshape(vectors.shape)
 
 
 def _find_commanded(exerted: Array, reference: Array) -> Array:
