@@ -209,7 +209,9 @@ class Align(Primitive):
         self._surface, self._settle = surface, settle
         self._began, self._held_at = 0.0, inf
         self._from = np.eye(3)
-        self._turns: deque[tuple[float, Array]] = deque()
+        self._turned: Array = np.zeros(3)
+        self._sums: deque[tuple[float, Array]] = deque()
+        """Times, and at each the sum of all turns (3,) in rad before it."""
 
     def start(self) -> None:
         """Release the rotation of the tool."""
@@ -242,19 +244,22 @@ class Align(Primitive):
         """Release the rotation again, for as long as at the start."""
         if self._held_at == inf:
             self._began = self.cell.now
-            self._turns.clear()
+            self._sums.clear()
             self.arm.compliance.release_rotation()
 
     def _is_flush(self, now: float) -> bool:
         """Whether the tool has come to rest on the surface: it has hardly turned for a while."""
-        self._turns.append((now, log(self.arm.measured.pose.rotation @ self._from.T)))
-        while now - self._turns[0][0] > FLUSH_S:
-            self._turns.popleft()
+        self._sums.append((now, self._turned))
+        self._turned = self._turned + log(self.arm.measured.pose.rotation @ self._from.T)
+        while now - self._sums[0][0] > FLUSH_S:
+            self._sums.popleft()
         if now - self._began < MIN_ALIGN_S:
             return False
-        turns = np.array([turn for _, turn in self._turns])
-        half = len(turns) // 2
-        return bool(np.linalg.norm(turns[half:].mean(axis=0) - turns[:half].mean(axis=0)) < FLUSH_RAD)
+        count = len(self._sums)
+        half = count // 2
+        first, middle = self._sums[0][1], self._sums[half][1]
+        turned = (self._turned - middle) / (count - half) - (middle - first) / half
+        return bool(np.linalg.norm(turned) < FLUSH_RAD)
 
     def _hold(self) -> None:
         self._held_at = self.cell.now
