@@ -33,7 +33,9 @@ class ArmTask:
         self.arm, self.place = setup.arm, state.tool.position.copy()
         self.taring = Taring(setup.arm)
         self.measured = MeasuredArm(setup.base, self.contact_wrench, state)
-        self.controllers = make_controllers(setup.gains, setup.limits, setup.virtual, state, setup.period)
+        self.controllers = make_controllers(
+            setup.gains, setup.limits, setup.virtual, state, setup.period, setup.arm.capabilities.command_delay_s
+        )
         self.kinematics, self.workspace = Kinematics(setup.virtual), setup.safety.workspace
         self.tool = ToolTask(setup.gains, self.controllers.tool, state.tool)
         self.joints: JointReferenceGenerator | None = self._joint_reference(state.q, np.zeros_like(state.q))

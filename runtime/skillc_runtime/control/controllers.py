@@ -47,15 +47,15 @@ class ControllerPair(msgspec.Struct, frozen=True):
 
 
 def make_controllers(
-    gains: Gains, limits: ArmLimits, virtual: mujoco.MjModel, state: ArmState, period: float
+    gains: Gains, limits: ArmLimits, virtual: mujoco.MjModel, state: ArmState, period: float, delay_s: float = 0.0
 ) -> ControllerPair:
     """Return the controllers of an arm in a state, for a control period in s; `virtual` is of `load_virtual_model`.
 
-    Raises ValueError if they cannot be stable at that period.
+    delay_s: s, by which commands may be late at most. Raises ValueError if they cannot be stable at that period.
     """
     match gains.law:
         case ImpedanceGains() as law:
-            return _impedance(gains, law, limits, state, period)
+            return _impedance(gains, law, limits, state, period, delay_s)
         case ForwardDynamicsGains() as law:
             return _forward_dynamics(gains, law, JointLimit(limits, state.q), virtual)
         case VelocityGains(compliance=law, tracking_rate=rate, tracking_time=lag):
@@ -88,12 +88,14 @@ def _own(setup: LawSetup, law: OwnGains, state: ArmState) -> ControllerPair:
     return ControllerPair(CheckedLaw(law, setup), limit)
 
 
-def _impedance(gains: Gains, law: ImpedanceGains, limits: ArmLimits, state: ArmState, period: float) -> ControllerPair:
+def _impedance(
+    gains: Gains, law: ImpedanceGains, limits: ArmLimits, state: ArmState, period: float, delay_s: float
+) -> ControllerPair:
     rate = damping_rate(state, law.damping_floor, law.rotational_damping_floor)
     if rate * period > 1:
         raise ValueError(f"the damping decays with {rate:.0f}/s: too fast for a control period of {period} s")
     limit = TorqueLimit(limits, law.torque_rate)
-    return ControllerPair(Impedance(gains, law, limit, state.q.size), limit)
+    return ControllerPair(Impedance(gains, law, limit, state.q.size, delay_s), limit)
 
 
 def _forward_dynamics(

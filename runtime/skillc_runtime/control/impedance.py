@@ -42,6 +42,9 @@ from skillc_runtime.motion.reference import AppliedCompliance, Compliance, Refer
 INERTIA_PERIOD_S = 0.01
 """Period with which inertia and damping, which change slowly, are computed."""
 
+DELAYED_DECAY = 0.6
+"""Greatest decay rate of damping, times the delay of commands: from pi / 2 on it is unstable."""
+
 DAMPING_GRAIN = 1e-6
 """Closer to its design than this, N s/m and N m s/rad, the damping has arrived."""
 
@@ -75,12 +78,15 @@ class ImpedanceMemory:
     command_time: float
     age: OutVector
     manipulability: OutVector
+    delay_s: float
 
 
 class Impedance:
     """The law for one arm; the reference is in the base frame. Arrays are reused."""
 
-    def __init__(self, gains: Gains, law: ImpedanceGains, limit: TorqueLimit, joints: int) -> None:
+    def __init__(
+        self, gains: Gains, law: ImpedanceGains, limit: TorqueLimit, joints: int, delay_s: float = 0.0
+    ) -> None:
         stiffness = np.repeat([gains.linear_stiffness, gains.rotational_stiffness], 3)
         floor = np.repeat([law.damping_floor, law.rotational_damping_floor], 3)
         self._memory = ImpedanceMemory(
@@ -98,6 +104,7 @@ class Impedance:
             command_time=gains.command_time,
             age=np.full(1, INERTIA_PERIOD_S),
             manipulability=np.full(1, np.inf),
+            delay_s=delay_s,
         )
 
     @property
@@ -146,7 +153,8 @@ def impedance(
     memory.age[0] += period
     if memory.age[0] >= INERTIA_PERIOD_S:
         damping = np.empty(6)
-        design_damping(damping, memory, state, reference, compliance, FASTEST_DECAY / period)
+        fastest = min(FASTEST_DECAY / period, DELAYED_DECAY / (memory.delay_s + 1e-9))
+        design_damping(damping, memory, state, reference, compliance, fastest)
         step_lag(memory.damping, damping, lag_share(memory.age[0], memory.command_time), DAMPING_GRAIN)
         copy_vector(memory.damping, memory.task.rows[DAMPING])
         memory.age[0] = 0.0

@@ -115,6 +115,8 @@ class Capabilities:
     """The modes of an arm, whether it measures the wrench at its tool and the effort of its motors, and its limits.
 
     never_repeats: whether what it measures is never exactly the same twice while it moves or is loaded otherwise.
+    command_delay_s: the greatest time from a measurement to the effect of what follows from it, beyond the control
+    period, as far as it is known.
     """
 
     modes: tuple[Mode, ...]
@@ -122,6 +124,7 @@ class Capabilities:
     measures_effort: bool
     limits: ArmLimits
     never_repeats: bool = False
+    command_delay_s: float = 0.0
 
 
 class Arm(Protocol):

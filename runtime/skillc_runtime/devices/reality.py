@@ -60,6 +60,9 @@ ARM_KINDS: Final = (
     Kind("gravityError", ""),
     Kind("toolOffset", "m", 3),
     Kind("toolTurn", "rad", 3),
+    Kind("commandDelay", "s", signed=False),
+    Kind("commandJitter", "s", signed=False),
+    Kind("lostCommands", "", signed=False),
 )
 """The imperfections of arms."""
 
@@ -77,7 +80,11 @@ class Reality(msgspec.Struct, frozen=True):
 
     def has(self, kind: Kind) -> bool:
         """Whether devices have a kind of imperfection."""
-        return self.level != IDEAL and (not self.kinds or kind.name in self.kinds)
+        return self.has_named(kind.name)
+
+    def has_named(self, kind: str) -> bool:
+        """Whether devices have the kind of imperfection of this name."""
+        return self.level != IDEAL and (not self.kinds or kind in self.kinds)
 
 
 IDEAL_REALITY: Final = Reality(IDEAL)

@@ -6,9 +6,10 @@ from typing import Final
 
 from skillc_runtime.backends.control_process.link import KINDS, make_command
 from skillc_runtime.backends.simulation.motors import Joints, Motors
-from skillc_runtime.devices.arm import Command, JointPosition, JointVelocity, Mode, Torque, command_values
+from skillc_runtime.devices.arm import Command, Mode
+from skillc_runtime.motion.numerics.program import Rows
+from skillc_runtime.motion.pose import Array
 
-MODES: Final[dict[type[Command], Mode]] = {Torque: "torque", JointPosition: "position", JointVelocity: "velocity"}
 NOTHING: Final = float(KINDS.index("nothing"))
 
 
@@ -22,11 +23,18 @@ class CommandSlot(Motors):
         super().__init__(joints, modes, timestep_s)
         self.command_for_device = make_command(joints.q.size)
 
-    def _take(self, command: Command) -> None:
-        if MODES[type(command)] != self.mode:
-            self._refuse(command)
-        self.command_for_device.values[:] = command_values(command)
+    def command(self, command: Command) -> None:
+        """Keep a command for the next control period; TypeError for another kind than the mode."""
+        super().command(command)
         self.command_for_device.kind[0] = KINDS.index(self.mode)
+
+    def taking(self, values: Array) -> Rows | None:
+        """Return None: Python says what kind of command it is."""
+        return None
+
+    @property
+    def _target(self) -> tuple[Array, float]:
+        return self.command_for_device.values, 0.0
 
     def _rest(self) -> None:
         self.command_for_device.kind[0] = NOTHING

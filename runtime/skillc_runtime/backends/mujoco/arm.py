@@ -9,6 +9,7 @@ from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.wrist import Wrist
 from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
 from skillc_runtime.backends.simulation.brakes import Brakes
+from skillc_runtime.backends.simulation.command_link import find_greatest_delay, make_command_link
 from skillc_runtime.backends.simulation.joint_friction import make_joint_friction
 from skillc_runtime.backends.simulation.noise import make_joint_noise, make_wrist_noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
@@ -44,8 +45,10 @@ class SimulatedArm(ModelledArm):
         super().__init__(facts, names, model, data, start, steps_per_command, noise, sizes)
         delay_s = number_of(facts.sheet.state, facts.sheet.individual, BRAKE_DELAY, inf)
         joints, step_s = self.motors.joints, model.opt.timestep
+        self.motors.link = make_command_link(facts, sizes, seed, step_s * steps_per_command)
+        self.command_delay_s = find_greatest_delay(facts)
         self.brakes = None if facts.has_servos or delay_s == inf else Brakes(joints, delay_s, step_s)
-        self.friction = make_joint_friction(facts, sizes, self.motors.joints, model.opt.timestep)
+        self.friction = make_joint_friction(facts, sizes, joints, step_s)
         if self._feels_force and (gripper := self._gripper_name) is not None:
             time_s = facts.sheet.number("forceTorqueTime")
             noise = make_wrist_noise(facts, seed, sizes, model.opt.timestep)

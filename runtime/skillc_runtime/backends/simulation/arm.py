@@ -70,6 +70,9 @@ class ModelledArm(Arm):
     never_repeats: ClassVar[bool] = False
     """Whether what is measured is never exactly the same twice while the arm moves."""
 
+    command_delay_s: float = 0.0
+    """The greatest delay of its commands, as far as it is known."""
+
     has_own_law: bool = False
     """Whether the robot itself has a compliant law, which takes targets of the tool."""
 
@@ -127,8 +130,9 @@ class ModelledArm(Arm):
     def capabilities(self) -> Capabilities:
         """The capabilities of the arm."""
         return Capabilities(
-            self._motors.modes, self._feels_force, self.measures_effort, self.limits, self.never_repeats
-        )
+            self._motors.modes, self._feels_force, self.measures_effort, self.limits, self.never_repeats,
+            self.command_delay_s,
+        )  # fmt: skip
 
     @property
     def interface(self) -> Mode:

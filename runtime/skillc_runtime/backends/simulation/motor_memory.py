@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from skillc_runtime.backends.simulation.command_link import CommandLink, send
 from skillc_runtime.motion.arrays import OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import copy_vector
@@ -109,4 +110,21 @@ def take_command(taking: Taking, now: float) -> int:
     """Take a command for the next control period."""
     copy_vector(taking.values, taking.target)
     taking.counts[SILENT], taking.counts[LEFT] = 0.0, taking.steps
+    return 0
+
+
+@dataclass(frozen=True, slots=True)
+class LateTaking:
+    """How motors take commands that a line brings; see `Taking`."""
+
+    taking: Taking
+    link: CommandLink
+
+
+@compiled
+def take_late_command(late: LateTaking, now: float) -> int:
+    """Send a command, and take the one that arrives in this control period, if one does."""
+    taking = late.taking
+    if send(late.link, taking.values, taking.target):
+        taking.counts[SILENT], taking.counts[LEFT] = 0.0, taking.steps
     return 0

@@ -4,22 +4,34 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import ClassVar, NoReturn
+from math import ceil
+from typing import ClassVar, Final
 
 import msgspec
 import numpy as np
 
+from skillc_runtime.backends.simulation.command_link import CommandLink
 from skillc_runtime.backends.simulation.motor_memory import (
     LEFT,
     SILENT,
+    LateTaking,
     MotorMemory,
     Taking,
     approach,
     exert,
     pursue,
     take_command,
+    take_late_command,
 )
-from skillc_runtime.devices.arm import Command, JointPosition, JointVelocity, Mode, ModeRefused, Torque
+from skillc_runtime.devices.arm import (
+    Command,
+    JointPosition,
+    JointVelocity,
+    Mode,
+    ModeRefused,
+    Torque,
+    command_values,
+)
 from skillc_runtime.motion.arrays import Vector
 from skillc_runtime.motion.numerics.compiled import Bound, bind
 from skillc_runtime.motion.numerics.program import Rows, row_of
@@ -27,6 +39,9 @@ from skillc_runtime.motion.pose import Array
 
 COMMAND_TIMEOUT_S = 0.05
 """Time without command after which an arm holds still by itself."""
+
+COMMANDS: Final = {"torque": Torque, "position": JointPosition, "velocity": JointVelocity}
+"""The kinds of commands by mode."""
 
 HOLD_RATE = 20.0
 """1/s: natural frequency, critically damped, with which a torque-controlled arm holds its joints by itself."""
@@ -54,14 +69,16 @@ class Joints(msgspec.Struct, frozen=True):
 class Motors(ABC):
     """Take commands of one mode at a time, and hold still if none has arrived for `COMMAND_TIMEOUT_S`.
 
-    They are a part of the steps of a cell.
+    They are a part of the steps of a cell. `link` is the line that brings the commands; None if they come at once.
     """
 
     def __init__(self, joints: Joints, modes: tuple[Mode, ...], timestep_s: float) -> None:
         self.joints, self.modes, self.mode = joints, modes, modes[0]
+        self.link: CommandLink | None = None
+        self._sent = np.zeros_like(joints.q)
         self._counts, self._timeout_steps = np.zeros(2), round(COMMAND_TIMEOUT_S / timestep_s)
         self._timestep: float = timestep_s
-        self._taken: tuple[Array, Array, Bound[[float], int]] | None = None
+        self._takings: dict[tuple[Mode, int], tuple[Array, Bound[[float], int]]] = {}
         self._exert = bind(exert, self._memory(joints.control, np.ones_like(joints.q), np.zeros_like(joints.q)))
 
     @property
@@ -83,8 +100,10 @@ class Motors(ABC):
 
     def command(self, command: Command) -> None:
         """Take a command for the next control period; TypeError for another kind than the mode."""
-        self._take(command)
-        self._counts[SILENT] = 0.0
+        if not isinstance(command, COMMANDS[self.mode]):
+            raise TypeError(f"a {self.mode} controlled arm takes no {type(command).__name__}")
+        self._sent[:] = command_values(command)
+        self._take(self._sent)(0.0)
 
     @property
     def rows(self) -> Rows | None:
@@ -102,13 +121,18 @@ class Motors(ABC):
         return False
 
     def taking(self, values: Array) -> Rows | None:
-        """Return the function that takes commands of the mode from there; None if only Python can."""
-        return None
+        """Return the function that takes commands of the mode from there (nv,), which must stay; None without one."""
+        return row_of(self._take(values))
 
-    def _taking(self, values: Array, target: Array, steps: int) -> Rows | None:
-        if self._taken is None or values is not self._taken[0] or target is not self._taken[1]:
-            self._taken = values, target, bind(take_command, Taking(values, target, self._counts, steps))
-        return row_of(self._taken[2])
+    def _take(self, values: Array) -> Bound[[float], int]:
+        key = self.mode, id(values)
+        if key not in self._takings:
+            target, steps = self._target
+            taking = Taking(values, target, self._counts, steps)
+            link = self.link
+            bound = bind(take_command, taking) if link is None else bind(take_late_command, LateTaking(taking, link))
+            self._takings[key] = values, bound
+        return self._takings[key][1]
 
     @property
     def _drive(self) -> Bound[[float], int]:
@@ -121,11 +145,10 @@ class Motors(ABC):
             target, lead, farthest, self._timestep,
         )  # fmt: skip
 
-    def _refuse(self, command: Command) -> NoReturn:
-        raise TypeError(f"a {self.mode} controlled arm takes no {type(command).__name__}")
-
+    @property
     @abstractmethod
-    def _take(self, command: Command) -> None: ...
+    def _target(self) -> tuple[Array, float]:
+        """Where commands (nv,) of the mode are put, and how many steps they last."""
 
     @abstractmethod
     def _rest(self) -> None:
@@ -145,14 +168,9 @@ class TorqueMotors(Motors):
         super().__init__(joints, self.MODES, timestep_s)
         self._held_q = np.zeros_like(joints.q)
 
-    def taking(self, values: Array) -> Rows | None:
-        """Return the function that takes torques from there."""
-        return self._taking(values, self.joints.control, 0)
-
-    def _take(self, command: Command) -> None:
-        if not isinstance(command, Torque):
-            self._refuse(command)
-        self.joints.control[:] = command.tau
+    @property
+    def _target(self) -> tuple[Array, float]:
+        return self.joints.control, 0.0
 
     def _rest(self) -> None:
         """Do nothing: there is no other mode."""
@@ -177,7 +195,8 @@ class ServoGains:
 class Servos(Motors):
     """Servos that follow targets, like those of industrial arms; weight and Coriolis forces are compensated.
 
-    tau = kp (target - q) - kv dq. With position commands the targets move linearly over the control period; with speed
+    tau = kp (target - q) - kv dq. With position commands the targets move linearly over the control period, and as much
+    longer as a command may be late, so that one which is makes no jump; with speed
     commands they move at that speed, limited to a lead that needs the full effort. If a joint that is commanded to
     stand still needs the full effort, its target becomes its position, so it does not press against an obstacle.
     """
@@ -188,30 +207,21 @@ class Servos(Motors):
         """Hold the joints where they are."""
         super().__init__(joints, modes, timestep_s)
         self._steps_per_command = steps_per_command
-        self._target, self._speed = joints.q.copy(), np.zeros_like(joints.q)
+        self._place, self._speed = joints.q.copy(), np.zeros_like(joints.q)
         self.gains = gains
         leads = gains.damping / gains.stiffness, joints.effort / gains.stiffness
-        self._approach = bind(approach, self._memory(self._target, *leads))
+        self._approach = bind(approach, self._memory(self._place, *leads))
         self._pursue = bind(pursue, self._memory(self._speed, *leads))
         joints.control[:] = joints.q
-
-    def taking(self, values: Array) -> Rows | None:
-        """Return the function that takes positions or speeds from there."""
-        target = self._target if self.mode == "position" else self._speed
-        return self._taking(values, target, self._steps_per_command)
 
     @property
     def _drive(self) -> Bound[[float], int]:
         return self._pursue if self.mode == "velocity" else self._approach
 
-    def _take(self, command: Command) -> None:
-        match command:
-            case JointPosition(q=q) if self.mode == "position":
-                self._target[:], self._counts[LEFT] = q, self._steps_per_command
-            case JointVelocity(dq=dq) if self.mode == "velocity":
-                self._speed[:] = dq
-            case _:
-                self._refuse(command)
+    @property
+    def _target(self) -> tuple[Array, float]:
+        late = 0 if self.link is None else ceil(self.link.jitter_s / self._timestep)
+        return self._place if self.mode == "position" else self._speed, float(self._steps_per_command + late)
 
     def _rest(self) -> None:
         """Keep the present targets."""
