@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import errno
+import io
 import re
 import stat
+import zlib
 from pathlib import Path
 
 from skillc_dsl.diagnostics import Diagnostic
@@ -19,6 +21,10 @@ MOST_BYTES = 4 * MOST_CHARACTERS + 4
 _NO_UTF_8 = re.compile("[\udc80-\udcff]")
 """What Python puts in the place of bytes that are not UTF-8: halves of characters, which no UTF-8 has."""
 _NUL = "\0"
+_GZIP = b"\x1f\x8b"
+"""The first bytes of what gzip has compressed."""
+MOST_UNPACKED = 512 * 2**20
+"""The maximum length in bytes of what a compressed file contains; longer content is not read."""
 
 
 def decode(path: str, data: bytes) -> Source:
@@ -54,6 +60,37 @@ def read_file(path: Path, most: int = -1) -> bytes:
         raise OSError(errno.EINVAL, "it is not a regular file", str(path))
     with path.open("rb", buffering=0) as file:
         return file.read(most if 0 <= most < status.st_size else -1)
+
+
+def is_packed(content: bytes) -> bool:
+    """Whether the content of a file is compressed by gzip."""
+    return content.startswith(_GZIP)
+
+
+def unpack(content: bytes) -> bytes:
+    """Return what is in a file that gzip has compressed, other content as it is.
+
+    OSError if it is damaged, or longer than MOST_UNPACKED.
+    """
+    if not is_packed(content):
+        return content
+    import gzip  # few files are compressed
+
+    try:
+        with gzip.GzipFile(fileobj=io.BytesIO(content)) as file:
+            found = file.read(MOST_UNPACKED + 1)
+    except (OSError, EOFError, zlib.error) as error:
+        raise OSError(errno.EINVAL, "it is compressed by gzip, and damaged: make or copy it again") from error
+    if len(found) > MOST_UNPACKED:
+        raise OSError(errno.EFBIG, f"it is compressed, and contains more than {MOST_UNPACKED // 2**20} MB")
+    return found
+
+
+def pack(content: bytes) -> bytes:
+    """Return content compressed by gzip, without the time."""
+    import gzip
+
+    return gzip.compress(content, mtime=0)
 
 
 def report_not_text(source: Source) -> Diagnostic | None:

@@ -12,11 +12,14 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
 
+from skillc_dsl.encoding import unpack
+
 ROOT = Path(__file__).parent
 SHEET_FOLDERS = ("robots", "grippers", "tools", "fixtures", "cameras")
 VOCABULARY_FOLDERS = ("vocabulary", *SHEET_FOLDERS)
-ENDINGS = (".ttl", ".owl", ".rdf", ".xml", ".nt", ".nq", ".trig", ".jsonld", ".ofn", ".omn", ".owx")
-"""The suffixes of files that may be vocabularies."""
+_PLAIN = (".ttl", ".owl", ".rdf", ".xml", ".nt", ".nq", ".trig", ".jsonld", ".ofn", ".omn", ".owx")
+ENDINGS = (*_PLAIN, *(f"{ending}.gz" for ending in _PLAIN))
+"""The ends of the names of files that may be vocabularies; those that end with `.gz` are compressed."""
 VARIABLE = "SKILLC_ONTOLOGY"
 """The environment variable that lists the user's folders, separated as in PATH."""
 _ADDED: ContextVar[tuple[Path, ...]] = ContextVar("added ontology folders", default=())
@@ -65,16 +68,16 @@ def make_environment() -> dict[str, str]:
 def user_files() -> tuple[tuple[str, Path], ...]:
     """Return every file in the user's folders that may be a vocabulary, by `folder/path`.
 
-    Hidden folders and models, which are XML too, are skipped.
+    Hidden folders are skipped, and what else may be XML: models, catalogues of ontologies, packages of ROS.
     """
     found = (
-        (folder, path) for folder in user_folders() for path in sorted(folder.rglob("*")) if path.suffix in ENDINGS
+        (folder, path) for folder in user_folders() for path in sorted(folder.rglob("*")) if path.name.endswith(ENDINGS)
     )
     below = ((folder, path, path.relative_to(folder)) for folder, path in found)
     return tuple(
         (f"{folder.resolve().name}/{inner.as_posix()}", path)
         for folder, path, inner in below
-        if not any(part.startswith(".") for part in inner.parts) and not _is_model(path)
+        if not any(part.startswith(".") for part in inner.parts) and not _is_other_xml(path)
     )
 
 
@@ -82,9 +85,15 @@ def sheet_files() -> tuple[tuple[str, str], ...]:
     """Return the texts that are part of every world: the packaged files and the user's data sheets, in any format."""
     places = (folder / name for folder in user_folders() for name in SHEET_FOLDERS)
     own = (
-        path for place in places for path in sorted(place.glob("*")) if path.suffix in ENDINGS and not _is_model(path)
+        path
+        for place in places
+        for path in sorted(place.glob("*"))
+        if path.name.endswith(ENDINGS) and not _is_other_xml(path)
     )
-    return (*vocabulary_files(), *((str(path), path.read_text("utf-8", errors="replace")) for path in own))
+    return (
+        *vocabulary_files(),
+        *((str(path), unpack(path.read_bytes()).decode("utf-8", errors="replace")) for path in own),
+    )
 
 
 def scene_names() -> tuple[str, ...]:
@@ -124,9 +133,10 @@ def _vocabulary_paths() -> Iterator[Path]:
         yield from (ROOT / folder).glob("*.ttl")
 
 
-def _is_model(path: Path) -> bool:
-    """Whether a file is a MuJoCo model."""
+def _is_other_xml(path: Path) -> bool:
+    """Whether a file is XML, and no ontology: it begins with neither the namespace of RDF nor that of OWL."""
     if path.suffix != ".xml" or not path.is_file():
         return False
     with path.open("rb") as file:
-        return b"<mujoco" in file.read(4096)
+        begin = file.read(4096)
+    return b"1999/02/22-rdf-syntax-ns#" not in begin and b"2002/07/owl#" not in begin

@@ -12,6 +12,7 @@ from click.testing import CliRunner
 
 from docs.pages import ROOT, blocks
 from skillc.cli.main import skillc
+from skillc.services import libraries
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_runtime.scene.documents import Document
@@ -59,6 +60,22 @@ def test_each_statement_that_is_not_understood_is_one_warning(said: str) -> None
 
 def test_the_table_of_such_statements_is_there() -> None:
     assert len(FOREIGN.findall(PAGE.read_text("utf-8"))) >= 5
+
+
+def write_files() -> None:
+    """Write the files of the page into the current folder."""
+    for block in blocks(PAGE):
+        if block.words:
+            Path(block.words).parent.mkdir(exist_ok=True)
+            Path(block.words).write_text(block.text, "utf-8")
+
+
+def test_the_imports_of_the_page_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_files()
+    with catalogue.folder_scope([Path("kitchen")]):
+        vocabulary = libraries.load_vocabulary()
+    assert vocabulary.is_a("http://example.org/kitchen#Lunch", "http://example.org/food#Meal")
 
 
 def test_the_commands_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,6 +17,7 @@ from skillc.services.library_files import (
     read_vocabularies,
     user_vocabularies,
 )
+from skillc.services.ontology_imports import follow_imports
 from skillc.services.project import project as projects
 from skillc.services.project.loading import find_project
 from skillc_dsl.diagnostics import Outcome
@@ -63,14 +64,16 @@ def read_sources(root: Root, buffers: Mapping[Path, str]) -> dict[str, Source]:
 
 def is_rdf(file: Path) -> bool:
     """Whether the name of a file is that of a scene or a vocabulary."""
-    return file.suffix in catalogue.ENDINGS
+    return file.name.endswith(catalogue.ENDINGS)
 
 
 def read_own_vocabularies(root: Root, around: LibraryFiles) -> tuple[Source, ...]:
     """Return the vocabularies in a library's folder, in the user's ontology folders, and those `around` the library."""
     candidates = _below(root) if root.whole else root.folder.glob("*")
     own = sorted(file for file in candidates if library_files.is_vocabulary_beside(file, around.project))
-    read = read_vocabularies(sorted({**user_vocabularies(), **{_relative(file, root): file for file in own}}.items()))
+    stated = {**user_vocabularies(), **{_relative(file, root): file for file in own}}
+    home = library_files.Home(around.name, root.folder, around.project)
+    read = read_vocabularies(sorted(follow_imports(stated, library_files.imports_of(home)).items()))
     known = {each.path for each in read}
     return (*read, *(each for each in around.vocabularies if each.path not in known))
 

@@ -14,6 +14,7 @@ from skillc.services.library_files import LibraryFiles
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.encoding import unpack
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -66,7 +67,7 @@ def read_scene_texts(found: Iterable[Diagnostic], buffers: Mapping[Path, str]) -
 
 
 def _text(file: Path, buffers: Mapping[Path, str]) -> str:
-    return buffers[file] if file in buffers else file.read_text("utf-8-sig", errors="replace")
+    return buffers[file] if file in buffers else unpack(file.read_bytes()).decode("utf-8-sig", errors="replace")
 
 
 def _is_shipped(path: str) -> bool:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Literal, NamedTuple
 
 from skillc.errors import ServiceError
-from skillc_dsl.encoding import decode
+from skillc_dsl.encoding import decode, is_packed, pack, unpack
 
 Kind = Literal["file", "folder", "missing", "unusable"]
 
@@ -48,14 +48,17 @@ def inspect_path(path: Path) -> PathStatus:
 def rewrite_file(path: Path, old: str, new: str) -> None:
     """Replace the decoded text `old` of a file by `new`, atomically; line ends, byte order mark and permissions stay.
 
-    ServiceError if the file has changed meanwhile or cannot be written; then it is not changed.
+    What gzip has compressed is compressed again. ServiceError if the file has changed meanwhile or cannot be written;
+    then it is not changed.
     """
     target = path.resolve()
     try:
-        content = target.read_bytes()
+        stored = target.read_bytes()
+        content = unpack(stored)
         if decode("", content).text != old:
             raise ServiceError(f"{path} was changed by another program meanwhile; it is not overwritten")
-        _replace(target, _encode(new, content))
+        encoded = _encode(new, content)
+        _replace(target, pack(encoded) if is_packed(stored) else encoded)
     except OSError as error:
         raise ServiceError(f"{path} cannot be written: {error.strerror}; it is unchanged") from error
 

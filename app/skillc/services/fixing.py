@@ -14,7 +14,7 @@ from skillc.services.files import rewrite_file
 from skillc.services.library_files import SHIPPED, LibraryFiles
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.edits import apply_fixes, drop_overlapping
-from skillc_dsl.encoding import decode, split_lines
+from skillc_dsl.encoding import decode, split_lines, unpack
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
@@ -166,9 +166,9 @@ def _change(path: Path, fixes: Sequence[Fix]) -> FileChange:
 
 
 def _is_own_turtle(path: Path) -> bool:
-    turtle = path.suffix in catalogue.ENDINGS and path.is_file()
+    turtle = path.name.endswith(catalogue.ENDINGS) and path.is_file()
     return turtle and not path.resolve().is_relative_to(catalogue.ROOT.resolve())
 
 
 def _read(path: Path) -> Source:
-    return decode(str(path), path.read_bytes())
+    return decode(str(path), unpack(path.read_bytes()))

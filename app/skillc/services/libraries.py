@@ -11,6 +11,7 @@ from skillc.services.library_files import (
     read_vocabularies,
     user_vocabularies,
 )
+from skillc.services.ontology_imports import follow_imports
 from skillc_compiler import pipeline
 from skillc_compiler.diagnostics.fixes import keep_useful_fixes
 from skillc_compiler.problems import AnalysisMemo, find_problems
@@ -70,7 +71,7 @@ def compile_library(
 
 def load_vocabulary() -> Vocabulary:
     """Load the shipped ontology and those in the user's ontology folders."""
-    return load_vocabulary_with(read_vocabularies(sorted(user_vocabularies().items()))).value
+    return load_vocabulary_with(read_vocabularies(sorted(follow_imports(user_vocabularies(), {}).items()))).value
 
 
 @lru_cache(_MOST_VOCABULARIES)

@@ -12,12 +12,13 @@ from typing import NamedTuple, NoReturn
 
 from skillc.errors import RequestError
 from skillc.services.files import inspect_path
+from skillc.services.ontology_imports import follow_imports
 from skillc.services.project import project as projects
 from skillc.services.project.loading import find_project
 from skillc.services.project.project import Project
 from skillc_compiler.emit.headers import is_generated
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.encoding import MOST_BYTES, decode, read_file
+from skillc_dsl.encoding import MOST_BYTES, decode, read_file, unpack
 from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
 
@@ -177,12 +178,16 @@ def is_vocabulary(path: Path) -> bool:
 
     In functional and Manchester syntax, and in OWL/XML, a vocabulary is an ontology with a name.
     """
-    if path.suffix not in catalogue.ENDINGS:
+    if not path.name.endswith(catalogue.ENDINGS):
         return False
     try:
-        text = read_file(path).decode("utf-8", errors="replace")
+        content = read_file(path)
     except OSError:
         return False
+    try:
+        text = unpack(content).decode("utf-8", errors="replace")
+    except OSError:
+        return True  # who reads it says what is wrong
     written = _ELSEWHERE if text.lstrip("\ufeff \t\r\n").startswith(_NOT_TURTLE) else _IN_TURTLE
     return bool(written.search(text)) and not is_generated(text)
 
@@ -217,11 +222,18 @@ def _library(
         use_modules((home.root, *(each.root for each in home.others())))
     importable = {**_shipped(), **_of_dependencies(home.others()), **neighbours}
     texts = {wanted: _read(file, shown) for wanted, (shown, file) in sorted(importable.items())}
-    vocabularies = {**user_vocabularies(), **_vocabularies_of(home.others()), **beside}
+    stated = {**user_vocabularies(), **_vocabularies_of(home.others()), **beside}
+    vocabularies = follow_imports(stated, imports_of(home))
     read = read_vocabularies(sorted(vocabularies.items()))
     located = {**vocabularies, **dict(importable.values()), **places}
     namespaces = {each.name: each.namespace for each in (*home.others(), *([home.project] if home.project else []))}
     return LibraryFiles(home.name, home.root, sources, texts, located, read, namespaces, home.project)
+
+
+def imports_of(home: Home) -> dict[str, Path]:
+    """Return the files that a project and those on which it depends name for imported ontologies; its own count."""
+    every = (*home.others(), *([home.project] if home.project else []))
+    return {iri: each.root / path for each in every for iri, path in each.manifest.imports.items()}
 
 
 def use_ontologies(project: Project) -> None:
@@ -300,6 +312,6 @@ def _read(file: Path, name: str) -> Source:
 
 def _bytes(file: Path, most: int = MOST_BYTES) -> bytes:
     try:
-        return read_file(file, most)
+        return unpack(read_file(file, most))
     except OSError as error:
         raise RequestError(f"{file} cannot be read: {error.strerror}") from error

@@ -13,7 +13,7 @@ import pyoxigraph as ox
 from skillc.errors import ServiceError
 from skillc.services.files import rewrite_file
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.encoding import decode
+from skillc_dsl.encoding import decode, unpack
 from skillc_ontology import catalogue
 from skillc_rdf.formats.detect import detect_format
 from skillc_rdf.turtle.editing import INDENT, Editor
@@ -40,7 +40,7 @@ class SceneFile:
         if catalogue.ROOT in path.resolve().parents:
             raise ServiceError(f"the shipped scene {path.name} cannot be changed; copy it and edit the copy")
         self.path, self.state = path, state
-        source = decode(str(path), path.read_bytes())
+        source = decode(str(path), unpack(path.read_bytes()))
         form = detect_format(source)
         if form != ox.RdfFormat.TURTLE:
             turtle = path.with_suffix(".ttl")

@@ -53,7 +53,8 @@ def detect_format(source: Source) -> Format:
     for pattern, found in _FORMATS:
         if pattern.match(source.text):
             return found
-    by_ending = next((found for ending, found in _BY_ENDING.items() if source.path.endswith(ending)), None)
+    path = source.path.removesuffix(".gz")
+    by_ending = next((found for ending, found in _BY_ENDING.items() if path.endswith(ending)), None)
     return by_ending or _with_graphs(source.text) or ox.RdfFormat.TURTLE
 
 

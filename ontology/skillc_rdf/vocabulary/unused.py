@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import posixpath
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from urllib.parse import unquote
 
 import pyoxigraph as ox
 
@@ -11,6 +13,7 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.datatypes import FACETS, read_bound
 from skillc_rdf.vocabulary.graph import Graph, Node
+from skillc_rdf.vocabulary.imports import IMPORTS, ontology_names, plain_name
 from skillc_rdf.vocabulary.iris import COMPLEMENT, DISJOINT, EQUAL_CLASS, OWL, SUBCLASS, TYPE
 from skillc_rdf.vocabulary.precedence import Split
 from skillc_rdf.vocabulary.reading import Ontology
@@ -52,17 +55,21 @@ def report_unused_axioms(parts: Iterable[Split], graph: Graph) -> Iterator[Diagn
 
 def report_missing_imports(own: Sequence[Ontology], graph: Graph) -> Iterator[Diagnostic]:
     """Report imports that are not among the files: nothing is downloaded."""
-    here = {iri.rstrip("#/") for iri in graph.instances(f"{OWL}Ontology")}
+    names = ontology_names(graph)
+    paths = tuple(posixpath.normpath(f"/{each.source.path}") for each in own)
     for ontology in own:
         for each in ontology.triples:
-            if each.predicate.value != f"{OWL}imports" or not isinstance(each.object, ox.NamedNode):
+            if each.predicate.value != IMPORTS or not isinstance(each.object, ox.NamedNode):
                 continue
-            if each.object.value.rstrip("#/") not in here:
+            iri = each.object.value
+            of_file = iri.startswith("file:") and unquote(iri).endswith(paths)
+            if plain_name(iri) not in names and not of_file:
                 yield Diagnostic(
                     "missing-import",
-                    _place(ontology, each.object.value),
-                    f"<{each.object.value}> is imported but missing",
-                    help="imports are not downloaded; put the file into the same folder if its terms are needed",
+                    _place(ontology, iri),
+                    f"<{iri}> is imported but missing",
+                    help="if its terms are needed, save it in the same folder, or name its file in a catalog-v001.xml "
+                    "beside this one or under [imports] in skillc.toml; nothing is downloaded",
                     severity="warning",
                 )
 

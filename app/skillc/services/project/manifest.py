@@ -91,7 +91,10 @@ class NamedGoal(Settings, frozen=True):
 
 
 class Manifest(Settings, frozen=True, kw_only=True):
-    """The contents of `skillc.toml`. `scene` and `task` are used where none is named."""
+    """The contents of `skillc.toml`. `scene` and `task` are used where none is named.
+
+    `imports` has the files of imported ontologies by their IRIs, relative to the project.
+    """
 
     name: str
     version: str = "0.0.0"
@@ -99,6 +102,7 @@ class Manifest(Settings, frozen=True, kw_only=True):
     scene: str | None = None
     task: str | None = None
     ontology: tuple[str, ...] = ()
+    imports: dict[str, str] = {}
     dependencies: dict[str, Dependency] = {}
     tasks: dict[str, NamedGoal] = {}
     tool: ToolSettings = ToolSettings()
