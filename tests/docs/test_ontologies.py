@@ -81,10 +81,13 @@ def test_the_imports_of_the_page_are_found(tmp_path: Path, monkeypatch: pytest.M
 def test_the_commands_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     shutil.copy(catalogue.scene_path("iiwa_table"), "cell.ttl")
-    (commands,) = (block.text for block in blocks(PAGE) if block.language == "sh")
-    ran = 0
-    for line in commands.splitlines():
-        result = CliRunner().invoke(skillc, shlex.split(line, comments=True)[1:])
-        assert result.exit_code == 0, result.stderr
-        ran += 1
-    assert ran >= 7
+    write_files()
+    ran, printed = 0, ""
+    for block in blocks(PAGE):
+        if block.language == "text":
+            assert block.text == printed
+        for line in block.text.splitlines() if block.language == "sh" else ():
+            result = CliRunner().invoke(skillc, shlex.split(line, comments=True)[1:])
+            assert result.exit_code == 0, result.stderr
+            ran, printed = ran + 1, result.stdout
+    assert ran >= 9

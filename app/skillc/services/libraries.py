@@ -22,7 +22,7 @@ from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
-from skillc_dsl.source import Source
+from skillc_dsl.source import Source, Span
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.conflicts import judge_conflicts
@@ -77,14 +77,23 @@ def load_vocabulary() -> Vocabulary:
 @lru_cache(_MOST_VOCABULARIES)
 def load_vocabulary_with(own: tuple[Source, ...]) -> Outcome[Vocabulary]:
     """Load the shipped ontology together with others, with the diagnostics of the others."""
-    outcome = load(_shipped(), own)
+    outcome = load(shipped_sources(), own)
     if outcome.diagnostics and not own:
         raise RuntimeError(f"the shipped ontology is broken: {outcome.diagnostics[0].message}")
     return outcome
 
 
+def find_named_terms(library: LibraryFiles) -> Mapping[str, Span]:
+    """Return the terms of vocabularies that a library names, with a place of each; paths are displayable."""
+    known = load_vocabulary_with(library.vocabularies).value
+    files = read_sources(library.sources, library.importable, library.name, _parse, library.namespaces)
+    resolved = resolve_program(files.value, known, library.name, pipeline.NO_SCENES, importable=library.importable)
+    return {iri: span._replace(path=library.display_path(span.path)) for iri, span in resolved.value.terms.items()}
+
+
 @cache
-def _shipped() -> tuple[Source, ...]:
+def shipped_sources() -> tuple[Source, ...]:
+    """Return the texts of the shipped ontology."""
     return tuple(Source(path, text) for path, text in catalogue.vocabulary_files())
 
 

@@ -32,6 +32,10 @@ class Graph:
         """Return the IRIs declared to be of exactly this class, sorted."""
         return tuple(sorted({node.value for node in self._instances[cls] if isinstance(node, ox.NamedNode)}))
 
+    def kinds(self) -> tuple[str, ...]:
+        """Return the classes of which anything is declared to be, sorted."""
+        return tuple(sorted(self._instances))
+
     def nodes(self, cls: str) -> tuple[Node, ...]:
         """Return everything declared to be of exactly this class, blank nodes too, in order of appearance."""
         return tuple(self._instances[cls])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_dsl.diagnostics import Diagnostic, Outcome
-from skillc_dsl.source import Source
+from skillc_dsl.source import Source, Span
 from skillc_rdf.vocabulary.conflicts import with_concerned
 from skillc_rdf.vocabulary.contradictions import report_contradictions
 from skillc_rdf.vocabulary.datatypes import check_value_types
@@ -16,7 +16,7 @@ from skillc_rdf.vocabulary.iris import CLASS, KINDS, PROPERTY, SUBCLASS, SUBPROP
 from skillc_rdf.vocabulary.kinds import find_undeclared, infer_declarations
 from skillc_rdf.vocabulary.lints import check_computed_relations, lint_ontology
 from skillc_rdf.vocabulary.places import TermPositions
-from skillc_rdf.vocabulary.precedence import Split, report_ignored, split_statements
+from skillc_rdf.vocabulary.precedence import LISTED, Split, report_ignored, split_statements
 from skillc_rdf.vocabulary.prefixes import choose_prefixes, preferred_prefixes, report_taken_prefixes
 from skillc_rdf.vocabulary.reading import Ontology, read_ontologies
 from skillc_rdf.vocabulary.terms import Terms, find_deprecated, make_classes, make_properties, make_relations
@@ -98,14 +98,24 @@ def _below(graph: Graph, kinds: dict[str, str]) -> dict[str, set[str]]:
 def _undeclared(
     terms: Sequence[tuple[str, str]], places: TermPositions, vocabulary: Vocabulary
 ) -> Iterator[Diagnostic]:
+    """Yield a warning for each undeclared term, or one for all of a file that has many."""
+    found: dict[str, list[tuple[Span, str, str]]] = {}
     for iri, kind in terms:
-        yield Diagnostic(
-            "undeclared-term",
-            places.term(iri),
-            f"`{vocabulary.short(iri)}` is used but not declared; it is assumed to be a {kind}",
-            help="declare it, or put the file that declares it into the same folder",
-            severity="warning",
-        )
+        place = places.term(iri)
+        found.setdefault(place.path, []).append((place, f"`{vocabulary.short(iri)}`", kind))
+    for of_file in found.values():
+        if len(of_file) > LISTED:
+            names = ", ".join(name for _, name, _ in of_file[:LISTED])
+            said = f"{names} and {len(of_file) - LISTED} more are used but not declared; what they are is assumed"
+            yield _undeclared_at(min(place for place, _, _ in of_file), said)
+            continue
+        for place, name, kind in of_file:
+            yield _undeclared_at(place, f"{name} is used but not declared; it is assumed to be a {kind}")
+
+
+def _undeclared_at(place: Span, message: str) -> Diagnostic:
+    help_ = "declare it, or put the file that declares it into the same folder"
+    return Diagnostic("undeclared-term", place, message, help_, severity="warning")
 
 
 def _of_files(

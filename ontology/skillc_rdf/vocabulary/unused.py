@@ -26,10 +26,14 @@ PREDICATES = frozenset(
     )
 )
 """Statements with these predicates are (parts of) axioms without effect."""
-CLASSES = frozenset(
-    f"{OWL}{name}"
-    for name in ("ReflexiveProperty", "AllDisjointProperties", "AllDifferent", "NegativePropertyAssertion")
-)
+CLASSES = {
+    **{
+        f"{OWL}{name}": f"owl:{name}"
+        for name in ("ReflexiveProperty", "AllDisjointProperties", "AllDifferent", "NegativePropertyAssertion")
+    },
+    "http://www.w3.org/2003/11/swrl#Imp": "rule (swrl:Imp)",
+    **{f"http://www.w3.org/ns/shacl#{name}": f"shape (sh:{name})" for name in ("NodeShape", "PropertyShape")},
+}
 """Instances of these classes are axioms without effect."""
 ONE_OF = f"{OWL}oneOf"
 COVERING = "owl:complementOf (that everything is of one of both)"
@@ -39,7 +43,7 @@ RESTRICTIONS = f"{OWL}withRestrictions"
 def report_unused_axioms(parts: Iterable[Split], graph: Graph) -> Iterator[Diagnostic]:
     """Report, once per file, the number of axioms without effect, by kind."""
     for part in parts:
-        counts = Counter(kind for triple in part.counting for kind in _kinds(triple, graph))
+        counts = Counter(kind for triple in part.counting for kind in find_unused_kinds(triple, graph))
         if not counts:
             continue
         listed = ", ".join(f"{count} {kind}" for kind, count in sorted(counts.items()))
@@ -74,12 +78,13 @@ def report_missing_imports(own: Sequence[Ontology], graph: Graph) -> Iterator[Di
                 )
 
 
-def _kinds(triple: ox.Triple, graph: Graph) -> Iterator[str]:
+def find_unused_kinds(triple: ox.Triple, graph: Graph) -> Iterator[str]:
+    """Yield the kinds of axioms without effect of which a statement is the one that is counted."""
     said = triple.predicate.value
     if said in PREDICATES or (said == RESTRICTIONS and not _are_bounds(triple.object, graph)):
         yield _short(said)
     elif said == TYPE and isinstance(triple.object, ox.NamedNode) and triple.object.value in CLASSES:
-        yield _short(triple.object.value)
+        yield CLASSES[triple.object.value]
     elif said in (SUBCLASS, EQUAL_CLASS, DISJOINT) and isinstance(triple.subject, ox.BlankNode):
         yield "axiom about an expression"
     elif said == DISJOINT and isinstance(triple.object, ox.BlankNode):
