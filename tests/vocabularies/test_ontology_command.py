@@ -15,7 +15,8 @@ from skillc_ontology import catalogue
 
 HEAD = """@prefix shop: <http://example.org/shop#> . @prefix owl: <http://www.w3.org/2002/07/owl#> .
 @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> . @prefix xsd: <http://www.w3.org/2001/XMLSchema#> .
-@prefix swrl: <http://www.w3.org/2003/11/swrl#> . @prefix cora: <http://www.inf.ufrgs.br/phi-group/ontologies/cora.owl#> .
+@prefix cora: <http://www.inf.ufrgs.br/phi-group/ontologies/cora.owl#> .
+@prefix swrl: <http://www.w3.org/2003/11/swrl#> .
 @prefix skiros: <http://rvmi.aau.dk/ontologies/skiros.owl#> . @prefix skos: <http://www.w3.org/2004/02/skos/core#> .
 """
 SHOP = """<http://example.org/shop> a owl:Ontology ; owl:versionIRI <http://example.org/shop/7> ;
@@ -24,7 +25,8 @@ shop:Crate a owl:Class ; rdfs:subClassOf skiros:Product, [ a owl:Restriction ; o
     owl:someValuesFrom shop:Lid ], [ a owl:Restriction ; owl:onProperty shop:lid ; owl:allValuesFrom
     [ a owl:Restriction ; owl:onProperty shop:lid ; owl:someValuesFrom shop:Lid ] ] .
 shop:Lid a owl:Class ; owl:disjointWith shop:Crate . shop:Full a owl:Class ; owl:equivalentClass
-    [ owl:intersectionOf ( shop:Crate [ a owl:Restriction ; owl:onProperty shop:lid ; owl:someValuesFrom shop:Lid ] ) ] .
+    [ owl:intersectionOf
+        ( shop:Crate [ a owl:Restriction ; owl:onProperty shop:lid ; owl:someValuesFrom shop:Lid ] ) ] .
 shop:lid a owl:ObjectProperty, owl:FunctionalProperty ; rdfs:domain shop:Crate ; rdfs:range shop:Lid .
 shop:price a owl:DatatypeProperty ; rdfs:range xsd:decimal . shop:note a owl:AnnotationProperty .
 shop:euro a shop:Currency . shop:Currency a owl:Class . [] a swrl:Imp . cora:Robot rdfs:subClassOf shop:Lid .
