@@ -10,6 +10,7 @@ import pytest
 
 from skillc.services.scene_edit import edit_file
 from skillc_dsl.source import Source
+from skillc_rdf.vocabulary.terms import with_required
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_sheets, read_documents, sheet_documents
@@ -130,7 +131,8 @@ def test_a_name_that_is_probably_misspelt_is_an_error(said: str, name: str) -> N
 
 def test_what_is_stated_is_not_missed_and_frames_are_checked_beside_what_is_not_understood() -> None:
     needed = "[ a owl:Restriction ; owl:onProperty t:of ; owl:someValuesFrom t:Sample ]"
-    terms = beside(Source("t.ttl", f"{HEAD}{SENSING}t:Act rdfs:subClassOf {needed} .")).value
+    others = beside(Source("t.ttl", f"{HEAD}{SENSING}t:Act rdfs:subClassOf {needed} .")).value
+    terms = with_required(others, [f"{T}of"])
     said = f't:A a t:Act ; t:of [ a t:Sample ] . t:B a t:Act . {PLACE} t:S skiros:BaseFrameId "nowhere" .'
     problems = read_documents([Document("scene.ttl", HEAD + said), *sheet_documents()], terms).problems
     found = [(each.name, each.message.partition(" ")[0]) for each in problems if each.severity == "error"]
@@ -138,3 +140,29 @@ def test_what_is_stated_is_not_missed_and_frames_are_checked_beside_what_is_not_
     said = said.replace("t:B a t:Act .", "")
     problems = read_documents([Document("scene.ttl", HEAD + said), *sheet_documents()], terms).problems
     assert {"not-understood", "unknown-frame"} <= {each.name for each in problems}
+
+
+NEEDING = """t:near a owl:ObjectProperty . t:touches a owl:ObjectProperty ; rdfs:subPropertyOf t:near .
+t:Act rdfs:subClassOf [ a owl:Restriction ; owl:onProperty t:of ; owl:someValuesFrom t:Sample ],
+    [ a owl:Restriction ; owl:onProperty t:touches ; owl:minCardinality 1 ] .
+"""
+
+
+@pytest.mark.parametrize(
+    ("named", "lacking"),
+    [((), ()), (("of",), ("t:of",)), (("near",), ("t:touches",)), (("of", "touches"), ("t:of", "t:touches"))],
+)
+def test_a_required_value_is_an_error_only_if_a_skill_reads_it(
+    named: tuple[str, ...], lacking: tuple[str, ...]
+) -> None:
+    others = beside(Source("t.ttl", HEAD + SENSING + NEEDING)).value
+    terms = with_required(others, [T + name for name in named])
+    acts = " ".join(f"t:A{number} a t:Act ." for number in range(5))
+    problems = read_documents([Document("scene.ttl", HEAD + acts), *sheet_documents()], terms).problems
+    assert {each.name for each in problems} == {"missing-property"}
+    errors = [each.message for each in problems if each.severity == "error"]
+    assert len(errors) == (5 if lacking else 0) and all(f"has no {', '.join(lacking)}," in each for each in errors)
+    (warned,) = [each.message for each in problems if each.severity == "warning"] or [""]
+    left = sorted({"t:of", "t:touches"} - set(lacking))
+    assert bool(warned) == bool(left)
+    assert not left or warned == f"t:A0, t:A1, t:A2 and 2 more lack what their classes require: {', '.join(left)}"

@@ -35,6 +35,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.source import Source, Span
 from skillc_dsl.spelling import did_you_mean
+from skillc_rdf.vocabulary.terms import with_required
 from skillc_rdf.vocabulary.types import Vocabulary
 
 NO_FILES: Mapping[str, Source] = MappingProxyType({})
@@ -69,15 +70,16 @@ def resolve_program(
     skills = _skills(files, contexts, resolver)
     by_skill = _implementation_names(files)
     contexts = {path: structs.replace(each, skills=skills, implementations=by_skill) for path, each in contexts.items()}
+    terms = _first_places(each for found in resolver.found.values() for each in found)
     program = Program(
         name=name,
-        vocabulary=vocabulary,
+        vocabulary=memo.vocabulary.same("required", with_required(vocabulary, terms)),
         files=files,
         skills=skills,
         implementations=tuple(_implementations(files, contexts, skills, resolver)),
         tasks=tuple(_tasks(files, contexts, scenes, resolver)),
         used={path: frozenset().union(*(each.used for each in found)) for path, found in resolver.found.items()},
-        terms=_first_places(each for found in resolver.found.values() for each in found),
+        terms=terms,
         unknown=tuple(
             limit_candidates(name for found in resolver.found.values() for each in found for name in each.unknown)
         ),

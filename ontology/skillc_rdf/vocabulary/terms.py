@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from itertools import combinations
 
 import msgspec
@@ -28,7 +28,7 @@ from skillc_rdf.vocabulary.iris import (
     TYPE,
 )
 from skillc_rdf.vocabulary.places import TermPositions
-from skillc_rdf.vocabulary.types import THING, ClassTerm, PropertyTerm, RelationTerm, Signature
+from skillc_rdf.vocabulary.types import THING, ClassTerm, PropertyTerm, RelationTerm, Signature, Vocabulary
 
 COMMENT, REPLACED = f"{RDFS}comment", "http://purl.org/dc/terms/isReplacedBy"
 
@@ -51,6 +51,10 @@ class Terms(msgspec.Struct, frozen=True):
         """Return the term that an IRI stands for."""
         return self.aliases.get(iri, iri)
 
+    def is_shipped(self, iri: str) -> bool:
+        """Whether a term is a shipped one, as all are if there are no others."""
+        return not self.standing or iri in self.standing
+
     def same(self, iri: str) -> list[str]:
         """Return all names of a term, its own first."""
         return [iri, *(alias for alias, term in self.aliases.items() if term == iri)]
@@ -68,17 +72,37 @@ class Terms(msgspec.Struct, frozen=True):
 def make_classes(terms: Terms) -> dict[str, ClassTerm]:
     """Return the classes."""
     disjoint = _disjoint(terms)
+    every = ((iri, _required(terms, iri)) for iri in terms.of(CLASS))
     return {
         iri: ClassTerm(
             iri=iri,
             parents=terms.above(iri),
             disjoint=tuple(sorted(disjoint[iri])),
-            required=_required(terms, iri),
+            required=tuple(each for each in needed if terms.is_shipped(each)),
+            expected=tuple(each for each in needed if not terms.is_shipped(each)),
             comment=terms.graph.text(iri, COMMENT) or "",
             source=terms.places.position(iri),
         )
-        for iri in terms.of(CLASS)
+        for iri, needed in every
     }
+
+
+def with_required(vocabulary: Vocabulary, named: Collection[str]) -> Vocabulary:
+    """Return a vocabulary whose classes require what they expect, if it, or what it implies, is among `named` terms."""
+    expected = {each for term in vocabulary.classes.values() for each in term.expected}
+    read = frozenset(each for each in expected if not vocabulary.closure.above((each,)).isdisjoint(named))
+    if not read:
+        return vocabulary
+    classes = {iri: _requiring(term, read) for iri, term in vocabulary.classes.items()}
+    return msgspec.structs.replace(vocabulary, classes=classes)
+
+
+def _requiring(term: ClassTerm, read: frozenset[str]) -> ClassTerm:
+    """Return a class that requires the terms that it expects and that are read."""
+    found = read.intersection(term.expected)
+    required = tuple(sorted({*term.required, *found}))
+    left = tuple(each for each in term.expected if each not in found)
+    return msgspec.structs.replace(term, required=required, expected=left) if found else term
 
 
 def make_relations(terms: Terms) -> dict[str, RelationTerm]:

@@ -68,12 +68,17 @@ ValueType: TypeAlias = ClassType | NumberType | VectorType | DirectionType | Pla
 
 
 class ClassTerm(msgspec.Struct, frozen=True, kw_only=True):
-    """An ontology class. `required` are the relations and properties that must be stated of each individual."""
+    """An ontology class.
+
+    `required` are the relations and properties that must be stated of each individual. Ontologies of others require
+    more: what is `expected` is required only by libraries that name it (`with_required`).
+    """
 
     iri: str
     parents: tuple[str, ...] = ()
     disjoint: tuple[str, ...] = ()
     required: tuple[str, ...] = ()
+    expected: tuple[str, ...] = ()
     comment: str = ""
     source: Position | None = None
 

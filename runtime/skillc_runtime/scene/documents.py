@@ -11,7 +11,7 @@ import msgspec
 import pyoxigraph as ox
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.encoding import unpack
+from skillc_dsl.encoding import is_packed, unpack
 from skillc_dsl.source import Source, Span
 from skillc_rdf.formats.detect import detect_format
 from skillc_rdf.formats.read import UnreadableError, read_content
@@ -69,8 +69,10 @@ class Document(msgspec.Struct, frozen=True):
             check_available(BULK_BYTES * path.stat().st_size)
             if not path.is_file():
                 raise OSError(errno.EINVAL, "it is not a regular file")
-            data = unpack(path.read_bytes())
-            check_available(BULK_BYTES * len(data))
+            data = path.read_bytes()
+            if is_packed(data):
+                data = unpack(data)
+                check_available(BULK_BYTES * len(data))
             text = data.decode("utf-8-sig")
         except OSError as error:
             raise SceneError([unreadable_problem(str(path), error.strerror or str(error))]) from error

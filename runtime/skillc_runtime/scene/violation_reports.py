@@ -151,7 +151,8 @@ def report_scene_violations(
     places = {(iri_of(each.subject), each.predicate): each for each in reversed(said)}
     for violation in found:
         if violation.individual not in with_problems:
-            yield Diagnostic(violation.name, _statement_place(violation, places), violation.message, violation.help)
+            place = _statement_place(violation, places)
+            yield Diagnostic(violation.name, place, violation.message, violation.help, violation.severity)
 
 
 def _subjects(said: Sequence[Statement], problems: Collection[Diagnostic]) -> Iterator[str]:

@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 
+from skillc_rdf.vocabulary.types import ClassTerm
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.data_sheet import DataSheet
 from skillc_runtime.world.state.quantities import placeholder
 from skillc_runtime.world.state.terms import ARM_SHEET, SKILLC
 from skillc_runtime.world.state.world_state import WorldState
 
+LISTED = 3
+"""The most individuals and terms that are named where nothing reads what is missing."""
+
 
 def check_required(state: WorldState) -> Iterator[SceneViolation]:
-    """Yield each individual that lacks required properties or relations, once with all of them."""
+    """Yield each individual that lacks required properties or relations, once with all of them.
+
+    What is lacking of what classes expect, and no skill reads, is one warning.
+    """
+    yield from _check_required(state)
+    yield from _check_expected(state)
+
+
+def _check_required(state: WorldState) -> Iterator[SceneViolation]:
     short = state.vocabulary.short
-    for individual, required in _required(state):
+    for individual, required in _find_needs(state, lambda term: term.required):
         lost = {predicate: cls for predicate, cls in required if not _has(state, individual, predicate)}
         if lost and state.is_a(individual, ARM_SHEET):
             open_ = {f"{SKILLC}{name}" for name in DataSheet(state, individual).unstated}
@@ -27,13 +39,35 @@ def check_required(state: WorldState) -> Iterator[SceneViolation]:
             yield SceneViolation(individual, None, "missing-property", message, f"write {cure}")
 
 
-def _required(state: WorldState) -> list[tuple[str, tuple[tuple[str, str], ...]]]:
-    """Return the individuals with requirements, sorted by IRI, each with predicates and the classes requiring them."""
+def _check_expected(state: WorldState) -> Iterator[SceneViolation]:
+    found = {
+        individual: lost
+        for individual, expected in _find_needs(state, lambda term: term.expected)
+        if (lost := [predicate for predicate, _ in expected if not _has(state, individual, predicate)])
+    }
+    if not found:
+        return
+    who = _listed(map(state.vocabulary.short, found))
+    what = _listed(map(state.vocabulary.short, sorted({each for lost in found.values() for each in lost})))
+    message = f"{who} lack{'s' * (len(found) == 1)} what their classes require: {what}"
+    cure = "state it before a skill reads it: it is an error then"
+    yield SceneViolation(next(iter(found)), None, "missing-property", message, cure, "warning")
+
+
+def _listed(names: Iterable[str]) -> str:
+    first = [*names]
+    return ", ".join(first[:LISTED]) + (f" and {len(first) - LISTED} more" if first[LISTED:] else "")
+
+
+def _find_needs(
+    state: WorldState, needs: Callable[[ClassTerm], tuple[str, ...]]
+) -> list[tuple[str, tuple[tuple[str, str], ...]]]:
+    """Return the individuals with needs, sorted by IRI, each with predicates and the classes that need them."""
     known = state.vocabulary.classes
     by_classes: dict[frozenset[str], tuple[tuple[str, str], ...]] = {}
     for classes in {classes for _, classes in state.classes.items()}:
         ours = (known[cls] for cls in sorted(classes) if cls in known)
-        by_classes[classes] = tuple((predicate, term.iri) for term in ours for predicate in term.required)
+        by_classes[classes] = tuple((predicate, term.iri) for term in ours for predicate in needs(term))
     return sorted((one, by_classes[classes]) for one, classes in state.classes.items() if by_classes[classes])
 
 
