@@ -77,6 +77,7 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True):
     scoped: bool = False
     planned: bool = True
     fallback: bool = False
+    endless: bool = False
     pause: PausePolicy = PausePolicy()
     implementations: tuple[str, ...] = ()
     source: Position
@@ -94,7 +95,11 @@ class Primitive(msgspec.Struct, frozen=True, tag="primitive"):
     python: str
 
 
-ImplementationBody: TypeAlias = Compound | Primitive
+class Declared(msgspec.Struct, frozen=True, tag="declared"):
+    """No body: the implementation takes its duration, and what it declares is so then. Only symbolic cells run it."""
+
+
+ImplementationBody: TypeAlias = Compound | Primitive | Declared
 
 
 class Let(msgspec.Struct, frozen=True):

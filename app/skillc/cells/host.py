@@ -287,7 +287,9 @@ class CellHost:
         return assign_request(request.task, request.goal, request.call, request.arguments, self.library, state)
 
     def _plan(self, assignment: Assignment, failures: FailedSteps, geometry: bool = True) -> PlanningJob:
-        look = look_from(self.devices.backend.cell, failures.library) if geometry else None
+        backend = self.devices.backend
+        looks = geometry and not backend.capabilities.symbolic
+        look = look_from(backend.cell, failures.library) if looks else None
         return PlanningJob(assignment, failures.library, failures, look=look)
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import msgspec
 
 from skillc.cells.settings import CellSettings
+from skillc.services.backends import adapt_library
 from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library
 from skillc.services.library_modules import find_modules
@@ -36,6 +37,7 @@ def load_library(settings: CellSettings) -> SkillLibrary:
     library = (
         decode_library(settings.content) if settings.content else compile_valid(find_library(Path(settings.library)))
     )
+    library = adapt_library(library, settings.backend)
     _import(find_modules(library))
     return library
 

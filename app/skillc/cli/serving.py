@@ -34,7 +34,8 @@ def cell_options(function: Function) -> Function:
             type=BACKEND,
             default="mujoco",
             show_default=True,
-            help="Run cells of this backend: `mujoco` has physics, `kinematic` ideal contact; packages add others.",
+            help="Run cells of this backend: `mujoco` has physics, `kinematic` ideal contact, `symbolic` facts alone; "
+            "packages add others.",
         ),
         click.option(
             "--seed", default=0, show_default=True, help="Seed of the differences between world model and simulation."

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 class SceneCache:
     """A cache of scenes. The world model is imported only if a task has a scene."""
 
-    _read: dict[tuple[Path, int | str, bytes], Outcome[Scene | None]] = field(default_factory=dict)
+    _read: dict[tuple[Path, int | str, bytes, bool], Outcome[Scene | None]] = field(default_factory=dict)
 
     def read(
         self, program: Program, base: Vocabulary, around: LibraryFiles, folder: Path, buffers: Mapping[Path, str]
@@ -43,13 +43,15 @@ class SceneCache:
 
         def read(path: Path, vocabulary: Vocabulary) -> Outcome[Scene | None]:
             text = buffers.get(path)
-            key = (path, (path.stat().st_mtime_ns if path.is_file() else 0) if text is None else text, terms)
+            written = (path.stat().st_mtime_ns if path.is_file() else 0) if text is None else text
+            key = (path, written, terms, vocabulary.symbolic)
             if key not in self._read:
                 self._read = {other: found for other, found in self._read.items() if other[0] != path}
                 self._read[key] = read_scene(path, vocabulary, text)
             return self._read[key]
 
-        return read_task_scenes(program, SceneTexts(folder.joinpath, str, default), read=read)
+        texts = SceneTexts(folder.joinpath, str, default, around.is_symbolic)
+        return read_task_scenes(program, texts, read=read)
 
 
 def find_problems(scenes: TaskScenes | None, analysis: Analysis) -> tuple[Diagnostic, ...]:

@@ -13,10 +13,12 @@ from typing import TYPE_CHECKING, TypeAlias
 import msgspec
 
 from skillc.errors import RequestError, ServiceError
+from skillc.services.project.project import SYMBOLIC
 from skillc_dsl.cache import cache_folder, delete_oldest, load, store
 from skillc_runtime.execution.pace import FAST, REAL
 
 if TYPE_CHECKING:
+    from skillc_model.skills import SkillLibrary
     from skillc_runtime.devices.backend import Backend, MakeBackend
     from skillc_runtime.world.state.model import WorldModel
 
@@ -99,6 +101,15 @@ def make_backend(
         return make(world, BackendStart(seed, saved, observed))
     except BackendUnavailable as error:
         raise ServiceError(f"the backend {name} cannot be used: {error}") from error
+
+
+def adapt_library(library: SkillLibrary, backend: BackendName) -> SkillLibrary:
+    """Return a library as cells of a back end run it."""
+    if backend != SYMBOLIC:
+        return library
+    from skillc_model.declared import act_as_declared
+
+    return act_as_declared(library)
 
 
 def check_pace(backend: Backend, factor: float) -> None:

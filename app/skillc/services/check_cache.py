@@ -132,7 +132,7 @@ def named_scenes(library: LibraryFiles) -> Iterator[Path]:
 
 def _inputs(library: LibraryFiles, scene: Path | None) -> Iterator[str | bytes]:
     """Yield everything that a check depends on other than the installation and the texts of the library's own files."""
-    yield from (os.getcwd(), library.name, str(library.root))  # noqa: PTH109
+    yield from (os.getcwd(), library.name, str(library.root), library.backend or "")  # noqa: PTH109
     yield from (f"{name} {namespace}" for name, namespace in sorted(library.namespaces.items()))
     if library.project:
         yield library.project.source.text

@@ -36,13 +36,15 @@ class StdinFile(NamedTuple):
 class CheckRequest(NamedTuple):
     """The paths to check, with `scene` or without; `-` among the paths is `stdin`.
 
-    With `cache`, unchanged libraries are not checked again.
+    With `cache`, unchanged libraries are not checked again. `backend` is where tasks will run, None for that of their
+    project.
     """
 
     paths: tuple[Path, ...]
     scene: Path | None = None
     stdin: StdinFile | None = None
     cache: bool = True
+    backend: str | None = None
 
 
 class CheckResult(NamedTuple):
@@ -57,7 +59,7 @@ def read_libraries(request: CheckRequest) -> list[LibraryFiles]:
     found: list[LibraryFiles] = []
     for path in request.paths:
         found += [_from_stdin(request.stdin)] if path == STDIN else find_libraries(path)
-    return found
+    return [each._replace(backend=request.backend) for each in found]
 
 
 def check_sources(request: CheckRequest, libraries: Iterable[LibraryFiles], memos: Memos | None = None) -> CheckResult:

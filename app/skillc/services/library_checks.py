@@ -17,6 +17,7 @@ from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.files import Parser
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.source import Source
+from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary
 
 if TYPE_CHECKING:
@@ -81,6 +82,8 @@ def _named_goals(
         return ()
     from skillc.services.named_goals import check_named_goals
 
+    if library.is_symbolic:
+        return tuple(check_named_goals(library.project, act_as_declared(compiled.value)))
     return tuple(check_named_goals(library.project, compiled.value, look))
 
 

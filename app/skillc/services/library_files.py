@@ -15,7 +15,7 @@ from skillc.services.files import inspect_path
 from skillc.services.ontology_imports import follow_imports
 from skillc.services.project import project as projects
 from skillc.services.project.loading import find_project
-from skillc.services.project.project import Project
+from skillc.services.project.project import SYMBOLIC, Project
 from skillc_compiler.emit.headers import is_generated
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import MOST_BYTES, decode, read_file, unpack
@@ -36,7 +36,8 @@ class LibraryFiles(NamedTuple):
 
     `vocabularies` are the user's ontologies: those in the library's folder and those in the user's ontology folders.
     `places` are the files on disk of all these texts, by path. `namespaces` are those of the terms of libraries with
-    a `skillc.toml`, by name; `project` is the library's own, None without one.
+    a `skillc.toml`, by name; `project` is the library's own, None without one. `backend` is where its tasks are
+    checked, None for the one that the project names.
     """
 
     name: str
@@ -47,6 +48,13 @@ class LibraryFiles(NamedTuple):
     vocabularies: tuple[Source, ...]
     namespaces: Mapping[str, str]
     project: Project | None
+    backend: str | None = None
+
+    @property
+    def is_symbolic(self) -> bool:
+        """Whether its tasks run in cells without bodies, so that nothing spatial is asked of their scenes."""
+        chosen = self.project.manifest.tool.run.backend if self.project and self.backend is None else self.backend
+        return chosen == SYMBOLIC
 
     def display_path(self, path: str) -> str:
         """Return a source's path as displayed: relative to the current folder, or absolute outside of it."""

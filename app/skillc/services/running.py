@@ -12,12 +12,13 @@ import msgspec
 from msgspec.structs import replace
 
 from skillc.errors import RequestError, ServiceError
-from skillc.services.backends import DEFAULT_BACKEND, SIMULATED, check_pace, make_backend
+from skillc.services.backends import DEFAULT_BACKEND, SIMULATED, adapt_library, check_pace, make_backend
 from skillc.services.breakpoints import make_gate
 from skillc.services.cell_checks.starting import find_start_problem
 from skillc.services.operating import RunMonitor, operate
 from skillc.services.picture_making import Pictures, making_pictures
 from skillc.services.planning import with_minimal_makespan
+from skillc.services.project.project import SYMBOLIC
 from skillc.services.real_devices import check_reality, with_reality
 from skillc.services.recorded_run import RecordingOptions, recorded_run
 from skillc.services.reporting import Reporter
@@ -111,6 +112,8 @@ def run_task(
     if pictures is None:
         with making_pictures(reporter) as pictures:
             return run_task(task, options, monitor, reporter, pictures)
+    if options.spec.backend == SYMBOLIC:
+        task, options = _without_bodies(task, options)
     spec = options.spec
     if spec.minimise == "makespan":
         task = with_minimal_makespan(task)
@@ -120,7 +123,7 @@ def run_task(
         task = _with_own_world(task)
     gate = make_gate(spec, task.library)
     end = partial(end_unstarted, task, spec)
-    problem = find_start_problem(task, reporter)
+    problem = None if spec.backend == SYMBOLIC else find_start_problem(task, reporter)
     if problem is not None:
         return end("refused", problem, reporter)
     with _plan_ahead(task, options) as planning:
@@ -139,6 +142,12 @@ def run_task(
             check_reality(cell, spec.reality or IDEAL)
             destination = ReportDestination(options.out, pictures, reporter)
             return _Run(task, options, cell, make_samples(cell, film), gate, monitor, destination).carry_out(planning)
+
+
+def _without_bodies(task: LoadedTask, options: RunOptions) -> tuple[LoadedTask, RunOptions]:
+    """Return a task whose skills act by what they declare, and options with which nobody looks in space."""
+    spec = replace(options.spec, geometry=False)
+    return replace(task, library=adapt_library(task.library, spec.backend)), replace(options, spec=spec)
 
 
 def _with_own_world(task: LoadedTask) -> LoadedTask:

@@ -21,6 +21,7 @@ from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome
 from skillc_dsl.source import Span
 from skillc_model.conditions import Condition
+from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary, Task
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.execution.selection.initial_calls import initial_call_refusals
@@ -51,17 +52,19 @@ def check_tasks_in_scenes(
 
     `program` is the compiled program, `judge` may be a cached `judge_cell`. `look` looks in space at tasks of which
     nothing else is reported, and no error in their scenes. Libraries and scenes with errors are skipped, and so is what
-    compiling has reported. What affects several tasks is reported at the first.
+    compiling has reported. What affects several tasks is reported at the first. Of tasks in cells without bodies only
+    facts are asked.
     """
     if not compiled.ok:
         return []
-    library = compiled.value
+    library = act_as_declared(compiled.value) if scenes.symbolic else compiled.value
     errors: list[Diagnostic] = []
     fine: list[TaskDiagnostics] = []
     places = value_checks.value_places(program)
     known = {name: task for name, task in library.tasks.items() if not task.parameters}
-    unchecked = list(_unchecked(scenes.valid))
-    judge = _judge_nothing if unchecked else judge or judge_cell
+    unchecked = [] if scenes.symbolic else list(_unchecked(scenes.valid))
+    without_space = scenes.symbolic or bool(unchecked)
+    judge = _judge_nothing if without_space else judge or judge_cell
     cells = {path: list(_of_cell(path, scenes, known, judge)) for path in scenes.valid}
     stopped: dict[CellProblem, list[Label]] = {}
     for name, path in scenes.files.items():
@@ -74,14 +77,16 @@ def check_tasks_in_scenes(
     errors = list({(each.span, each.name, each.message): each for each in reversed(errors)}.values())[::-1]
     labelled = {(label.span.path, label.span.line) for each in errors for label in each.labels}
     valid = [(scene, str(path)) for path, scene in scenes.valid.items()]
-    others = [] if unchecked else [each for scene, path in valid for each in _of_devices(scene, path)]
+    others = [] if without_space else [each for scene, path in valid for each in _of_devices(scene, path)]
     others += (each for scene, path in valid for each in _of_individuals(library, scene, path))
-    others += (each for scene, path in valid for each in check_angles(scene, path))
+    others += (each for scene, path in valid if not scenes.symbolic for each in check_angles(scene, path))
     others = [each for each in others if (each.span.path, each.span.line) not in labelled]
     unusable = {each.span.path for each in others if each.severity == "error"}
     usable = [each for each in fine if str(scenes.files[each.task.name]) not in unusable]
     told = {path: [each.violation.individual for each in found] for path, found in cells.items()}
-    seen = [] if look is None or unchecked else _in_space(usable, library, look, lambda name: told[scenes.files[name]])
+    seen = (
+        [] if look is None or without_space else _in_space(usable, library, look, lambda name: told[scenes.files[name]])
+    )
     cell = (_with_tasks(each, stopped) for found in cells.values() for each in found)
     return [*errors, *others, *unchecked, *seen, *cell]
 

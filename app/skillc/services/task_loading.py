@@ -13,6 +13,7 @@ from msgspec import structs
 from skillc.errors import RequestError
 from skillc.services import task_scenes
 from skillc.services.assignments import assign_call, assign_goal, assign_task
+from skillc.services.backends import DEFAULT_BACKEND, BackendName, adapt_library
 from skillc.services.compiled_libraries import compile_valid
 from skillc.services.files import inspect_path
 from skillc.services.library_files import LibraryFiles, find_library, find_scene
@@ -93,13 +94,15 @@ def load_task(spec: RunSpec, reporter: Reporter, store: StoreChoice = NO_STORE) 
         yield loaded
 
 
-def find_task_in_scene(reference: str) -> tuple[SkillLibrary, Task, Path]:
+def find_task_in_scene(reference: str, backend: BackendName = DEFAULT_BACKEND) -> tuple[SkillLibrary, Task, Path]:
     """Find and compile the task `LIBRARY:NAME`, or that of the project here or shipped; return it with its scene file.
+
+    The library is as cells of the back end run it.
 
     A goal or call that a `skillc.toml` names becomes a task of the library.
     """
     files, name = split_reference(reference)
-    library = compile_valid(files)
+    library = adapt_library(compile_valid(files), backend)
     if name not in library.tasks and files.project and name in files.project.manifest.tasks:
         # What reads goals is slow to import.
         from skillc.services.named_goals import make_named_task, named_scene
@@ -130,7 +133,7 @@ def _find_scene(task: Task, files: LibraryFiles) -> Path:
 
 @contextmanager
 def _load_named(reference: str, spec: RunSpec, store: StoreChoice, reporter: Reporter) -> Iterator[LoadedTask]:
-    library, task, scene = find_task_in_scene(reference)
+    library, task, scene = find_task_in_scene(reference, spec.backend)
     with open_world(store, scene, library.vocabulary, reporter) as world:
         assignment = assign_task(task, library, world.snapshot(), spec.arguments)
         yield LoadedTask(library, assignment, world, _origin(store, scene))
@@ -138,7 +141,8 @@ def _load_named(reference: str, spec: RunSpec, store: StoreChoice, reporter: Rep
 
 @contextmanager
 def _load_goal(spec: RunSpec, store: StoreChoice, reporter: Reporter) -> Iterator[LoadedTask]:
-    library = compile_valid(find_library(Path(spec.library)) if spec.library else default_library())
+    files = find_library(Path(spec.library)) if spec.library else default_library()
+    library = adapt_library(compile_valid(files), spec.backend)
     scene = find_scene(Path(spec.scene)) if spec.scene else None
     with open_world(store, scene, library.vocabulary, reporter) as world:
         state = world.snapshot()

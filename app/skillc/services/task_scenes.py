@@ -33,29 +33,34 @@ ReadScene: TypeAlias = Callable[[Path, Vocabulary], Outcome[Scene | None]]
 
 
 class SceneTexts(msgspec.Struct, frozen=True):
-    """Maps the paths of a library to files on disk and to displayable paths; the scene of tasks that name none."""
+    """Maps the paths of a library to files on disk and to displayable paths; the scene of tasks that name none.
+
+    `symbolic`: its tasks run in cells without bodies.
+    """
 
     place: Callable[[str], Path]
     shown: Callable[[str], str]
     default: Path | None = None
+    symbolic: bool = False
 
     @staticmethod
     def of(files: LibraryFiles) -> SceneTexts:
         """Return those of a library on disk."""
         default = default_scene(files.project) if files.project else None
-        return SceneTexts(files.places.__getitem__, files.display_path, default)
+        return SceneTexts(files.places.__getitem__, files.display_path, default, files.is_symbolic)
 
 
 class TaskScenes(msgspec.Struct, frozen=True):
     """The scenes of tasks, and others: `files` by task, `valid` scenes without errors by file, and diagnostics.
 
-    `individuals` are those in each task's scene, by task.
+    `individuals` are those in each task's scene, by task. `symbolic`: the tasks run in cells without bodies.
     """
 
     files: Mapping[str, Path]
     valid: Mapping[Path, Scene]
     individuals: Mapping[str, Individuals]
     problems: tuple[Diagnostic, ...]
+    symbolic: bool = False
 
 
 def read_scene(path: Path, vocabulary: Vocabulary, text: str | None = None) -> Outcome[Scene | None]:
@@ -80,14 +85,15 @@ def read_task_scenes(
     if others:
         chosen = {scene.resolve() for scene in others}
         files = {task: path for task, path in files.items() if path.resolve() in chosen}
-    scenes = {path: read(path, program.vocabulary) for path in sorted({*files.values(), *others})}
+    vocabulary = msgspec.structs.replace(program.vocabulary, symbolic=texts.symbolic)
+    scenes = {path: read(path, vocabulary) for path in sorted({*files.values(), *others})}
     valid = {path: scene.value for path, scene in scenes.items() if scene.ok and scene.value}
     known = {path: classes_by_individual(scene.state, program.vocabulary) for path, scene in valid.items()}
     missing = (_missing(text, texts) for task, text in written if found[task] is None and not others)
     lacking = find_missing_terms(program)
     wrong = (problem for scene in scenes.values() for problem in select_problems(scene, lacking))
     individuals = {task: known[path] for task, path in files.items() if path in known}
-    return TaskScenes(files, valid, individuals, tuple(dict.fromkeys((*missing, *wrong))))
+    return TaskScenes(files, valid, individuals, tuple(dict.fromkeys((*missing, *wrong))), texts.symbolic)
 
 
 def default_scene(project: Project) -> Path | None:

@@ -35,8 +35,8 @@ class WorkKeywords(TypedDict, total=False):
     imperfections that their sheets state, or only some of them: `wide:jointFriction,forceBias`. By default as the
     scene says, ideal if it says nothing."""
     backend: str
-    """Simulate with physics (`mujoco`), or with ideal motion and contact (`kinematic`): faster, but contact is not
-    verified then. Others run on robots."""
+    """Simulate with physics (`mujoco`), with ideal motion and contact (`kinematic`): faster, but contact is not
+    verified then; or with facts alone (`symbolic`). Others run on robots."""
     dry: bool
     """Move nothing: look where the devices are, begin there in simulation, and record what would be sent."""
     out: AnyPath | None

@@ -31,7 +31,7 @@ def preview_plan(job: PreviewPlan, known: CellSnapshot) -> PlanPreview:
     def plan(without: Sequence[Excluded]) -> Answer:
         return plan_goal(loaded, job.measure, planners, cancel, without=without)
 
-    if job.geometry:
+    if job.geometry and not known.library.vocabulary.symbolic:
         look = look_from_postures(known.postures, known.library)
         answer, space = plan_for_run(known.library, known.state, plan, look, cancel)
         if isinstance(assignment.objective, AchieveGoal):

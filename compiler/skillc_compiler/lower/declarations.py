@@ -42,6 +42,7 @@ def lower_skill(typed: Skill, implementations: Sequence[str]) -> library.Skill:
         scoped="scoped" in typed.flags,
         planned="noplan" not in typed.flags,
         fallback="fallback" in typed.flags,
+        endless="endless" in typed.flags,
         pause=_pause(typed.pause),
         implementations=tuple(implementations),
         source=start_position(typed.span),

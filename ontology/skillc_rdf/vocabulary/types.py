@@ -178,9 +178,11 @@ class FunctionTerm(msgspec.Struct, frozen=True, kw_only=True):
 class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     """All terms by IRI (functions by name), the prefixes that shorten IRIs, and the aliases of terms.
 
-    `deprecated` maps deprecated terms to their replacements, "" without one.
+    `deprecated` maps deprecated terms to their replacements, "" without one. `symbolic`: worlds of these terms have no
+    bodies, so that they need not state what a simulation has to know: sizes, poses and data sheets.
     """
 
+    symbolic: bool = False
     prefixes: dict[str, str] = {}
     aliases: dict[str, str] = {}
     deprecated: dict[str, str] = {}

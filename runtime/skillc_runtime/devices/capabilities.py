@@ -49,7 +49,8 @@ class BackendCapabilities(msgspec.Struct, frozen=True):
     falls is waited for. truth: for reports and trials. drawing: for films and displays. disturber: things happen to
     the cell that no skill does. checkpoints: the cell can be built again as it was. live: signals in each control
     period. observer: looks at real devices, beside what the scene says. commands: nothing
-    is sent to devices, but what would be is kept. imperfect: devices are as far from ideal as facts say.
+    is sent to devices, but what would be is kept. imperfect: devices are as far from ideal as facts say. symbolic: its
+    body is the world model, and nothing in it has a pose, so that time passes from one event to the next.
     """
 
     lock_step: LockStep | None = None
@@ -62,6 +63,7 @@ class BackendCapabilities(msgspec.Struct, frozen=True):
     observer: CellObserver | None = None
     commands: CommandRecord | None = None
     imperfect: bool = False
+    symbolic: bool = False
 
 
 NO_CAPABILITIES = BackendCapabilities()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
@@ -16,6 +17,7 @@ from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import StartPreparation
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.task_state import RefusedCommand
+from skillc_runtime.execution.tree.context import EPSILON_S
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.recording.commands import Abort, Command, Stop
 from skillc_runtime.recording.events import Listener
@@ -223,12 +225,21 @@ class CellLoop:
     def _advance(self) -> None:
         """Let time pass; an error of the cell fails all runs."""
         try:
-            self.backend.advance(TICK_S)
+            self.backend.advance(self._next_step_s)
         except FOREIGN_ERRORS as error:  # the boundary to the cell: every run reports, halts and ends
             for run in self.runs:
                 run.abort(error)
         for hook in self.after_tick:
             hook()
+
+    @property
+    def _next_step_s(self) -> float:
+        """How long, in s, until the next tick: where there are no devices, as many ticks as would change nothing."""
+        if not self.backend.capabilities.symbolic:
+            return TICK_S
+        idle_s = min(run.find_idle_s() for run in self.runs if run.needs_time)
+        ticks = 1 if math.isinf(idle_s) else max(1, math.ceil(idle_s / TICK_S - EPSILON_S))
+        return ticks * TICK_S
 
 
 def _take_all(requests: deque[Request]) -> Iterable[Request]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import assert_never
 
 import msgspec
 
 from skillc_model import tree
 from skillc_model.conditions import Individual
-from skillc_model.skills import Compound, Implementation, Primitive, SkillLibrary
+from skillc_model.skills import Compound, Declared, Implementation, Primitive, SkillLibrary
 from skillc_model.traversal import find_calls
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
@@ -158,6 +159,10 @@ def _may_go_on_beside(implementation: Implementation, library: SkillLibrary, cal
                 return not import_primitive(python).uses_devices
             except PrimitiveError:
                 return False
+        case Declared():
+            return False
+        case _:
+            assert_never(implementation.body)
 
 
 def _is_device(individual: str, state: WorldState) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import nullcontext
 from typing import Literal
 
@@ -93,6 +94,17 @@ class TaskRun(RunStatus):
         if self._attempt is not None:
             self._tick_attempt(self._attempt)
         return arrived or self._attempt is not None or self.state != before
+
+    def find_idle_s(self) -> float:
+        """Return for how long, in s, nothing will happen by itself in a cell without devices; 0 if that is not known.
+
+        Infinite if it waits for no time.
+        """
+        if self.state != "running" or self._attempt is None or not self._attempt.ticking:
+            return 0.0
+        limit_s = self.spec.deadline_s
+        left_s = math.inf if limit_s is None else self._submitted_at + limit_s + EPSILON_S - self._now
+        return min(self._attempt.tree.idle_s, left_s)
 
     def abort(self, error: BaseException) -> None:
         """Fail because of an error of the cell."""

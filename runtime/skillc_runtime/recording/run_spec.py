@@ -118,8 +118,8 @@ class RunSpec(RunRequest, frozen=True, kw_only=True):
     backend: Annotated[
         str,
         documented(
-            "Simulate with physics (`mujoco`), or with ideal motion and contact (`kinematic`): faster, but contact is "
-            "not verified then. Others run on robots.",
+            "Simulate with physics (`mujoco`), with ideal motion and contact (`kinematic`): faster, but contact is not "
+            "verified then; or with facts alone (`symbolic`). Others run on robots.",
             EXECUTION,
         ),
     ] = "mujoco"

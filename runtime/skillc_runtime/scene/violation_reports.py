@@ -122,13 +122,19 @@ def _fact(change: Change) -> IriTriple | None:
 
 
 def check_individuals(state: WorldState) -> Iterator[SceneViolation]:
-    """Yield the violations of checks that need no poses."""
-    for check in (check_containment, check_required, check_plausible, check_data_sheets):
+    """Yield the violations of checks that need no poses; of worlds without bodies those that concern none."""
+    of_bodies = () if state.vocabulary.symbolic else (check_required, check_plausible, check_data_sheets)
+    for check in (check_containment, *of_bodies):
         yield from check(state)
 
 
 def check_placement(state: WorldState) -> Iterator[SceneViolation]:
-    """Yield the violations of frames and poses; regions of surfaces are checked if there are none."""
+    """Yield the violations of frames and poses; regions of surfaces are checked if there are none.
+
+    Worlds without bodies have neither.
+    """
+    if state.vocabulary.symbolic:
+        return
     misplaced = list(check_frames(state))
     yield from misplaced or check_surface_regions(state)
 

@@ -15,7 +15,7 @@ from skillc.cli.command import Command
 from skillc.cli.completions import complete_scene
 from skillc.cli.console import print_remark
 from skillc.cli.diagnostics_output import FORMS, JSON, exit_code, print_diagnostics
-from skillc.cli.options import PATH, json_option
+from skillc.cli.options import BACKEND, PATH, json_option
 from skillc.cli.serving import require_ros2
 from skillc.cli.slow_notice import notice_if_slow
 from skillc.cli.struct_options import struct_options
@@ -54,6 +54,7 @@ class CheckOptions(msgspec.Struct, frozen=True, kw_only=True):
     paths: tuple[Path, ...]
     scene: Path | None
     form: str
+    backend: str | None
     fix: bool
     unsafe_fixes: bool
     diff: bool
@@ -71,6 +72,12 @@ class CheckOptions(msgspec.Struct, frozen=True, kw_only=True):
 )
 @click.option(
     "--format", "form", type=FormChoice(FORMS), default="full", show_default=True, help="The format of diagnostics."
+)
+@click.option(
+    "--backend",
+    type=BACKEND,
+    metavar="NAME",
+    help="Check tasks for this back end, by default that of the project; `symbolic` asks for no bodies.",
 )
 @click.option("--fix", is_flag=True, help="Apply safe fixes, then check again.")
 @click.option(
@@ -139,7 +146,7 @@ def _make_request(asked: CheckOptions) -> CheckRequest:
 
     scene = asked.scene and find_scene(asked.scene)
     stdin = StdinFile(asked.stdin_filename, read_stdin()) if STDIN in asked.paths else None
-    return CheckRequest(asked.paths or (Path(),), scene, stdin, asked.cache)
+    return CheckRequest(asked.paths or (Path(),), scene, stdin, asked.cache, asked.backend)
 
 
 def _show(result: CheckResult, form: str) -> int:

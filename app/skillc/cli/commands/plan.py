@@ -38,7 +38,7 @@ skillc plan wiping:clean_both --minimise makespan --json
 @click.argument("task", required=False, shell_complete=complete_asked_task)
 @task_arguments(complete_asked_argument)
 @store_options
-@run_options(only=("goal", "scene", "library", "minimise", "geometry", "plan_cache"))
+@run_options(only=("goal", "scene", "library", "minimise", "backend", "geometry", "plan_cache"))
 @grouped_option(PLANNING, "--prove", is_flag=True, help="Include more of a large scene until optimality is proved.")
 @grouped_option(
     PLANNING,
@@ -87,7 +87,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, as_json:
             f"planning, for at most {limit_s:g} s ..", lambda: describe_progress(progress[-1]) if progress else ""
         ):
             planners, cancel = prepare_planners(wanted.plan_cache), CancelToken(limit_s)
-            if wanted.geometry:
+            if wanted.geometry and not loaded.library.vocabulary.symbolic:
                 answer, space = plan_goal_in_space(loaded, measure, planners, cancel, progress.append)
             else:
                 answer, space = plan_goal(loaded, measure, planners, cancel, progress.append), None

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from skillc_dsl.source import Span
 
 MANIFEST = "skillc.toml"
+SYMBOLIC = "symbolic"
+"""The back end without bodies: in its cells skills act as they declare, and scenes need no poses, sizes or sheets."""
 VIRTUAL_ENVIRONMENT = "pyvenv.cfg"
 SHIPPED = Path(skillc_skills.__path__[0])
 

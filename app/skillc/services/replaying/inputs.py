@@ -10,6 +10,7 @@ from tempfile import TemporaryDirectory
 from msgspec import structs
 
 from skillc.errors import RequestError, ServiceError
+from skillc.services.backends import adapt_library
 from skillc.services.compiled_libraries import compile_valid
 from skillc.services.files import inspect_path
 from skillc.services.library_files import SHIPPED, find_library
@@ -65,7 +66,7 @@ def read_inputs(run: Path, library: Path | SkillLibrary | None, reporter: Report
         raise ServiceError(f"{path} does not begin with the start of a task")
     start = events[0]
     metadata, attachments = _read_contents(path)
-    found = _find_library(start, attachments, library, path)
+    found = adapt_library(_find_library(start, attachments, library, path), start.backend)
     wall_time_s = (envelopes[-1].wall_time_ns - envelopes[0].wall_time_ns) * 1e-9
     beginning = _read_beginning(attachments, path)
     if beginning is None:

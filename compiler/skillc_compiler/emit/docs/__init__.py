@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from typing import assert_never
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
@@ -13,7 +14,7 @@ from skillc_model.conditions import Expression, Literal
 from skillc_model.format_condition import format_expression, format_literal
 from skillc_model.format_type import format_quantity, format_type
 from skillc_model.rewriting import constant_number
-from skillc_model.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
+from skillc_model.skills import Compound, Declared, Implementation, Parameter, Primitive, Skill, SkillLibrary
 from skillc_model.traversal import find_calls
 from skillc_rdf.vocabulary.types import NumberType, ValueType, Vocabulary
 
@@ -81,8 +82,12 @@ def _body(implementation: Implementation) -> str:
         case Compound(node=node):
             names = dict.fromkeys(each.skill for each in find_calls(node))
             return "calls " + ", ".join(f"[{name}]({name}.md)" for name in names) if names else "calls no skill"
-        case primitive:
-            return f"runs `{primitive.python}`"
+        case Primitive(python=python):
+            return f"runs `{python}`"
+        case Declared():
+            return "has no body"
+        case _:
+            assert_never(implementation.body)
 
 
 @cache

@@ -12,7 +12,7 @@ from typing import TypeAlias, assert_never
 
 from skillc_model import tree
 from skillc_model.conditions import Condition
-from skillc_model.skills import Compound, Implementation, Primitive, SkillLibrary
+from skillc_model.skills import Compound, Declared, Implementation, Primitive, SkillLibrary
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.cancellation import check_current
 from skillc_runtime.execution.refinement.failure import SpaceFailure
@@ -193,6 +193,8 @@ class Walk:
                     yield from self.go(node, here, replace(scope, values=values))
             case Primitive(python=python):
                 yield from self._primitive(implementation, python, values, here, scope)
+            case Declared():  # nobody looks in space at what has no body
+                yield here
             case _:
                 assert_never(implementation.body)
 

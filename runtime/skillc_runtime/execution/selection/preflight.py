@@ -11,7 +11,7 @@ import msgspec
 from skillc_model import tree
 from skillc_model.conditions import Condition, Expression, Not
 from skillc_model.read_write import changing_terms, is_fixed
-from skillc_model.skills import Implementation, Primitive, SkillLibrary
+from skillc_model.skills import Declared, Implementation, Primitive, SkillLibrary
 from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.binding import bind_arguments
@@ -254,6 +254,9 @@ class _Preflight:
         name, here = f"{implementation.skill}[{implementation.name}]", self._foresight.here
         if isinstance(implementation.body, Primitive):
             self._foresight.here = here.after(import_primitive(implementation.body.python), scope.foreseen)
+            return ()
+        if isinstance(implementation.body, Declared):
+            self._foresight.lose()
             return ()
         if name in scope.within:
             self._foresight.lose()

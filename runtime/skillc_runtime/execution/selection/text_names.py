@@ -12,7 +12,7 @@ import msgspec
 
 from skillc_model import tree
 from skillc_model.conditions import Variable
-from skillc_model.skills import Implementation, Primitive, SkillLibrary
+from skillc_model.skills import Compound, Declared, Implementation, Primitive, SkillLibrary
 from skillc_model.traversal import find_calls
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
@@ -104,8 +104,10 @@ def _paths_of_skill(
 def _paths_of_implementation(
     library: SkillLibrary, implementation: Implementation, parameter: str, enclosing: frozenset[str]
 ) -> frozenset[NamePath]:
-    if not isinstance(implementation.body, Primitive):
+    if isinstance(implementation.body, Compound):
         return _paths_of_body(library, implementation.body.node, parameter, enclosing)
+    if isinstance(implementation.body, Declared):
+        return frozenset()
     try:
         names = import_primitive(implementation.body.python).text_names
     except PrimitiveError:

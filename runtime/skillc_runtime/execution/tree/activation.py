@@ -7,12 +7,13 @@ from functools import partial
 from typing import Literal, TypeAlias, assert_never, cast
 
 from skillc_model import tree
-from skillc_model.skills import Compound, Implementation, Primitive, Skill
+from skillc_model.skills import Compound, Declared, Implementation, Primitive, Skill
 from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.selection.arguments import check_value
 from skillc_runtime.execution.selection.binding import BoundImplementation, describe_unmet_condition
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_matching_primitive
 from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.declared_run import DeclaredRun
 from skillc_runtime.execution.tree.inverse_changes import inverse_changes
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.locks import Holders
@@ -241,6 +242,10 @@ def _build_body(
             make = partial(cls, context.run_cell, **{name: frame.get(name) for name in names})
             undo = scope.undo if skill.scoped else None
             return PrimitiveNode(context, implementation.source, python.partition(":")[2], make, undo)
+        case Declared():
+            claim = partial(DeclaredRun, context, skill, implementation, frame)
+            undo = scope.undo if skill.scoped else None
+            return PrimitiveNode(context, implementation.source, DeclaredRun.__name__, claim, undo)
         case _:
             assert_never(implementation.body)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from heapq import heappop, heappush
 
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Position
@@ -34,10 +35,12 @@ class TreeContext:
     `time` is the cell's clock in s. `emit` is None without listeners; then no events are created. `gate` holds
     calls back where the run pauses; None if it never does. Primitives see the cell as `run_cell`; `active` are those
     that a pause concerns, `computations` what they compute. `spec` has the settings of the run. `broken_calls` are
-    those that did not succeed up to now. `planned_postures` are those of the plan that the tree runs.
+    those that did not succeed up to now. `planned_postures` are those of the plan that the tree runs. `happenings`
+    counts the nodes that have started or ended.
     """
 
     __slots__ = (
+        "_due",
         "_own_offset",
         "_snapshot",
         "_stopped",
@@ -47,6 +50,7 @@ class TreeContext:
         "computations",
         "emit",
         "gate",
+        "happenings",
         "last_id",
         "library",
         "locks",
@@ -81,6 +85,8 @@ class TreeContext:
         self.planned_postures = PlannedPostures(postures, self._tell_of)
         self._stopped, self._own_offset = False, 0.0
         self.time = self.now = 0.0
+        self.happenings = 0
+        self._due: list[float] = []
         self.state: WorldState
         self.last_id = ids
         self._snapshot = cell.world.snapshot
@@ -94,7 +100,26 @@ class TreeContext:
     def find_step_end(self) -> float:
         """Return by when what starts now must have ended, in the run's own time in s; infinite without a limit."""
         limit_s = self.spec.step_deadline_s
-        return math.inf if limit_s is None else self.now + limit_s - EPSILON_S
+        if limit_s is None:
+            return math.inf
+        self.expect(self.now + limit_s)
+        return self.now + limit_s - EPSILON_S
+
+    def expect(self, at: float) -> None:
+        """Say that something is due at a time, in the run's own time in s."""
+        while self._due and self.is_due(self._due[0]):
+            heappop(self._due)
+        heappush(self._due, at)
+
+    def is_due(self, at: float) -> bool:
+        """Whether the time has come, in the run's own time in s."""
+        return self.now >= at - EPSILON_S
+
+    def find_next_due(self) -> float:
+        """Return how long, in s, nothing will be due; infinite if nothing that runs waits for a time."""
+        while self._due and self.is_due(self._due[0]):
+            heappop(self._due)
+        return self._due[0] - self.now if self._due else math.inf
 
     def begin_tick(self) -> None:
         """Read the clock and take the newest snapshot."""

@@ -37,6 +37,8 @@ class TimeoutNode(Node):
         seconds = evaluate_seconds(self.node.seconds, self.context, self.frame)
         self.name = f"timeout {seconds:g} s"
         self._deadline = self.context.now + seconds + EPSILON_S
+        self.context.expect(self.context.now + seconds)
+        self.context.expect(self._deadline + EPSILON_S)
         self._path = ActivePath(self.child)
         return self.on_child_ended(self._path.start())
 

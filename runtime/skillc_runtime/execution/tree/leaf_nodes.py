@@ -45,7 +45,9 @@ class WaitNode(Node):
 
     def on_start(self) -> Status:
         self._late = self.context.find_step_end()
-        self._until = self.context.now + evaluate_seconds(self.node.seconds, self.context, self.frame) - EPSILON_S
+        until = self.context.now + evaluate_seconds(self.node.seconds, self.context, self.frame)
+        self._until = until - EPSILON_S
+        self.context.expect(until)
         return self.tick()
 
     def tick(self) -> Status:

@@ -71,6 +71,7 @@ class Node:
     def start(self) -> Status:
         """Start the node, do the work of the first tick and return the status; an exception becomes a failure."""
         context = self.context
+        context.happenings += 1
         self.status = RUNNING
         self.failure = None
         self.started, self.ended = context.time, None
@@ -152,6 +153,7 @@ class Node:
 
     def _finish(self, status: Status, failure: Failure | None) -> Status:
         context = self.context
+        context.happenings += 1
         self.status, self.failure, self.ended = status, failure, context.time
         if context.emit is not None:
             ended = NodeEnded(

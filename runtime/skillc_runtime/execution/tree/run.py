@@ -88,6 +88,7 @@ class TreeRun:
         self._path = ActivePath(self._root)
         self._pause = Pause(self._context)
         self._devices = FactMonitor(cell)
+        self._before_tick: tuple[object, int] = (None, 0)
         self.status = Status.IDLE
         self.failure: Failure | None = None
 
@@ -135,6 +136,19 @@ class TreeRun:
     def is_still(self) -> bool:
         """Whether the run is paused and the devices that it has used have come to rest; pushes may go on."""
         return self._pause.is_still
+
+    @property
+    def idle_s(self) -> float:
+        """For how long, in s, ticks would change nothing by themselves; 0 if the last one did, or that is not known.
+
+        Infinite if nothing waits for a time. Whatever comes from outside still may change something. Only what takes
+        part in the tree is known: devices may change something in each tick.
+        """
+        context = self._context
+        quiet = self._before_tick == (context.cell.world.snapshot(), context.happenings)
+        if self.status is not RUNNING or self.paused or self.awaits_result or not quiet:
+            return 0.0
+        return context.find_next_due()
 
     @property
     def last_node(self) -> int:
@@ -187,6 +201,7 @@ class TreeRun:
             return self.status
         try:
             self._context.begin_tick()
+            self._before_tick = self._context.state, self._context.happenings
             self._send_heartbeat()
             contradiction = self._find_contradiction()
             status = self._path.tick_leaf() if self.status is RUNNING else self._start()

@@ -1,0 +1,1 @@
+"""Cells without bodies, whose only state is the world model. Start with `cell.SymbolicCell`."""

@@ -1,0 +1,71 @@
+"""A world without bodies at the level of a user: check, plan, run, why, replay and report ask nothing spatial."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from skillc.cli.main import skillc
+from symbolic.ward import write_ward
+
+MANIFEST = 'name = "ward"\n\n[tool.run]\nbackend = "symbolic"\n'
+
+
+@pytest.fixture
+def ward(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    folder = write_ward(tmp_path)
+    monkeypatch.chdir(folder)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    return folder
+
+
+def call(*arguments: str) -> Result:
+    result = CliRunner().invoke(skillc, arguments)
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result
+
+
+def problems(*arguments: str) -> list[str]:
+    return sorted({each["name"] for each in json.loads(call("check", "--json", *arguments).stdout)})
+
+
+def test_check_asks_for_bodies_unless_there_are_none(ward: Path) -> None:
+    of_bodies = problems()
+    assert {"missing-property", "no-place"} <= set(of_bodies)
+    assert not {"missing-property", "no-place", "infeasible-step", "unchecked-space"} & set(
+        problems("--backend", "symbolic")
+    )
+    assert problems() == of_bodies, "what was cached for one back end is not told of another"
+    (ward / "skillc.toml").write_text(MANIFEST, encoding="utf-8")
+    assert problems() == problems("--backend", "symbolic") != of_bodies
+
+
+def test_check_goes_on_asking_for_facts(ward: Path) -> None:
+    scene = ward / "ward.ttl"
+    scene.write_text(scene.read_text().replace("skiros:at lab:Ward-1 ;", ""), encoding="utf-8")
+    assert "unreachable-goal" in problems("--backend", "symbolic")
+
+
+def test_a_project_without_bodies_is_planned_run_explained_and_repeated(ward: Path) -> None:
+    (ward / "skillc.toml").write_text(MANIFEST, encoding="utf-8")
+    planned = call("plan", "deliver")
+    assert planned.exit_code == 0 and "3 steps, 50 s expected" in planned.stdout
+    ran = call("run", "deliver", "--out", "out", "--tick-timeout", "0")
+    assert ran.exit_code == 0, ran.output
+    result = json.loads(Path("out/result.json").read_text())
+    assert result["status"] == "succeeded" and result["verified"] is False
+    assert {each["known"] for each in result["facts"]} == {"assumed"}
+    assert "Carry" in call("why", "out").stdout and "20.0 - 30.0 s" in call("why", "out").stdout
+    assert "the same but for wall times" in call("replay", "--check", "out").stdout
+    assert call("report", "out").exit_code == 0
+
+
+def test_where_bodies_are_needed_that_is_said(ward: Path) -> None:
+    assert call("run", "tasks.skill:deliver", "--backend", "mujoco").exit_code == 1
+    refused = call("run", "tasks.skill:deliver", "--backend", "symbolic", "--reality", "wide")
+    assert refused.exit_code == 2 and "no arm or tool of the scene has imperfections" in refused.output
+    connected = call("connect", "iiwa_table.ttl", "--backend", "symbolic")
+    assert connected.exit_code != 0 and "it has no devices to look at" in connected.output
