@@ -18,6 +18,7 @@ from skillc_runtime.evaluation.measures.work import (
     Work,
 )
 from skillc_runtime.evaluation.report.result import WipingResult
+from skillc_runtime.evaluation.trials.settings import Setting
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.world.state.labelled import LabelledIri
 
@@ -193,3 +194,12 @@ class Noted:
             os.kill(os.getpid(), signal.SIGKILL)
         time.sleep(self.seconds)
         return good(seed)
+
+
+@dataclass(frozen=True, slots=True)
+class Echoing:
+    """Says with which settings it was run."""
+
+    def run(self, seed: int, *settings: Setting) -> Trial:
+        said = "; ".join(f"{each.parameter} of {each.implementation} is {each.value}" for each in settings)
+        return Trial(seed=seed, status="failed", reason=said)

@@ -18,10 +18,11 @@ from unittest.mock import ANY
 import pytest
 
 from skillc_runtime.evaluation.trials import hosting
-from skillc_runtime.evaluation.trials.dispatch import ExecutorError, run_on
-from skillc_runtime.evaluation.trials.hosting import Prepare
+from skillc_runtime.evaluation.trials.dispatch import Dispatch, ExecutorError, run_on
+from skillc_runtime.evaluation.trials.hosting import Case, Prepare
+from skillc_runtime.evaluation.trials.settings import Setting
 from skillc_runtime.evaluation.trials.trial import TRIAL_LIMIT_S, Trial
-from trials.runners import BROKEN, KILLED, Exits, FailsOnce, Faulty, Slow, Unprepared, Vanishes, Waits, good
+from trials.runners import BROKEN, KILLED, Echoing, Exits, FailsOnce, Faulty, Slow, Unprepared, Vanishes, Waits, good
 
 TESTS = Path(__file__).parents[1]
 PARENT = """
@@ -146,7 +147,7 @@ def test_an_executor_that_gives_up_or_has_ended_ends_the_series() -> None:
 def test_processes_that_wait_for_trials_end_after_a_while(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(hosting, "IDLE_S", 0.1)
     order = hosting.make_order(Faulty, TRIAL_LIMIT_S)
-    assert hosting.run_trial(order, 1) == hosting.Tried(good(1), ANY)
+    assert hosting.run_trial(order, hosting.Case(1)) == hosting.Tried(good(1), ANY)
     ((child, _),) = hosting._idle
     wait_until(lambda: not hosting._idle and not alive(child._process.pid))
     assert not Path(child._files.name).exists()
@@ -175,3 +176,14 @@ def test_no_process_outlives_its_parent(kind: str, number: signal.Signals, tmp_p
         parent.kill()
     children = [int(each.name) for each in pids.iterdir()]
     wait_until(lambda: not any(map(alive, children)))
+
+
+def test_a_case_is_run_with_its_settings() -> None:
+    speeds = [Setting("Wipe.wipe_lanes", "speed", 0.1 * number) for number in range(1, 4)]
+    with ThreadPoolExecutor(2) as executor, Dispatch(executor, Echoing) as dispatch:
+        for speed in speeds:
+            dispatch.give(Case(7, (speed,)))
+        found = dict(dispatch.take() for _ in speeds)
+    assert {case: tried.trial.reason for case, tried in found.items()} == {
+        Case(7, (speed,)): f"speed of Wipe.wipe_lanes is {speed.value}" for speed in speeds
+    }

@@ -7,14 +7,15 @@ from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 from functools import partial
 from itertools import islice
 from queue import SimpleQueue
+from types import TracebackType
 from typing import assert_never
 
 from skillc_runtime.evaluation.trials import dask_worker
 from skillc_runtime.evaluation.trials.hosting import (
     Answer,
+    Case,
     Prepare,
     Refused,
-    TrialOrder,
     Tried,
     end_idle_children,
     make_order,
@@ -30,6 +31,43 @@ class ExecutorError(Exception):
     """The executor cannot run the trials; the message says why."""
 
 
+class Dispatch:
+    """Trials that an executor has; use it in a `with` statement, whose end gives up those that are running."""
+
+    def __init__(self, executor: Executor, prepare: Prepare, limit_s: float = TRIAL_LIMIT_S) -> None:
+        self._executor, self._order = executor, make_order(prepare, limit_s)
+        self._given: dict[Case, Future[Answer]] = {}
+        self._ended: SimpleQueue[Case] = SimpleQueue()
+
+    def __len__(self) -> int:
+        return len(self._given)
+
+    def give(self, case: Case) -> None:
+        """Give a case, which the executor does not have already, to it. ExecutorError if it takes no more."""
+        try:
+            future = self._executor.submit(run_trial, self._order, case)
+        except (BrokenExecutor, RuntimeError) as error:
+            raise ExecutorError(f"the executor takes no more trials: {error}") from error
+        self._given[case] = future
+        future.add_done_callback(partial(_note, self._ended, case))
+
+    def take(self) -> tuple[Case, Tried]:
+        """Wait for the next trial that ends; at least one must have been given. ExecutorError if it cannot be run."""
+        case = self._ended.get()  # wait ends: executors end every future, also those that they give up
+        return case, _read(case.seed, self._given.pop(case))
+
+    def __enter__(self) -> Dispatch:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._order.cancel.cancel("the series has ended")
+        for future in self._given.values():
+            future.cancel()
+        end_idle_children()
+
+
 def run_on(
     executor: Executor, prepare: Prepare, seeds: Sequence[int], limit_s: float = TRIAL_LIMIT_S
 ) -> Generator[Tried, None, None]:
@@ -37,34 +75,18 @@ def run_on(
 
     ExecutorError if a worker cannot run any, or the executor ends. Closing the iterator gives up what is running.
     """
-    order, waiting = make_order(prepare, limit_s), iter(dict.fromkeys(seeds))
-    given: dict[int, Future[Answer]] = {}
-    ended: SimpleQueue[int] = SimpleQueue()
-    try:
+    waiting = iter(dict.fromkeys(seeds))
+    with Dispatch(executor, prepare, limit_s) as dispatch:
         while True:
-            for seed in islice(waiting, MOST_GIVEN - len(given)):
-                given[seed] = _submit(executor, order, seed)
-                given[seed].add_done_callback(partial(_note, ended, seed))
-            if not given:
+            for seed in islice(waiting, MOST_GIVEN - len(dispatch)):
+                dispatch.give(Case(seed))
+            if not len(dispatch):
                 return
-            seed = ended.get()  # wait ends: executors end every future, also those that they give up
-            yield _read(seed, given.pop(seed))
-    finally:
-        order.cancel.cancel("the series has ended")
-        for future in given.values():
-            future.cancel()
-        end_idle_children()
+            yield dispatch.take()[1]
 
 
-def _submit(executor: Executor, order: TrialOrder, seed: int) -> Future[Answer]:
-    try:
-        return executor.submit(run_trial, order, seed)
-    except (BrokenExecutor, RuntimeError) as error:
-        raise ExecutorError(f"the executor takes no more trials: {error}") from error
-
-
-def _note(ended: SimpleQueue[int], seed: int, _future: Future[Answer]) -> None:
-    ended.put_nowait(seed)
+def _note(ended: SimpleQueue[Case], case: Case, _future: Future[Answer]) -> None:
+    ended.put_nowait(case)
 
 
 def _read(seed: int, future: Future[Answer]) -> Tried:

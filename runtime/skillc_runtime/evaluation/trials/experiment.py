@@ -17,6 +17,7 @@ from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.trials.disturbance import PushDisturbance, TakeDisturbance, TrialCell
+from skillc_runtime.evaluation.trials.settings import Setting, apply_settings
 from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
 from skillc_runtime.evaluation.trials.trial_cell import make_trial_cell
 from skillc_runtime.execution.assignment import (
@@ -40,6 +41,8 @@ from skillc_runtime.world.state.world_state import WorldState
 
 MEASURES = (surfaces.measure, buttons.measure, sockets.measure, poses.measure)
 """The measures of the kinds of work that need evidence, in the order in which trials list them."""
+MOST_VARIANTS = 16
+"""How many libraries with settings are kept with their plans."""
 
 
 RecordTrial: TypeAlias = Callable[[TrialCell], AbstractContextManager[Sequence[Listener]]]
@@ -50,42 +53,68 @@ class NotRecorded(Exception):
     """A trial cannot be recorded, because its task does not start; the message says why."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Variant:
+    """A library with settings, and the task as it is planned with it."""
+
+    library: SkillLibrary
+    prepared: PreparedTask | NotStarted
+
+
 class TrialRunner:
-    """Runs trials of a task of a library in the world of a scene; planning is done once for all of them."""
+    """Runs trials of a task of a library in the world of a scene; planning is done once for trials of equal settings.
+
+    Durations and conditions may depend on what is set, so that other settings have a plan of their own.
+    """
 
     def __init__(self, library: SkillLibrary, state: WorldState, task: str, disturbance: Disturbance) -> None:
         """Plan."""
-        self._library, self._state, self._disturbance = library, state, disturbance
-        self._prepared = prepare_task(_make_assignment(task, library, state), library)
+        self._library, self._state, self._task, self._disturbance = library, state, task, disturbance
+        self._variants: dict[tuple[Setting, ...], _Variant] = {}
+        self._prepare(())
 
-    def run(self, seed: int) -> Trial:
+    def run(self, seed: int, *settings: Setting) -> Trial:
         """Run the trial of a seed."""
-        if isinstance(self._prepared, NotStarted):
-            return Trial(seed=seed, status="refused", reason=self._prepared.reason)
+        variant = self._prepare(settings)
+        if isinstance(variant.prepared, NotStarted):
+            return Trial(seed=seed, status="refused", reason=variant.prepared.reason)
         try:
             cell = make_trial_cell(WorldModel(self._state), seed, self._disturbance)
         except (SheetError, FrameError) as error:
             return Trial(seed=seed, status="refused", reason=f"the scene cannot be simulated: {error}")
-        return self._run(self._prepared, cell).measure(cell)
+        return self._run(variant.library, variant.prepared, cell).measure(cell)
 
-    def record(self, seed: int, recording: RecordTrial) -> TaskResult:
+    def record(self, seed: int, recording: RecordTrial, settings: Sequence[Setting] = ()) -> TaskResult:
         """Run the trial of a seed again and record it; NotRecorded, SheetError or FrameError if it cannot start."""
-        if isinstance(self._prepared, NotStarted):
-            raise NotRecorded(self._prepared.reason)
+        variant = self._prepare(tuple(settings))
+        if isinstance(variant.prepared, NotStarted):
+            raise NotRecorded(variant.prepared.reason)
         cell = make_trial_cell(WorldModel(self._state), seed, self._disturbance)
         with recording(cell) as listeners:
-            return self._run(self._prepared, cell, listeners).result
+            return self._run(variant.library, variant.prepared, cell, listeners).result
 
-    def _run(self, prepared: PreparedTask, cell: TrialCell, listeners: Sequence[Listener] = ()) -> _Executed:
+    def _prepare(self, settings: tuple[Setting, ...]) -> _Variant:
+        """Return the library with settings, and its plan, which is kept while others of the latest are asked for."""
+        if settings not in self._variants:
+            library = apply_settings(self._library, settings)
+            prepared = prepare_task(_make_assignment(self._task, library, self._state), library)
+            while len(self._variants) >= MOST_VARIANTS:
+                del self._variants[next(iter(self._variants))]
+            self._variants[settings] = _Variant(library, prepared)
+        return self._variants[settings]
+
+    def _run(
+        self, library: SkillLibrary, prepared: PreparedTask, cell: TrialCell, listeners: Sequence[Listener] = ()
+    ) -> _Executed:
         told, push, take = HistoryBuilder(), PushDisturbance(cell), TakeDisturbance(cell)
         disturbances: Sequence[Listener] = (push,) if self._disturbance == "push" else ()
         update = take.update if self._disturbance == "take" else push.update
-        execution = execute_task(prepared, self._library, cell, (told, *disturbances, *listeners), update)
+        execution = execute_task(prepared, library, cell, (told, *disturbances, *listeners), update)
         history, state, truth = told.history, cell.world.snapshot(), cell.ground_truth
         wipings = find_wipings(history, state)
         result = summarise_run(execution, history, wipings, cell)
         rated = {each.surface: (each, how) for each, how in zip(wipings, result.wipings, strict=True)}
-        evidence = RunEvidence(self._library, state, truth, history, tuple(rated.values()))
+        evidence = RunEvidence(library, state, truth, history, tuple(rated.values()))
         return _Executed(result, evidence, push.pushed, take.taken)
 
 

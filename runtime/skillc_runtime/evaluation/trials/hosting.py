@@ -12,11 +12,12 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from tempfile import TemporaryDirectory
-from typing import Protocol, TypeAlias, assert_never
+from typing import NamedTuple, Protocol, TypeAlias, assert_never
 
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.evaluation.trials import dask_worker
 from skillc_runtime.evaluation.trials.identity import identify_skillc
+from skillc_runtime.evaluation.trials.settings import Setting
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess, WorkerResult
 
@@ -31,11 +32,18 @@ LOOK_S = 0.1
 
 
 class Runner(Protocol):
-    """Runs the trial of one seed."""
+    """Runs the trial of one seed, with settings if it is asked for such."""
 
-    def run(self, seed: int) -> Trial:
+    def run(self, seed: int, *settings: Setting) -> Trial:
         """Run the trial."""
         ...
+
+
+class Case(NamedTuple):
+    """What one trial is asked for: its seed, and the settings with which it is run."""
+
+    seed: int
+    settings: tuple[Setting, ...] = ()
 
 
 Prepare: TypeAlias = Callable[[], Runner]
@@ -79,8 +87,8 @@ def make_order(prepare: Prepare, limit_s: float) -> TrialOrder:
     return TrialOrder(zlib.compress(pickle.dumps(prepare)), identify_skillc(), limit_s, CancelToken())
 
 
-def run_trial(order: TrialOrder, seed: int) -> Answer:
-    """Run the trial of a seed; this is what workers of executors call.
+def run_trial(order: TrialOrder, case: Case) -> Answer:
+    """Run the trial of a case; this is what workers of executors call.
 
     A trial that raises an exception, takes too long, or of which ATTEMPTS processes die has crashed.
     """
@@ -91,7 +99,7 @@ def run_trial(order: TrialOrder, seed: int) -> Answer:
         if isinstance(child, Refused):
             return child
         began = time.monotonic()
-        result = child.answer(seed, order, order.limit_s)
+        result = child.answer(case, order, order.limit_s)
         took_s = time.monotonic() - began
         match result:
             case Returned(Trial() as trial):
@@ -99,13 +107,13 @@ def run_trial(order: TrialOrder, seed: int) -> Answer:
                 return Tried(trial, took_s)
             case Raised(why):
                 _keep(child, order)
-                return Tried(_crashed(seed, why), took_s)
+                return Tried(_crashed(case.seed, why), took_s)
             case Died(why) if attempt == ATTEMPTS:
-                return Tried(_crashed(seed, f"{why}, in {ATTEMPTS} of {ATTEMPTS} attempts"), took_s)
+                return Tried(_crashed(case.seed, f"{why}, in {ATTEMPTS} of {ATTEMPTS} attempts"), took_s)
             case Died():
                 pass
             case _ if _is_wanted(order):
-                return Tried(_crashed(seed, f"it took longer than {order.limit_s:g} s"), took_s)
+                return Tried(_crashed(case.seed, f"it took longer than {order.limit_s:g} s"), took_s)
             case _:
                 break
     return Refused("nobody wants the trial")
@@ -120,7 +128,7 @@ class _Child:
         with _starting:
             self._process = WorkerProcess(_Server(program, self._files.name))
 
-    def answer(self, request: int | None, order: TrialOrder, limit_s: float) -> WorkerResult | None:
+    def answer(self, request: Case | None, order: TrialOrder, limit_s: float) -> WorkerResult | None:
         """Return the result of a request; None, and the process is ended, if it takes too long or nobody wants it."""
         limit = CancelToken(limit_s)
         self._process.ask(request)
@@ -139,18 +147,18 @@ class _Child:
 
 @dataclass(slots=True)
 class _Server:
-    """Prepares for the request None, and then runs the trial of each seed that is requested."""
+    """Prepares for the request None, and then runs the trial of each case that is requested."""
 
     program: bytes
     files: str
     _runner: Runner | None = field(default=None, init=False)
 
-    def __call__(self, seed: int | None) -> Trial | None:
+    def __call__(self, case: Case | None) -> Trial | None:
         if self._runner is None:
             tempfile.tempdir = self.files
             prepare: Prepare = pickle.loads(zlib.decompress(self.program))
             self._runner = prepare()
-        return None if seed is None else self._runner.run(seed)
+        return None if case is None else self._runner.run(case.seed, *case.settings)
 
 
 _starting = threading.Lock()
