@@ -23,11 +23,12 @@ MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "ur": ("rtde_control", "rtde_receive", "rtde_io"),
         "franka": ("pylibfranka",),
         "cluster": ("distributed",),
+        "learn": ("optuna", "sqlalchemy", "alembic"),
         "ontologies": ("pyhornedowl",),
     }
 )
 """The modules of each extra; the first ones are those without which it is of no use."""
-_NEEDED = MappingProxyType({"run": 6, "server": 5, "data": 2, "ur": 3})
+_NEEDED = MappingProxyType({"run": 6, "server": 5, "data": 2, "ur": 3, "learn": 2})
 """How many modules of an extra have to be there, if it is not one."""
 
 

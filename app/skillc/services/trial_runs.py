@@ -72,7 +72,7 @@ def run_trials(request: TrialRequest, watch: StartMonitor, reporter: Reporter) -
     if request.reality is not None:
         require_reality(request.reality, state)
     library, name = bind_trial_task(task, library, state, request.arguments)
-    experiment = _make_experiment(library, name, scene, state, request)
+    experiment = make_experiment(library, name, scene, state, request.disturbance, request.reality)
     heading = _heading(experiment, library)
     with nullcontext() if request.out is None else _journal(request.out, heading) as journal:
         known = () if journal is None else journal.trials
@@ -114,18 +114,24 @@ def write_page(result: Series, out: Path) -> None:
         (out / PAGE).write_text(page.render_page(result), encoding="utf-8")
 
 
-def _make_experiment(
-    library: SkillLibrary, task: str, scene: Path, state: WorldState, request: TrialRequest
+def make_experiment(
+    library: SkillLibrary,
+    task: str,
+    scene: Path,
+    state: WorldState,
+    disturbance: Disturbance = "none",
+    reality: str | None = None,
 ) -> Experiment:
+    """Return what trials of a task run; `state` is the world of the scene. ServiceError if a file cannot be read."""
     try:
         return Experiment(
             library=codec.dumps(library),
             task=task,
-            disturbance=request.disturbance,
+            disturbance=disturbance,
             scene_name=scene.name,
             scene=scene.read_bytes(),
             folders=read_folders(state),
-            reality=request.reality,
+            reality=reality,
         )
     except OSError as error:
         raise ServiceError(f"{error.filename} cannot be read: {error.strerror}") from error

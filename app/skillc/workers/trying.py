@@ -2,36 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
 
 import msgspec
 
 from skillc.cells.snapshot import CellSnapshot
 from skillc.contract.jobs import CheckTrials, RecordTrial, RunTrial
-from skillc.errors import ServiceError
 from skillc.services.assignments import assign_task
 from skillc.services.backends import DEFAULT_BACKEND
 from skillc.services.library_files import find_scene
 from skillc.services.reporting import SilentReporter
-from skillc.services.run_recordings import KnownStart, describe_contents, recorded_in
 from skillc.services.stores import load_world
 from skillc.services.task_list import find_task
+from skillc.services.trial_recordings import record_in
 from skillc.services.trial_runs import bind_trial_task, require_effect
-from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.trials.disturbance import TrialCell
-from skillc_runtime.evaluation.trials.experiment import NotRecorded, TrialRunner
+from skillc_runtime.evaluation.trials.experiment import TrialRunner
 from skillc_runtime.evaluation.trials.trial import Trial
-from skillc_runtime.execution.attempt import CellOrigin
-from skillc_runtime.recording.envelope import make_run_id
-from skillc_runtime.recording.events import Listener
-from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_spec import RunSpec
-from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.state.data_sheet import SheetError
 
 _prepared: dict[bytes, TrialRunner] = {}
 """What was loaded and planned last."""
@@ -59,24 +47,14 @@ def run_trial(job: RunTrial, known: CellSnapshot) -> Trial | None:
 
 def record_trial(job: RecordTrial, known: CellSnapshot) -> TaskResult:
     """Return the result of a trial that is run again and recorded; ServiceError if it cannot be."""
-    runner = _prepare(job, known)
-    try:
-        return runner.record(job.seed, partial(_recording, job, known.library))
-    except (NotRecorded, SheetError, FrameError) as error:
-        raise ServiceError(f"this trial does not start: {error}") from error
-
-
-@contextmanager
-def _recording(job: RecordTrial, library: SkillLibrary, cell: TrialCell) -> Iterator[tuple[Listener, ...]]:
-    """Record a trial in its folder as an MCAP file; yields who gets the events."""
-    task, reporter, run = job.request.task, SilentReporter(), make_run_id(job.request.task)
-    start, origin = KnownStart(cell.world.snapshot()), CellOrigin(job.scene, job.seed, DEFAULT_BACKEND)
     spec = RunSpec(
-        task=task, arguments=job.request.arguments, scene=origin.scene, seed=origin.seed, backend=origin.backend
+        task=job.request.task,
+        arguments=job.request.arguments,
+        scene=job.scene,
+        seed=job.seed,
+        backend=DEFAULT_BACKEND,
     )
-    describe = partial(describe_contents, run, task, library, start, origin, spec)
-    with recorded_in(Path(job.folder), describe, cell, reporter) as recorders:
-        yield (Publisher(run, recorders),)
+    return record_in(Path(job.folder), _prepare(job, known), known.library, spec)[0]
 
 
 def _prepare(job: RunTrial | RecordTrial, known: CellSnapshot) -> TrialRunner:

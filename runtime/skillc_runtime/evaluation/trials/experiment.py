@@ -84,14 +84,15 @@ class TrialRunner:
             return Trial(seed=seed, status="refused", reason=f"the scene cannot be simulated: {error}")
         return self._run(variant.library, variant.prepared, cell).measure(cell)
 
-    def record(self, seed: int, recording: RecordTrial, settings: Sequence[Setting] = ()) -> TaskResult:
-        """Run the trial of a seed again and record it; NotRecorded, SheetError or FrameError if it cannot start."""
-        variant = self._prepare(tuple(settings))
+    def record(self, seed: int, recording: RecordTrial, *settings: Setting) -> tuple[TaskResult, Trial]:
+        """Run the trial of a seed and record it; NotRecorded, SheetError or FrameError if it cannot start."""
+        variant = self._prepare(settings)
         if isinstance(variant.prepared, NotStarted):
             raise NotRecorded(variant.prepared.reason)
         cell = make_trial_cell(WorldModel(self._state), seed, self._disturbance)
         with recording(cell) as listeners:
-            return self._run(variant.library, variant.prepared, cell, listeners).result
+            executed = self._run(variant.library, variant.prepared, cell, listeners)
+            return executed.result, executed.measure(cell)
 
     def _prepare(self, settings: tuple[Setting, ...]) -> _Variant:
         """Return the library with settings, and its plan, which is kept while others of the latest are asked for."""

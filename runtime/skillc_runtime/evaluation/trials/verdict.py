@@ -18,6 +18,13 @@ def find_unmet_criteria(trial: Trial, disturbance: Disturbance) -> tuple[str, ..
     return (*_false_success(trial), *_outcome_problems(trial, disturbance), *_safety_problems(trial))
 
 
+def find_failures(trial: Trial) -> tuple[str, ...]:
+    """Return why an undisturbed trial is no success, as text, whatever its measures are; empty if it is one."""
+    if trial.status in ("refused", "crashed"):
+        return (_describe_end(trial),)
+    return (*_false_success(trial), *_require_success(trial), *_safety_problems(trial))
+
+
 def _outcome_problems(trial: Trial, disturbance: Disturbance) -> Iterator[str]:
     """Yield how the outcome of the task differs from the expected one."""
     match disturbance:

@@ -1,0 +1,266 @@
+"""Learns parameters of a task: runs it with the defaults, searches, tries the best anew, and writes its text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, closing, contextmanager
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import TypeAlias
+
+from msgspec import structs
+
+from skillc.errors import RequestError, ServiceError
+from skillc.services.files import rewrite_file, write_file
+from skillc.services.fixing import FileChange, unified_diff
+from skillc.services.learning import result as results
+from skillc.services.learning.evidence import write_evidence
+from skillc.services.learning.expressions import check_expressions, read_expressions
+from skillc.services.learning.figures import Figures, measured_figures
+from skillc.services.learning.parameters import choose_learnable, find_learnable
+from skillc.services.learning.racing import Aim
+from skillc.services.learning.recorded_run import RunOrder, record_run
+from skillc.services.learning.result import DEFAULTS, Learned
+from skillc.services.learning.search import Search, list_settings, try_fresh
+from skillc.services.learning.spec import LearnSpec
+from skillc.services.learning.study import Basis, Candidate, Heading, Study, require_sampler
+from skillc.services.learning.text import LearnedValue, change_texts, require_own
+from skillc.services.library_files import LibraryFiles
+from skillc.services.real_devices import require_reality
+from skillc.services.recordings import RECORDING, read_envelopes
+from skillc.services.reporting import Reporter
+from skillc.services.stores import load_world
+from skillc.services.task_list import split_reference
+from skillc.services.task_loading import find_task_in_scene
+from skillc.services.trial_runs import OpenExecutor, bind_trial_task, make_experiment
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.evaluation.trials import identity
+from skillc_runtime.evaluation.trials.content import Experiment, prepare_runner
+from skillc_runtime.evaluation.trials.dispatch import Dispatch, ExecutorError
+
+RUNS = "runs"
+CHANGES = "learned.diff"
+
+
+@dataclass(frozen=True, slots=True)
+class LearnRequest:
+    """For which task, `LIBRARY:NAME` with arguments, something is learned, what, in which folder, and where it runs.
+
+    `parallel` is how many trials run at the same time.
+    """
+
+    reference: str
+    spec: LearnSpec
+    out: Path
+    executor: OpenExecutor
+    parallel: int
+    arguments: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """How far it is: candidates and trials that are done, and the objectives of the front and of the defaults."""
+
+    done: int
+    wanted: int
+    trials: int
+    front: tuple[tuple[float, ...], ...]
+    defaults: tuple[float, ...] | None
+    fresh: int = 0
+
+
+StartMonitor: TypeAlias = Callable[[str], AbstractContextManager[Callable[[Progress], None]]]
+"""Takes a task's name; the value of the context is called after each trial."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Subject:
+    """The task that is learned for, as it is tried."""
+
+    files: LibraryFiles
+    library: SkillLibrary
+    experiment: Experiment
+    scene: Path
+    context: str
+
+
+def learn(request: LearnRequest, watch: StartMonitor, reporter: Reporter) -> Learned:
+    """Learn, or go on with the study of the folder; Ctrl-C ends the running trials, and what is known is returned.
+
+    RequestError, DiagnosticsError or ServiceError if the task, the expressions, the parameters or the folder cannot be
+    used, if the executor cannot run trials, or if what was learned cannot be written.
+    """
+    check_expressions((request.spec.minimise or ""), (request.spec.subject_to or ""))
+    require_sampler(request.spec.sampler)
+    subject = _find_subject(request, reporter)
+    with closing(Study(request.out, _make_heading(request, subject))) as study:
+        if study.basis is None:
+            _begin(request, subject, study, reporter)
+        assert study.basis is not None
+        figures = Figures({name: frozenset(units) for name, units in study.basis.units.items()})
+        aim = Aim(*read_expressions((request.spec.minimise or ""), (request.spec.subject_to or ""), figures))
+        study.use_sampler(request.spec.sampler, request.spec.candidates, request.spec.seed)
+        is_whole = _search(request, subject, study, aim, watch, reporter)
+        learned, changes = _conclude(request, subject, study, aim, is_whole)
+    if request.spec.apply and is_whole:
+        learned = _apply(learned, changes, reporter)
+    write_file(request.out / CHANGES, learned.diff)
+    return learned
+
+
+def _find_subject(request: LearnRequest, reporter: Reporter) -> _Subject:
+    files, _ = split_reference(request.reference)
+    library, task, scene = find_task_in_scene(request.reference)
+    state = load_world(scene, library.vocabulary, reporter)
+    if request.spec.reality is not None:
+        require_reality(request.spec.reality, state)
+    library, name = bind_trial_task(task, library, state, request.arguments)
+    experiment = make_experiment(library, name, scene, state, "none", request.spec.reality)
+    reality = "" if request.spec.reality is None else f" with reality {request.spec.reality}"
+    return _Subject(files, library, experiment, scene, f"{scene.name}{reality}")
+
+
+def _make_heading(request: LearnRequest, subject: _Subject) -> Heading:
+    experiment = subject.experiment
+    return Heading(
+        task=experiment.task,
+        skillc=identity.identify_skillc(),
+        library=f"{subject.library.name} of {experiment.library_digest}",
+        scene=f"{subject.context} of {experiment.scene_digest}",
+        minimise=(request.spec.minimise or ""),
+        subject_to=(request.spec.subject_to or ""),
+        parameters=", ".join(request.spec.names),
+        trials=request.spec.trials,
+        seed=request.spec.seed,
+    )
+
+
+def _begin(request: LearnRequest, subject: _Subject, study: Study, reporter: Reporter) -> None:
+    """Run the task once with the defaults, which shows what can be learned and what is measured."""
+    folder = request.out / RUNS / "defaults"
+    trial = record_run(_order(request, subject), folder, request.spec.deadline_s)
+    events = (each.event for each in read_envelopes(folder / RECORDING, reporter))
+    learnable = choose_learnable(find_learnable(subject.library, subject.files, events), request.spec.names)
+    figures = measured_figures(trial)
+    objectives, _ = read_expressions((request.spec.minimise or ""), (request.spec.subject_to or ""), figures)
+    units = {name: tuple(sorted(units)) for name, units in figures.units.items()}
+    study.create(Basis(learnable=learnable, units=units), len(objectives))
+
+
+def _search(
+    request: LearnRequest, subject: _Subject, study: Study, aim: Aim, watch: StartMonitor, reporter: Reporter
+) -> bool:
+    """Run what is missing; return whether all of it is done."""
+    seeds = tuple(range(request.spec.seed, request.spec.seed + request.spec.trials))
+    search = Search(study, aim, seeds, request.spec.candidates, request.parallel)
+    prepare = partial(prepare_runner, subject.experiment)
+    with watch(subject.experiment.task) as show, _until_interrupted(reporter) as ended, request.executor() as executor:
+        show(_measure_progress(request, study, aim))
+        with closing(search.run(executor, prepare, request.spec.deadline_s)) as steps:
+            for _ in steps:
+                show(_measure_progress(request, study, aim))
+        chosen = results.choose(study, aim, request.spec.take)
+        numbers = () if chosen is None else (DEFAULTS, chosen)
+        with Dispatch(executor, prepare, request.spec.deadline_s) as dispatch:
+            for _ in try_fresh(study, numbers, _fresh_seeds(request), request.parallel, dispatch):
+                show(_measure_progress(request, study, aim))
+        ended.append(True)
+    return bool(ended)
+
+
+def _fresh_seeds(request: LearnRequest) -> tuple[int, ...]:
+    first = request.spec.seed + request.spec.trials
+    return tuple(range(first, first + request.spec.fresh))
+
+
+def _measure_progress(request: LearnRequest, study: Study, aim: Aim) -> Progress:
+    means = {number: aim.mean(each.worlds.values()) for number, each in study.candidates.items()}
+    front = (means[number] for number in results.list_front(study, aim))
+    return Progress(
+        done=sum(each.verdict is not None for each in study.candidates.values()),
+        wanted=request.spec.candidates,
+        trials=sum(len(each.worlds) for each in study.candidates.values()),
+        front=tuple(each for each in front if each is not None),
+        defaults=means.get(DEFAULTS),
+        fresh=sum(map(len, study.fresh.values())),
+    )
+
+
+def _conclude(
+    request: LearnRequest, subject: _Subject, study: Study, aim: Aim, is_whole: bool
+) -> tuple[Learned, tuple[FileChange, ...]]:
+    """Return the result, with the change of the texts, and the run of the best candidate recorded if all is done."""
+    assert study.basis is not None
+    chosen = results.choose(study, aim, request.spec.take)
+    known = study.fresh.get(DEFAULTS, {}), study.fresh.get(-1 if chosen is None else chosen, {})
+    learned = Learned(
+        task=subject.experiment.task,
+        scene=subject.context,
+        minimise=tuple(each.text for each in aim.objectives),
+        subject_to=tuple(each.text for each in aim.bounds),
+        parameters=study.basis.learnable,
+        seeds=tuple(range(request.spec.seed, request.spec.seed + request.spec.trials)),
+        wanted=request.spec.candidates,
+        candidates=results.describe_candidates(study, aim),
+        front=results.list_front(study, aim),
+        chosen=chosen,
+        importances={each.text: study.compute_importances(index) for index, each in enumerate(aim.objectives)},
+        fresh=results.compare_fresh(aim, *known),
+        recordings={"defaults": str(request.out / RUNS / "defaults")},
+    )
+    if chosen is None:
+        return learned, ()
+    candidate = study.candidates[chosen]
+    changes = _write_changes(subject, learned, candidate)
+    diff = "".join(unified_diff(each.before, each.after, each.shown) for each in changes)
+    learned = structs.replace(learned, diff=diff)
+    return (_record_best(request, subject, study, learned, candidate) if is_whole else learned), changes
+
+
+def _write_changes(subject: _Subject, learned: Learned, candidate: Candidate) -> tuple[FileChange, ...]:
+    values = [LearnedValue(of, value) for of, value in zip(learned.parameters, candidate.values, strict=True)]
+    evidence = write_evidence(learned, candidate.number, subject.context)
+    return change_texts(subject.files, subject.library, values, evidence)
+
+
+def _record_best(
+    request: LearnRequest, subject: _Subject, study: Study, learned: Learned, candidate: Candidate
+) -> Learned:
+    """Record the run of a candidate with the first seed, unless it is there."""
+    folder = request.out / RUNS / f"candidate-{candidate.number}"
+    if not (folder / RECORDING).is_file():
+        order = structs.replace(_order(request, subject), settings=list_settings(study, candidate))
+        record_run(order, folder, request.spec.deadline_s)
+    return structs.replace(learned, recordings={**learned.recordings, "learned": str(folder)})
+
+
+def _order(request: LearnRequest, subject: _Subject) -> RunOrder:
+    return RunOrder(
+        experiment=subject.experiment,
+        scene=str(subject.scene),
+        arguments=dict(request.arguments),
+        seed=request.spec.seed,
+    )
+
+
+def _apply(learned: Learned, changes: tuple[FileChange, ...], reporter: Reporter) -> Learned:
+    """Write the changed texts."""
+    if learned.chosen is None:
+        raise RequestError("nothing better than the defaults was found: there is nothing to apply")
+    require_own(changes)
+    for each in changes:
+        rewrite_file(each.path, each.before, each.after)
+        reporter.say(f"wrote {each.shown}")
+    return structs.replace(learned, applied=True)
+
+
+@contextmanager
+def _until_interrupted(reporter: Reporter) -> Iterator[list[bool]]:
+    """End what runs on Ctrl-C, and report it. ServiceError if the executor cannot run trials."""
+    try:
+        yield []
+    except KeyboardInterrupt:
+        reporter.say("interrupted; the same command goes on from here")
+    except ExecutorError as error:
+        raise ServiceError(f"no more trials can be run: {error}") from error
