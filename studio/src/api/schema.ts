@@ -1321,7 +1321,7 @@ export interface components {
              */
             reality?: string | null;
             /**
-             * @description Simulate with physics (`mujoco`), or with ideal motion and contact (`kinematic`): faster, but contact is not verified then. Others run on robots.
+             * @description Simulate with physics (`mujoco`), with ideal motion and contact (`kinematic`): faster, but contact is not verified then; or with facts alone (`symbolic`). Others run on robots.
              * @default mujoco
              */
             backend?: string;
