@@ -59,7 +59,11 @@ def test_an_ontology_beside_the_skills_may_be_compressed(tmp_path: Path, monkeyp
     assert "shop.ttl.gz cannot be read: it is compressed by gzip, and damaged" in run("check", ".", "--no-cache").output
 
 
-@pytest.mark.parametrize("content", [PACKED[:-1], PACKED[:40], PACKED[:2], PACKED[:300] + b"\0\0" + PACKED[302:]])
+@pytest.mark.parametrize(
+    "content",
+    [PACKED[:-1], PACKED[:40], PACKED[:2], PACKED[:300] + b"\0\0" + PACKED[302:]],
+    ids=["last byte", "start", "two bytes", "two in the middle"],
+)
 def test_a_damaged_file_is_said_to_be(content: bytes, tmp_path: Path) -> None:
     path = tmp_path / "cell.ttl.gz"
     path.write_bytes(content)
