@@ -36,7 +36,8 @@ class SceneCache:
         by_default = around.project is not None and around.project.manifest.scene is not None
         if not any(task.scene or by_default for task in program.tasks):
             return None
-        from skillc.services.task_scenes import SceneTexts, default_scene, read_scene, read_task_scenes
+        from skillc.services.named_scenes import default_scene
+        from skillc.services.task_scenes import SceneTexts, read_scene, read_task_scenes
 
         default = default_scene(around.project) if around.project else None
         terms = _own_terms(program.vocabulary, base)

@@ -13,8 +13,8 @@ from skillc.server.served_library import ServedLibrary, open_library
 from skillc.server.state import CELLS
 from skillc.services.backends import BackendName
 from skillc.services.library_files import find_scene
+from skillc.services.named_scenes import default_scene
 from skillc.services.project.loading import find_project
-from skillc.services.task_scenes import default_scene
 from skillc_ontology import catalogue
 
 

@@ -11,6 +11,7 @@ from skillc.services.findings_cache import FindingsCache
 from skillc.services.library_files import LibraryFiles
 from skillc.services.snapshots import Snapshot, load_snapshot, store_snapshot, take_snapshot
 from skillc.services.value_checks import files_with_texts
+from skillc.services.vocabulary_cache import load_vocabulary_once
 from skillc_compiler.problems import AnalysisMemo
 from skillc_dsl.diagnostics import Diagnostic
 
@@ -57,5 +58,6 @@ def _check_whole(
     checked = check_whole(entry.library, entry.scene, known)
     if checked.program is None:
         return checked.diagnostics, None, look.in_time
+    load_vocabulary_once(entry.library.vocabularies)  # from now on it is there for checks of edits
     now = take_snapshot(checked, files.outlines, files_with_texts(checked.program), look.looked)
     return checked.diagnostics, now, look.in_time

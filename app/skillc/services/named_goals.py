@@ -10,7 +10,7 @@ import msgspec
 
 from skillc.errors import DiagnosticsError, RequestError, ServiceError
 from skillc.extras import missing_extras
-from skillc.services import task_scenes
+from skillc.services import named_scenes, task_scenes
 from skillc.services.project.project import Project
 from skillc.services.reporting import SilentReporter
 from skillc.services.space_problems import OutOfTime, SpaceJudge, SpaceProblem
@@ -27,7 +27,7 @@ def named_scene(project: Project, name: str) -> Path:
     scene = project.manifest.tasks[name].scene or project.manifest.scene
     if scene is None:
         raise RequestError(f"the task `{name}` of skillc.toml has no scene, and the project has no default `scene`")
-    path = task_scenes.resolve_scene(scene, project.root)
+    path = named_scenes.resolve_scene(scene, project.root)
     if path is None:
         raise RequestError(f'the scene "{scene}" of `{name}` is neither in {project.root} nor shipped')
     return path

@@ -17,13 +17,13 @@ from skillc.services import scene_picture
 from skillc.services.assignments import assign_goal
 from skillc.services.compiled_libraries import compile_valid
 from skillc.services.library_files import find_library, find_scene
+from skillc.services.named_scenes import default_scene
 from skillc.services.project.loading import find_project
 from skillc.services.project.project import find_root
 from skillc.services.reporting import Reporter
 from skillc.services.skill_descriptions import describe_skills, with_library_prefix
 from skillc.services.stores import StoreChoice, load_world, open_world
 from skillc.services.task_list import default_library
-from skillc.services.task_scenes import default_scene
 from skillc_compiler.emit.picture import svg
 from skillc_compiler.emit.picture.boxes import PictureBox
 from skillc_model.skills import SkillLibrary

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from skillc.errors import RequestError
 from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
+from skillc.services.named_scenes import default_scene, resolve_scene
 from skillc.services.task_list import TaskEntry, default_library, split_reference, tasks_of
-from skillc.services.task_scenes import default_scene, resolve_scene
 from skillc_dsl.spelling import did_you_mean
 
 MAX_SCENES = 4

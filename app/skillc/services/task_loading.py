@@ -11,7 +11,7 @@ import msgspec
 from msgspec import structs
 
 from skillc.errors import RequestError
-from skillc.services import task_scenes
+from skillc.services import named_scenes
 from skillc.services.assignments import assign_call, assign_goal, assign_task
 from skillc.services.backends import DEFAULT_BACKEND, BackendName, adapt_library
 from skillc.services.compiled_libraries import compile_valid
@@ -46,7 +46,7 @@ def fill_in(spec: RunSpec, store: StoreChoice = NO_STORE) -> RunSpec:
     if (spec.scene, spec.goal, spec.call, spec.library) == (None, None, None, None):
         return structs.replace(spec, task=choose_task(None))
     project = find_project(Path()) if spec.scene is None else None
-    scene = task_scenes.default_scene(project) if project else None
+    scene = named_scenes.default_scene(project) if project else None
     return structs.replace(spec, scene=spec.scene or (None if scene is None else str(scene)))
 
 
@@ -119,14 +119,14 @@ def find_task_in_scene(reference: str, backend: BackendName = DEFAULT_BACKEND) -
 def _find_scene(task: Task, files: LibraryFiles) -> Path:
     """Return the file of a task's scene, or of the default one of its project. RequestError if there is none."""
     if task.scene is None:
-        default = task_scenes.default_scene(files.project) if files.project else None
+        default = named_scenes.default_scene(files.project) if files.project else None
         if default is None:
             how = "run it with --scene FILE and --goal or --call"
             raise RequestError(f"the task `{task.name}` has no scene; {how}")
         return default
-    path = task_scenes.find_task_scene(task, files)
+    path = named_scenes.find_task_scene(task, files)
     if path is None:
-        why = task_scenes.why_missing(task.scene, files.places[task.source.path].parent)
+        why = named_scenes.why_missing(task.scene, files.places[task.source.path].parent)
         raise RequestError(f'the scene "{task.scene}" of `{task.name}` {why}')
     return path
 

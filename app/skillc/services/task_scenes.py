@@ -12,11 +12,10 @@ from skillc.services import scene_diagnostics
 from skillc.services.files import inspect_path
 from skillc.services.library_files import LibraryFiles
 from skillc.services.missing_terms import find_missing_terms, select_problems
-from skillc.services.project.project import Project
+from skillc.services.named_scenes import default_scene, resolve_scene, why_missing
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.spelling import did_you_mean
-from skillc_model.skills import Task
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, SceneError
@@ -96,27 +95,6 @@ def read_task_scenes(
     return TaskScenes(files, valid, individuals, tuple(dict.fromkeys((*missing, *wrong))), texts.symbolic)
 
 
-def default_scene(project: Project) -> Path | None:
-    """Return the file of a project's default scene, None if it names none or the file does not exist."""
-    return resolve_scene(project.manifest.scene, project.root) if project.manifest.scene else None
-
-
-def find_task_scene(task: Task, files: LibraryFiles) -> Path | None:
-    """Return the file of a compiled task's scene, None if it does not exist."""
-    assert task.scene is not None
-    return resolve_scene(task.scene, files.places[task.source.path].parent)
-
-
-def resolve_scene(scene: str, beside: Path) -> Path | None:
-    """Return the file of a scene, in the folder `beside` or shipped; None if it does not exist."""
-    if inspect_path(beside / scene).kind == "file":
-        return beside / scene
-    try:
-        return catalogue.scene_path(scene)
-    except FileNotFoundError:
-        return None
-
-
 def classes_by_individual(state: WorldState, vocabulary: Vocabulary) -> Individuals:
     """Return the individuals of a world with their classes that the library's vocabulary has, or the nearest above."""
     known = vocabulary.classes.keys()
@@ -141,12 +119,6 @@ def _written(program: Program) -> Iterator[tuple[str, s.Text]]:
         for declaration in unit.file.declarations:
             if isinstance(declaration, s.TaskDeclaration) and declaration.scene and unit.library == program.name:
                 yield declaration.name.text, declaration.scene
-
-
-def why_missing(scene: str, beside: Path) -> str:
-    """Return why a scene is not found, to complete a sentence that begins with its name."""
-    found = inspect_path(beside / scene)
-    return "is neither beside this file nor shipped" if found.kind == "missing" else found.is_what
 
 
 def _missing(scene: s.Text, texts: SceneTexts) -> Diagnostic:

@@ -8,10 +8,10 @@ from skillc.errors import RequestError
 from skillc.extras import MODULES, require
 from skillc.services.backends import require_backend
 from skillc.services.library_files import LibraryFiles
+from skillc.services.named_scenes import default_scene
 from skillc.services.project.lock import check_lock
 from skillc.services.project.project import Project
 from skillc.services.task_list import task_names
-from skillc.services.task_scenes import default_scene
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.spelling import did_you_mean
 from skillc_ontology import catalogue

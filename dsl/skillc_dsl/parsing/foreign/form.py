@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from functools import cache
 from typing import NamedTuple
 
 
@@ -13,17 +15,24 @@ class Form(NamedTuple):
     means something else elsewhere.
     """
 
-    pattern: re.Pattern[str]
+    pattern: str
     write: str | None
     advice: str = ""
     where: str = ""
 
+    def find_in(self, line: str) -> Iterator[re.Match[str]]:
+        """Yield the matches in a line; the pattern is compiled for the first one, since there are many forms."""
+        return _compile(self.pattern).finditer(line)
+
+
+_compile = cache(re.compile)
+
 
 def leading(pattern: str, write: str | None, advice: str = "", where: str = "") -> Form:
     """Return a form that begins a declaration, a member or a step."""
-    return Form(re.compile(rf"(?:^|(?<=[{{}}]))\s*(?P<form>{pattern})"), write, advice, where)
+    return Form(rf"(?:^|(?<=[{{}}]))\s*(?P<form>{pattern})", write, advice, where)
 
 
 def inner(pattern: str, write: str | None, advice: str = "", where: str = "") -> Form:
     """Return a form that stands anywhere in a line."""
-    return Form(re.compile(rf"(?P<form>{pattern})"), write, advice, where)
+    return Form(rf"(?P<form>{pattern})", write, advice, where)

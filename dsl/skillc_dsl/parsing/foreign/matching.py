@@ -48,7 +48,7 @@ def _find(form: Form, line: str, place: Span) -> re.Match[str] | None:
     """Return a match that touches a place in the line."""
     if len(line) > _LONGEST:
         return None
-    found = form.pattern.finditer(line.partition(" #")[0].rstrip())
+    found = form.find_in(line.partition(" #")[0].rstrip())
     start, end = place.column - 1, place.end_column - 1
     return next((each for each in found if each.start("form") <= end and each.end("form") >= start), None)
 
