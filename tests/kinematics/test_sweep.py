@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from test_inverse import load
 
-from skillc_runtime.kinematics.chain import read_chain, unpack
+from skillc_runtime.kinematics.chain import pack, read_chain, unpack
 from skillc_runtime.kinematics.inverse import find_postures
 from skillc_runtime.kinematics.sweep import MARGIN, TORQUE, JointLoad, find_best_sweep, follow, sample_poses
 from skillc_runtime.motion.pose import Pose
@@ -57,3 +57,12 @@ def test_what_is_too_far_too_wide_or_too_heavy_is_not_reached():
     reached = follow(chain, far, start, bearing).reached
     assert reached[0] and not reached[-1]
     assert find_best_sweep(chain, poses, [], bearing) is None
+
+
+def test_poses_that_are_far_apart_near_a_singularity_are_followed():
+    _, chain, bearing = arm("panda", effort=1e3)
+    rng, stretched = np.random.default_rng(3), np.array([0.0, 0.3, 0.0, -0.5, 0.0, 1.2, 0.0])
+    for _ in range(40):
+        there = stretched + rng.uniform(-0.3, 0.3, 7)
+        poses = np.array([pack(chain.place_tool(q)) for q in (stretched, there)])
+        assert follow(chain, poses, stretched, bearing).reached.all()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from judged_looks.looking import make_ideal_cell
+from judged_looks.looking import look, make_ideal_cell
 from judged_looks.verdict import Verdict, share_solved
 from random_layouts.drawing import KINDS, draw_layout, format_layout
 from random_layouts.exhaustive import find_way
@@ -65,6 +65,17 @@ def test_a_part_for_a_narrow_slot_is_taken_by_its_top(tmp_path: Path) -> None:
         prepared = prepare_task(task.assignment, task.library, look=SpaceLook())
     assert isinstance(prepared, PreparedTask) and prepared.space is not None
     assert [(each.step, each.implementation) for each in prepared.space.implementations] == [(1, "by_top")]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("seed", "kind"), [(9, "two-arms"), (31, "bases")])
+def test_another_place_is_found_for_a_part_in_a_small_bin_and_for_a_base_that_could_not_leave(
+    seed: int, kind: str, tmp_path: Path
+) -> None:
+    """In the middle of the bin the elbow would be bent too far; where the base is wanted it has no room to turn."""
+    name = write_layout(draw_layout(seed, kind), tmp_path / "drawn")
+    with load_task(RunSpec(task=name), SilentReporter()) as task:
+        assert look(task) == ("yes", "")
 
 
 @pytest.mark.sim

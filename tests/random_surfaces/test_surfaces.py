@@ -77,9 +77,9 @@ def test_what_is_said_of_wiping_a_surface_is_so(seed: int, arm: ArmName, said: s
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [46, 113])
+@pytest.mark.parametrize("seed", [38, 71, 113])
 def test_many_postures_are_looked_at(seed: int, tmp_path: Path) -> None:
-    """One surface goes from the ninth posture, the other from one with the elbow elsewhere."""
+    """One surface goes near a singularity, the others from a posture with the elbow elsewhere."""
     task = load_surface(draw_surface(seed, "panda"), tmp_path / "cell.ttl")
     assert look(task) == ("yes", "")
 

@@ -20,8 +20,8 @@ from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import cholesky
 from skillc_runtime.motion.pose import Array, Pose, exp, log
 
-STEPS = 3
-"""Steps of inverse kinematics at each pose, from the posture at the pose before."""
+STEPS, MOST_STEPS = 3, 12
+"""Steps of inverse kinematics at each pose, from the posture at the pose before; more until the tool is there."""
 
 DAMPING = 1e-2
 
@@ -127,9 +127,11 @@ def follow_poses(
         for r in range(3):
             for c in range(3):
                 there[r, c] = poses[k, 3 + 3 * r + c]
-        for _ in range(STEPS):
+        for round_ in range(MOST_STEPS):
             place(chain.frames, chain.slides, chain.tool, q, at)
             size = find_error(at, poses[k], here, there, error)
+            if round_ >= STEPS and size < FAR_M * FAR_M:
+                break
             differentiate(chain.slides, at, J)
             for i in range(n):
                 pull[i] = PULL * (start[i] - q[i]) if n > 6 else 0.0

@@ -8,9 +8,19 @@ from typing import Literal, TypeAlias
 from skillc_rdf.vocabulary.types import Position
 
 Cause: TypeAlias = Literal[
-    "out-of-reach", "joint-range", "torque", "in-the-way", "no-path", "no-grasp-or-place", "no-value", "nothing-fits"
+    "out-of-reach",
+    "joint-range",
+    "torque",
+    "in-the-way",
+    "no-path",
+    "no-way",
+    "no-grasp-or-place",
+    "no-value",
+    "nothing-fits",
 ]
-"""Why it does not go. After `no-value` nobody knows: it depends on a value that the world model does not have yet."""
+"""Why it does not go: `no-path` of an arm, `no-way` of a base.
+
+After `no-value` nobody knows: it depends on a value that the world model does not have yet."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -57,10 +57,10 @@ Outcome: TypeAlias = Situation | SpaceFailure
 SAMPLE_M = 0.02
 """The distance of poses along a path of the tool that are looked at."""
 
-LOOKED_AT = 16
+LOOKED_AT = 64
 """How many postures of a pose are looked at. A run that takes none of them tries fewer, `move.MOST_POSTURES`."""
 
-ELBOWS, ELBOW_SEEDS = 12, 8
+ELBOWS, ELBOW_SEEDS = 48, 8
 """Towards how many other postures the elbow of a redundant arm is pulled where the first ones do not go, and from how
 many starts each."""
 
@@ -157,6 +157,8 @@ def _explain(view: ArmView, sweep: Sweep, sampled: Array, here: Situation) -> Sp
     first = int(np.argmin(sweep.reached))
     q, measured = sweep.postures[first], sweep.measures[first]
     at = _place(view.base @ Pose(sampled[first, :3], np.eye(3)))
+    if measured[ERROR_M] > FAR_M or measured[ERROR_RAD] > FAR_RAD:
+        return SpaceFailure("out-of-reach", f"the tool of {_name(view, here)} does not get to {at}")
     limits = view.space.range
     outside = np.maximum(limits[:, 0] - q, q - limits[:, 1])
     joint = int(outside.argmax())
@@ -164,8 +166,6 @@ def _explain(view: ArmView, sweep: Sweep, sampled: Array, here: Situation) -> Sp
         low, high = limits[joint]
         why = f"joint {joint + 1} would be at {q[joint]:.2f}, outside its range from {low:.2f} to {high:.2f}, at {at}"
         return SpaceFailure("joint-range", f"{_name(view, here)}: {why}")
-    if measured[ERROR_M] > FAR_M or measured[ERROR_RAD] > FAR_RAD:
-        return SpaceFailure("out-of-reach", f"the tool of {_name(view, here)} does not get to {at}")
     share = float(measured[TORQUE])
     why = f"a joint of {_name(view, here)} would need {share:.0%} of its greatest torque at {at}"
     return SpaceFailure("torque", why)

@@ -83,6 +83,7 @@ class _Refiner:
         self._furthest = PlanRefinement(())
         self._left = RETRIES
         self._lacks_place: Step | None = None
+        self._lacks_way = False
 
     def refine(self, steps: tuple[Step, ...], here: Situation) -> PlanRefinement:
         self._left = WITH_BASES if here.state.instances(MOBILE_ROBOT) else RETRIES
@@ -106,14 +107,16 @@ class _Refiner:
             for after in walk.go(call_of(step, self._library, name), here, Scope({})):
                 went += 1
                 refined = _refine_step(step, here, after, tuple(walk.unseen), name if before else None)
-                self._lacks_place = None
+                self._lacks_place, self._lacks_way = None, False
                 yield from self._go(left[1:], self._with_effects(step, after), (*done, refined))
-                if self._left <= 0:
+                if self._left <= 0 or (self._lacks_way and _leaves_as_it_was(here, after)):
                     return
                 if self._lacks_place is not None and _takes_any(here.state, after.state, self._lacks_place):
                     break  # in another posture the hand holds it in the same way
         self._left -= 1
-        self._lacks_place = step if not went and _lacks_place(walk.furthest, here) else None
+        why = None if went else walk.furthest
+        self._lacks_place = step if _lacks_place(why, here) else None
+        self._lacks_way = why is not None and why.cause == "no-way"
         if len(done) > len(self._furthest.steps) or self._furthest.failed is None:
             self._furthest = PlanRefinement(done, step, walk.furthest, here, tuple(walk.unseen))
 
@@ -145,6 +148,11 @@ def _refine_step(
 def _lacks_place(why: SpaceFailure | None, here: Situation) -> bool:
     """Whether nothing has moved in a step because there is no place for what it puts down, or no grasp."""
     return why is not None and why.cause == "no-grasp-or-place" and why.depth == len(here.motions)
+
+
+def _leaves_as_it_was(before: Situation, after: Situation) -> bool:
+    """Whether no base has been driven, and nothing put down: then another way to do it makes no way for a base."""
+    return len(after.drives) == len(before.drives) and len(after.places) == len(before.places)
 
 
 def _takes_any(before: WorldState, after: WorldState, step: Step) -> bool:

@@ -63,7 +63,7 @@ def _with_way(need: Stand, there: Situation, way: BaseWay) -> Situation:
 
 
 def _explain(need: Stand, state: WorldState, way: BlockedWay) -> SpaceFailure:
-    return SpaceFailure("in-the-way" if way.at_goal else "no-path", describe_blocked(way, state, need.robot, need.to))
+    return SpaceFailure("in-the-way" if way.at_goal else "no-way", describe_blocked(way, state, need.robot, need.to))
 
 
 def _list_rooms(need: Stand, here: Situation) -> Iterator[Situation]:

@@ -81,14 +81,19 @@ def list_free_places(state: WorldState, arm: str, gripper: str, thing: str, to: 
 def _list_with_room(
     state: WorldState, arm: str, support: Support, loads: Iterable[Load], neighbours: list[Neighbour]
 ) -> Iterator[FreePlace] | PlaceError:
-    """Return the free places on a support: with less room around the hand only if there is no place with more."""
-    found: Iterator[FreePlace] | PlaceError | None = None
-    for load in loads:
-        found = _roof_problem(state, support, load) or _list_free(state, arm, support, load, neighbours)
+    """Return the free places on a support, those with most room around the hand first, or why there is none."""
+    found: Iterator[Pose] | PlaceError | None = None
+    left = iter(loads)
+    for load in left:
+        found = _list_free(state, arm, support, load, neighbours)
         if not isinstance(found, PlaceError) or found.lack not in OF_ROOM:
             break
     assert found is not None, "there is a load"
-    return found
+    if isinstance(found, PlaceError):
+        return found
+    narrower = (_list_free(state, arm, support, load, neighbours) for load in left)
+    others = chain.from_iterable(each for each in narrower if not isinstance(each, PlaceError))
+    return (FreePlace(support, each) for each in spread_out(chain(found, others)))
 
 
 def _roof_problem(state: WorldState, support: Support, load: Load) -> PlaceError | None:
@@ -109,8 +114,11 @@ def _in_frame(other: Occupant, support: Support) -> Iterator[Neighbour]:
 
 def _list_free(
     state: WorldState, arm: str, support: Support, load: Load, neighbours: list[Neighbour]
-) -> Iterator[FreePlace] | PlaceError:
-    """Return the free places on a support, first the nearest to its middle, or why there is none."""
+) -> Iterator[Pose] | PlaceError:
+    """Return where the hand is in the world at free places, nearest to the middle first, or why there is none."""
+    roof = _roof_problem(state, support, load)
+    if roof is not None:
+        return roof
     sheet, base = sheet_of(state, arm), pose(state, arm)
     reach_m, shoulder = sheet.number("reach"), base.apply(np.array([0.0, 0.0, sheet.number("shoulderHeight")]))
 
@@ -118,11 +126,10 @@ def _list_free(
         far_m = float(np.linalg.norm(hand.position - shoulder))
         return far_m < share * reach_m and np.hypot(*(hand.position - base.position)[:2]) > NEAR_BASE_M
 
-    def list_from(first: Pose, share: float) -> Iterator[FreePlace]:
+    def list_from(first: Pose, share: float) -> Iterator[Pose]:
         coarse = _hands(support, load, choose_pitch_m(support.half))
         free = (support.middle @ each for each in coarse if _find_blocker(each, load, neighbours) is None)
-        others = spread_out(first, (each for each in free if is_in_reach(each, share)))
-        return (FreePlace(support, each) for each in chain((first,), others))
+        return chain((first,), (each for each in free if is_in_reach(each, share)))
 
     blockers: list[Neighbour] = []
     distances_m: list[float] = []

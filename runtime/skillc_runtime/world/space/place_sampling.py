@@ -33,9 +33,9 @@ def choose_pitch_m(half: Array) -> float:
     return max(PITCH_M, round(2.0 * float(half.max()) / COARSE, 3))
 
 
-def spread_out(first: Pose, others: Iterable[Pose]) -> Iterator[Pose]:
-    """Yield a part of some hand poses in the world, in their order, that are apart from the first and each other."""
-    return islice(_thin_out(first, others), MOST)
+def spread_out(hands: Iterable[Pose]) -> Iterator[Pose]:
+    """Yield the first of some hand poses in the world, and a part of the others, in their order, that are apart."""
+    return islice(_thin_out(hands), 1 + MOST)
 
 
 def interleave(series: Sequence[Iterable[T]]) -> Iterator[T]:
@@ -46,13 +46,14 @@ def interleave(series: Sequence[Iterable[T]]) -> Iterator[T]:
             yield each  # type: ignore[misc]
 
 
-def _thin_out(first: Pose, others: Iterable[Pose]) -> Iterator[Pose]:
-    places, turns = [first.position], [first.rotation]
-    for each in others:
-        away = np.linalg.norm(np.array(places) - each.position, axis=1)
-        turned = np.abs(np.array(turns) - each.rotation).max(axis=(1, 2)) > 0.5
-        least = APART_M + APART_SHARE * float(away[0])
-        if (away + TURNED_M * turned >= least).all():
-            places.append(each.position)
-            turns.append(each.rotation)
-            yield each
+def _thin_out(hands: Iterable[Pose]) -> Iterator[Pose]:
+    places, turns = list[Array](), list[Array]()
+    for each in hands:
+        if places:
+            away = np.linalg.norm(np.array(places) - each.position, axis=1)
+            turned = np.abs(np.array(turns) - each.rotation).max(axis=(1, 2)) > 0.5
+            if (away + TURNED_M * turned < APART_M + APART_SHARE * float(away[0])).any():
+                continue
+        places.append(each.position)
+        turns.append(each.rotation)
+        yield each
