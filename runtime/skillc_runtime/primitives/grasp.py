@@ -36,6 +36,8 @@ from skillc_runtime.world.state.world_state import WorldState
 FREE_CLEARANCE_M = 0.005
 """How much farther than while holding it the fingers must be open for an object to be free."""
 
+BESIDE_FINGERS_M = 0.004
+"""How much room both fingers together leave to what is beside them where they let go."""
 
 WIDTH_TOLERANCE_M = 0.004
 """By how much the fingers may be closer or further apart than what they hold is wide, unless that is stated."""
@@ -214,8 +216,8 @@ class Release(Primitive):
             at = self._arm.measured.pose @ self._face.inverse() @ frame_tree_of(state).own_pose(self._object).inverse()
             hand, others = read_hand_shape(state, self._hand), read_occupants(state)
             around = [each for each in others if each.individual != self._object]
-            free = (each for each in openings if hand.find_in_the_way(at, each, 0.0, around) is None)
-            return next(free, openings[0])
+            free = (each for each in openings if hand.find_in_the_way(at, each + BESIDE_FINGERS_M, 0.0, around) is None)
+            return next(free, openings[-1])
         return openings[0]
 
     def _detach(self) -> None:
