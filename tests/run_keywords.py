@@ -10,6 +10,7 @@ import msgspec
 from msgspec import inspect
 
 from skillc.contract.order import OrderRequest
+from skillc.services.learning.spec import LearnSpec
 from skillc_runtime.recording.documented import DocumentedField, documented_fields
 from skillc_runtime.recording.run_spec import ATTENDED_ELSEWHERE, RunRequest, RunSpec, TaskRequest
 
@@ -46,6 +47,7 @@ def format_keywords() -> str:
         ("SceneStartKeywords", "What is started in a scene, and how", "SceneRunKeywords, AttendedKeywords", []),
         ("SubmitKeywords", "What a cell of a server is given", "TypedDict", submitted),
         ("OperationKeywords", "What is started in a cell", "SubmitKeywords", _select(RunRequest, ATTENDED)),
+        ("LearnKeywords", "What is learned, and from how many trials", "TypedDict", _select(LearnSpec)),
     )
     texts = [_format_dict(*each) for each in dicts]
     times = "\n".join(f"    {each.name}: {_name_type(inspect.type_info(each.type))}" for each in orders)

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from skillc.api.event_stream import EventStream as EventStream
+    from skillc.api.learning import Learned as Learned
+    from skillc.api.learning import learn as learn
     from skillc.api.library import Library as Library
     from skillc.api.library import check as check
     from skillc.api.library import load_library as load_library
@@ -59,6 +61,7 @@ _MODULES = {
     "EventStream": "skillc.api.event_stream",
     "Figure": "skillc.api.picture",
     "Film": "skillc.api.picture",
+    "Learned": "skillc.api.learning",
     "Library": "skillc.api.library",
     "Operation": "skillc.api.operation",
     "Picture": "skillc.api.picture",
@@ -79,6 +82,7 @@ _MODULES = {
     "check": "skillc.api.library",
     "connect": "skillc.client.connecting",
     "connect_async": "skillc.client.connecting",
+    "learn": "skillc.api.learning",
     "load_library": "skillc.api.library",
     "open_run": "skillc.api.run",
     "open_scene": "skillc.api.scene",

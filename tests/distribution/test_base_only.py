@@ -18,6 +18,7 @@ COMMAND = re.compile(r"pip install 'skillc\[([a-z,]+)\]'")
 NEEDS = {
     "run": "run",
     "trials clean_table": "run",
+    "learn clean_table --minimise time": "run",
     "demo": "run",
     "replay runs": "run",
     "report runs": "run",

@@ -57,6 +57,9 @@ def test_a_button_is_pressed_faster(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert result.exit_code == (3 if learned["chosen"] is None else 0)
     assert Path(learned["recordings"]["defaults"], "recording.mcap").is_file()
     assert learned["chosen"] is not None
+    page = (tmp_path / "learning" / "press_button" / "learned.html").read_text()
+    assert 'href="runs/candidate-' in page
+    assert page.count("<circle") == 4
     again = run(*arguments, *few, "--apply")  # nothing is left to run
     assert again.exit_code == 0, again.output
     text = (tmp_path / "press" / "press.skill").read_text()

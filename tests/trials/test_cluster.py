@@ -10,13 +10,16 @@ import sys
 import threading
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from functools import partial
 from pathlib import Path
 
 import pytest
 
 import skillc
+from learning.runners import Wiping, aim, open_study
 from skillc.errors import ServiceError
+from skillc.services.learning.search import Search
 from skillc.services.reporting import SilentReporter
 from skillc.services.trial_executors import choose_executor
 from skillc_runtime.evaluation.trials.dispatch import ExecutorError, run_on
@@ -109,6 +112,24 @@ def test_a_worker_with_another_version_is_refused(cluster: Cluster, tmp_path: Pa
                 list(run_on(executor, Faulty, range(2)))
     finally:
         end(worker, cluster)
+
+
+def test_learning_goes_on_when_a_worker_is_killed(cluster: Cluster, tmp_path: Path) -> None:
+    (notes := tmp_path / "notes").mkdir()
+    worker = cluster.start_worker()
+    with closing(open_study(tmp_path / "out", 1)) as study, cluster.connected() as client:
+        client.wait_for_workers(WORKERS + 1, timeout=60)
+        study.use_sampler("tpe", 10, 0)
+        steps = Search(study, aim("time"), range(3), 10, WORKERS + 1).run(
+            client.get_executor(pure=False), partial(Wiping, notes), 60.0
+        )
+        for number, _ in enumerate(steps):
+            if number == WORKERS:
+                worker.kill()
+        assert len(study.candidates) == 10
+        assert all(set(each.worlds) == set(range(3)) for each in study.candidates.values())
+        assert all(not world.failures for each in study.candidates.values() for world in each.worlds.values())
+    end(worker, cluster)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])

@@ -133,6 +133,39 @@ class OperationKeywords(SubmitKeywords, total=False):
     """Pause before each step, with the arms held, until somebody lets the task go on."""
 
 
+class LearnKeywords(TypedDict, total=False):
+    """What is learned, and from how many trials."""
+
+    minimise: str | None
+    """The objectives: figures of trials or expressions over them, between commas."""
+    subject_to: str | None
+    """What every trial has to meet, besides its success: comparisons of figures, between commas, such as `coverage
+    == 100 %, impact <= 2`."""
+    parameters: str | None
+    """The parameters that are learned, between commas; by default all with a range, in the library of the task,
+    whose defaults the task uses."""
+    candidates: int
+    """How many candidates are tried, the defaults included."""
+    trials: int
+    """The trials of a candidate, each in another world, the same ones for all."""
+    fresh: int
+    """Further worlds, in which the best candidate is compared with the defaults."""
+    seed: int
+    """The seed of the first world."""
+    sampler: Literal["gp", "nsga2", "random", "tpe"]
+    """How candidates are chosen: by tree-structured Parzen estimators, NSGA-II, Gaussian processes (needs torch and
+    scipy), or at random."""
+    reality: str | None
+    """How far simulated arms and tools are from what they should be: `ideal`, `typical` or `wide`, all
+    imperfections that their sheets state, or only some of them: `wide:jointFriction,forceBias`."""
+    take: int | None
+    """Propose this candidate of the front, instead of the one that is chosen."""
+    apply: bool
+    """Write the learned values into the files of the library."""
+    deadline_s: float
+    """The time limit of one trial, in wall time."""
+
+
 class OrderKeywords(SubmitKeywords, total=False):
     """What is started in a cell at a time, and when again; `missed` is what becomes of one that was not possible."""
 

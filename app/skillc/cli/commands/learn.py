@@ -67,6 +67,7 @@ def command(
     from skillc.cli.learning_output import format_learned
     from skillc.cli.learning_progress import LearningProgress
     from skillc.services.learning.coordinator import LearnRequest, learn
+    from skillc.services.learning.page import write_page
     from skillc.services.learning.place import choose_place
     from skillc.services.task_list import require_task
 
@@ -76,6 +77,7 @@ def command(
     folder = out or Path("learning") / chosen.rpartition(":")[2]
     request = LearnRequest(chosen, spec, folder, executor, parallel, arguments)
     learned = learn(request, lambda name: LearningProgress(name, spec, quiet=as_json), Terminal())
+    write_page(learned, folder)
     if as_json:
         print_json(learned)
     else:
