@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import json
 import shutil
+import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -41,6 +44,25 @@ def test_what_is_not_installed_is_named(monkeypatch: pytest.MonkeyPatch, tmp_pat
     result = run("clean_table", "--minimise", "time", "--out", tmp_path / "out")
     assert result.exit_code == 2
     assert "pip install 'skillc[learn]'" in " ".join(result.stderr.split())
+
+
+@pytest.mark.sim
+def test_what_is_interrupted_goes_on(tmp_path: Path) -> None:
+    words = ("learn", "contact:press_button", "--minimise", "time", "--parameters", "PressButton.pace", "--out", "out")
+    few = ("--candidates", "3", "--trials", "1", "--fresh", "0", "--jobs", "1")
+    command = (sys.executable, "-m", "skillc", *words, *few)
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stderr is not None
+        for line in process.stderr:
+            if line.startswith("1 of 3 candidates"):
+                process.send_signal(signal.SIGINT)
+                break
+        out, err = process.communicate(timeout=120)
+    assert (process.returncode, "the same command goes on from here" in " ".join(err.split())) == (3, True)
+    assert "1 of 3 candidates tried" in out
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.stderr.startswith("1 of 3 candidates, 1 trials")
+    assert "3 of 3 candidates tried in 3 trials" in done.stdout
 
 
 @pytest.mark.sim

@@ -11,17 +11,21 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from functools import partial
+from importlib.util import find_spec
 from itertools import islice
 from pathlib import Path
 
+import optuna
 import pytest
 
-from learning.runners import Wiping, aim, open_study
-from skillc.errors import ServiceError
+from learning.runners import RADIUS, SPEED, Wiping, aim, open_study
+from skillc.errors import RequestError, ServiceError
+from skillc.services.learning import study as studies
 from skillc.services.learning.racing import Aim
 from skillc.services.learning.result import choose, list_front, list_measured
 from skillc.services.learning.search import Search, try_fresh
-from skillc.services.learning.study import Study
+from skillc.services.learning.spec import SamplerName
+from skillc.services.learning.study import FILE, NAME, Study, require_sampler
 from skillc_runtime.evaluation.trials.dispatch import Dispatch
 from skillc_runtime.evaluation.trials.hosting import Prepare
 
@@ -70,6 +74,7 @@ def test_it_finds_what_is_better_in_both_objectives(tmp_path: Path) -> None:
         assert least < known
 
 
+@pytest.mark.slow
 def test_a_study_goes_on_where_it_was(tmp_path: Path) -> None:
     notes, wanted = tmp_path / "notes", aim("time")
     notes.mkdir()
@@ -88,6 +93,7 @@ def test_a_study_goes_on_where_it_was(tmp_path: Path) -> None:
     assert done <= sum(again.values()) <= done + 1
 
 
+@pytest.mark.slow
 def test_fresh_worlds_are_tried_once(tmp_path: Path) -> None:
     wanted = aim("time")
     with closing(open_study(tmp_path, 1)) as study:
@@ -151,12 +157,52 @@ def test_a_coordinator_that_is_killed_loses_nothing(tmp_path: Path) -> None:
     assert done <= made <= done + 3 * 2  # what ran at a kill is run again, and recorded once
 
 
+def test_a_study_that_was_killed_when_it_was_made_is_made_anew(tmp_path: Path) -> None:
+    optuna.create_study(study_name=NAME, storage=f"sqlite:///{tmp_path / FILE}", directions=["minimize"] * 3)
+    with closing(open_study(tmp_path, 1)) as study:
+        assert study.ask().values == (0.1, 15.0)
+    with closing(open_study(tmp_path, 1)) as study:
+        assert list(study.candidates) == [0]
+
+
+def test_a_candidate_that_was_killed_when_it_was_asked_for_does_not_count(tmp_path: Path) -> None:
+    with closing(open_study(tmp_path, 1)):
+        pass
+    half = optuna.load_study(study_name=NAME, storage=f"sqlite:///{tmp_path / FILE}").ask()
+    half.suggest_float(SPEED.name, SPEED.low, SPEED.high, log=True)
+    with closing(open_study(tmp_path, 1)) as study:
+        assert not study.candidates
+        assert study.ask().values == (0.1, 15.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("sampler", ["nsga2", "random"])
+def test_other_samplers_ask_for_candidates(tmp_path: Path, sampler: SamplerName) -> None:
+    wanted = aim(BOTH)
+    with closing(open_study(tmp_path, 2, BOTH)) as study:
+        study.use_sampler(sampler, 12, 0)
+        with ThreadPoolExecutor(2) as executor:
+            for _ in Search(study, wanted, SEEDS, 12, 2).run(executor, Wiping, 60.0):
+                pass
+        assert len({each.values for each in study.candidates.values()}) > 6
+        shares = study.compute_importances(1)
+        assert set(shares) == {SPEED.name, RADIUS.name}
+        assert sum(shares.values()) == pytest.approx(1.0)
+
+
+@pytest.mark.skipif(find_spec("torch") is not None, reason="torch is installed")
+def test_a_sampler_says_what_it_needs() -> None:
+    with pytest.raises(RequestError, match="the sampler `gp` needs torch"):
+        require_sampler("gp")
+
+
 def test_a_study_of_something_else_is_not_mixed(tmp_path: Path) -> None:
     open_study(tmp_path, 1).close()
     with pytest.raises(ServiceError, match="is of another minimise: time, now it is force_rmse; take another folder"):
         open_study(tmp_path, 1, "force_rmse")
 
 
-def test_two_processes_do_not_share_a_study(tmp_path: Path) -> None:
+def test_two_processes_do_not_share_a_study(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(studies, "ENDED_S", 0.0)
     with closing(open_study(tmp_path, 1)), pytest.raises(ServiceError, match="another process is learning in"):
         open_study(tmp_path, 1)

@@ -6,6 +6,7 @@ import sys
 from types import TracebackType
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Column
 
 from skillc.cli.console import find_display_obstacle, rich_console
 from skillc.cli.settings import output_settings
@@ -32,7 +33,7 @@ class LearningProgress:
             BarColumn(),
             MofNCompleteColumn(),
             TimeRemainingColumn(),
-            TextColumn("{task.fields[front]}", markup=False),
+            TextColumn("{task.fields[front]}", markup=False, table_column=Column(no_wrap=True, overflow="ellipsis")),
         )
         self._bar = Progress(*columns, console=self._console, disable=hidden, transient=True)
         self._row = self._bar.add_task(task, total=spec.candidates, front="")

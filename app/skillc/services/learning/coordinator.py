@@ -207,6 +207,7 @@ def _conclude(
         chosen=chosen,
         importances={each.text: study.compute_importances(index) for index, each in enumerate(aim.objectives)},
         fresh=results.compare_fresh(aim, *known),
+        complete=is_whole,
         recordings={"defaults": str(request.out / RUNS / "defaults")},
     )
     if chosen is None:

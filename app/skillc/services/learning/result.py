@@ -60,9 +60,9 @@ class Fresh(msgspec.Struct, frozen=True, kw_only=True):
 class Learned(msgspec.Struct, frozen=True, kw_only=True):
     """The result of a study: `front` are the numbers of candidates that no other one dominates.
 
-    The candidate 0 has the defaults. `chosen` is the one that is proposed; None if nothing is better than the
-    defaults. `importances` are for each objective the shares of the parameters. `diff` is the change of the texts,
-    `recordings` are the folders of recorded runs, by what they show.
+    The candidate 0 has the defaults. `complete` is whether all was tried that was asked for. `chosen` is the one that
+    is proposed; None if nothing is better than the defaults. `importances` are for each objective the shares of the
+    parameters. `diff` is the change of the texts, `recordings` are the folders of recorded runs, by what they show.
     """
 
     task: str
@@ -77,6 +77,7 @@ class Learned(msgspec.Struct, frozen=True, kw_only=True):
     chosen: int | None
     importances: dict[str, dict[str, float]]
     fresh: Fresh | None = None
+    complete: bool = False
     diff: str = ""
     applied: bool = False
     recordings: dict[str, str] = {}
