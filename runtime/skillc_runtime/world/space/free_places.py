@@ -93,7 +93,7 @@ def _list_with_room(
         return found
     narrower = (_list_free(state, arm, support, load, neighbours) for load in left)
     others = chain.from_iterable(each for each in narrower if not isinstance(each, PlaceError))
-    return (FreePlace(support, each) for each in spread_out(chain(found, others)))
+    return (FreePlace(support, each) for each in spread_out(chain(found, others), support.half))
 
 
 def _roof_problem(state: WorldState, support: Support, load: Load) -> PlaceError | None:

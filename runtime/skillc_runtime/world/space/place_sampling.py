@@ -21,6 +21,9 @@ APART_M: Final = 0.03
 APART_SHARE: Final = 0.4
 """How far from each other the places are at least that are tried: in m, and more as a share of how far the first is."""
 
+NARROW_SHARE: Final = 0.25
+"""The places are not farther apart than this share of half the narrower side of a support."""
+
 TURNED_M: Final = 0.03
 """How far away a place counts at which the hand is turned otherwise."""
 
@@ -33,9 +36,12 @@ def choose_pitch_m(half: Array) -> float:
     return max(PITCH_M, round(2.0 * float(half.max()) / COARSE, 3))
 
 
-def spread_out(hands: Iterable[Pose]) -> Iterator[Pose]:
-    """Yield the first of some hand poses in the world, and a part of the others, in their order, that are apart."""
-    return islice(_thin_out(hands), 1 + MOST)
+def spread_out(hands: Iterable[Pose], half: Array) -> Iterator[Pose]:
+    """Yield the first of some hand poses in the world, and a part of the others, in their order, that are apart.
+
+    half (2,): half the sides in m of the support on which they are.
+    """
+    return islice(_thin_out(hands, min(APART_M, NARROW_SHARE * float(half.min()))), 1 + MOST)
 
 
 def interleave(series: Sequence[Iterable[T]]) -> Iterator[T]:
@@ -46,13 +52,13 @@ def interleave(series: Sequence[Iterable[T]]) -> Iterator[T]:
             yield each  # type: ignore[misc]
 
 
-def _thin_out(hands: Iterable[Pose]) -> Iterator[Pose]:
+def _thin_out(hands: Iterable[Pose], apart_m: float) -> Iterator[Pose]:
     places, turns = list[Array](), list[Array]()
     for each in hands:
         if places:
             away = np.linalg.norm(np.array(places) - each.position, axis=1)
             turned = np.abs(np.array(turns) - each.rotation).max(axis=(1, 2)) > 0.5
-            if (away + TURNED_M * turned < APART_M + APART_SHARE * float(away[0])).any():
+            if (away + TURNED_M * turned < apart_m + APART_SHARE * float(away[0])).any():
                 continue
         places.append(each.position)
         turns.append(each.rotation)
