@@ -157,6 +157,7 @@ def measurements(count: int) -> list[list[float]]:
         velocity = np.zeros(3)
         sensing = ArmSensing(
             joints, hand.in_base, hand.rotation, J, wrench, velocity, q, dq, bias, chance.uniform(0.9, 1.1),
+            *chance.uniform(-1, 1, (2, 7)),
             hand.on_link, axes, centre, Pose(position, link), Pose(origin, base), weight,
             *chance.uniform(-9, 9, (4, 7)), chance.uniform(-1, 1, (6, 9)), readings, chance.uniform(-1, 1, 6),
             noise[None], np.zeros(1), np.zeros(2),

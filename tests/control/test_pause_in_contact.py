@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from rig import GAINS, Bench
 
-from skillc_runtime.control.compliance_control import LIFT_M
+from skillc_runtime.control.compliance_control import LIFT_M, RETARE_M
 from skillc_runtime.devices.guarded_push import GuardedPush, Travel
 from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import Pose
@@ -243,3 +243,30 @@ def test_an_arm_that_has_stopped_by_itself_is_held_until_it_pushes_again(robot, 
     again = arm.driver.compliance.start_push(arm.push.push)
     force, heights = arm.run(2.5)
     assert again.pressed_s is not None and abs(force[-1] / arm.force_n - 1) < 0.02
+
+
+def test_a_tool_is_taken_off_tared_and_pressed_on_again():
+    """It rests above the surface in between, and comes back to where it was without hitting it."""
+    pressing = Pressing("ur5e")
+    pressing.bench.mean_wrench = np.zeros(6)
+    pressed_at, forces, heights = pressing.height, [], []
+    while not pressing.driver.compliance.retare():
+        assert len(forces) < 500, "it does not press again"
+        force, height = pressing.run(0.01)
+        forces.append(force)
+        heights.append(height)
+    forces, heights = np.concatenate(forces), np.concatenate(heights)
+    assert heights.max() - pressed_at == pytest.approx(RETARE_M, abs=0.003)
+    free = forces < 0.1
+    assert np.abs(speeds(heights[free][-900:-300])).max() < 0.002
+    assert forces.max() < 2 * pressing.force_n
+    assert pressing.run(0.2)[0].mean() == pytest.approx(pressing.force_n, rel=0.05)
+    pressing.end()
+
+
+def test_nothing_is_taken_off_if_nothing_can_be_tared():
+    pressing = Pressing("ur5e")
+    at = pressing.height
+    assert pressing.driver.compliance.retare()
+    pressing.run(0.1)
+    assert pressing.height == pytest.approx(at, abs=1e-4)

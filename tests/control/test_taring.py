@@ -6,8 +6,20 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
-from skillc_runtime.control.taring import GREATEST_N, LEAST_N, LEAST_N_M, PATIENCE_S, REST_S, Taring
+from skillc_runtime.control.taring import (
+    CAUTION,
+    GREATEST_ERROR_N,
+    GREATEST_N,
+    LEAST_N,
+    LEAST_N_M,
+    PATIENCE_S,
+    REST_S,
+    Taring,
+)
 from skillc_runtime.motion.pose import Array
 
 TICK_S = 0.01
@@ -28,6 +40,9 @@ class Hand:
     def state(self) -> Hand:
         return self
 
+    def pass_tick(self) -> None:
+        """Do nothing."""
+
     def tare(self) -> None:
         assert self.mean_wrench is not None
         self.tared.append(self.mean_wrench)
@@ -36,6 +51,7 @@ class Hand:
 def wait(taring: Taring, hand: Hand, moves_s: float = 0.0) -> float:
     """Call until nothing is left to be waited for, while the arm moves at first; return for how long, in s."""
     for tick in range(1000):
+        hand.pass_tick()
         hand.speed = 1.0 if tick * TICK_S < moves_s else 0.0
         if taring.tare(5.0 + tick * TICK_S):
             return tick * TICK_S
@@ -86,3 +102,51 @@ def test_before_its_tool_is_controlled_it_is_tared_once_and_only_of_what_is_no_r
     for _ in range(3):
         taring.tare_first(still.dq)
     assert len(still.tared) == 1
+
+
+NOISE_N_M_S = 0.005
+
+
+class TorqueArm(Hand):
+    """An arm with torque sensors whose bias is wrong by a torque (7,) in N m, with noise in the speeds it measures."""
+
+    jacobian = np.hstack([np.eye(6), np.ones((6, 1))])
+
+    def __init__(self, wrong: Array) -> None:
+        super().__init__(None)
+        self.wrong, self.added = wrong.copy(), np.zeros(8)
+        self.felt, self.impulse = np.zeros(7), np.zeros(8)
+        self.noise = np.random.default_rng(0)
+
+    def correct_bias(self, torque: Array) -> None:
+        self.wrong += torque
+
+    def pass_tick(self) -> None:
+        self.felt[:] += self.wrong * TICK_S
+        self.impulse[0] += TICK_S
+        self.impulse[1:] = self.felt + self.noise.normal(0.0, NOISE_N_M_S, 7)
+
+
+def taring_of(arm: TorqueArm) -> Taring:
+    taring = Taring(arm)
+    taring.impulse = arm.impulse
+    return taring
+
+
+@given(arrays(float, 7, elements=st.floats(-3.0, 3.0)))
+def test_an_arm_with_torque_sensors_corrects_its_bias_at_rest(wrong: Array) -> None:
+    """Of n measurements n / (n + 3) is corrected, and their noise is that of the whole rest, not of each."""
+    arm = TorqueArm(wrong)
+    assert wait(taring_of(arm), arm) == pytest.approx(REST_S, abs=2 * TICK_S)
+    left = CAUTION / (REST_S / TICK_S) * np.abs(wrong)
+    assert (np.abs(arm.wrong) <= left + 6 * 2 * NOISE_N_M_S / REST_S).all()
+
+
+def test_what_it_touches_is_not_corrected_nor_what_it_feels_while_it_moves() -> None:
+    touching = TorqueArm(TorqueArm.jacobian.T @ np.array([0.0, 0.0, 1.5 * GREATEST_ERROR_N, 0.0, 0.0, 0.0]))
+    before = touching.wrong.copy()
+    wait(taring_of(touching), touching)
+    np.testing.assert_array_equal(touching.wrong, before)
+    moving = TorqueArm(np.ones(7))
+    assert wait(taring_of(moving), moving, moves_s=100.0) == pytest.approx(PATIENCE_S, abs=2 * TICK_S)
+    np.testing.assert_array_equal(moving.wrong, 1.0)

@@ -8,7 +8,7 @@ from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.mujoco.wrist import make_coupling
 from skillc_runtime.backends.simulation.noise import BLOCK, Noise
 from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
-from skillc_runtime.backends.simulation.variation import Variation, draw_variation
+from skillc_runtime.backends.simulation.variation import LEAST_MASS_SHARE, Variation, draw_variation
 from skillc_runtime.devices.reality import KINDS, SHARES, parse_reality, set_reality
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
@@ -123,7 +123,7 @@ def test_an_eraser_is_heavier_or_lighter_and_stiffer_than_is_known() -> None:
     tool = next(each for each in there.scene.tools if each.individual == eraser)
     (error,), (factor,) = (there.variation.imperfections[eraser][each] for each in ("massError", "padStiffnessFactor"))
     assert float(there.model.body_subtreemass[there.model.body("lab:Eraser-1/block").id]) == pytest.approx(
-        tool.mass_kg + error
+        max(tool.mass_kg + error, LEAST_MASS_SHARE * tool.mass_kg)
     )
     assert there.variation.pad_stiffness(tool) > tool.sheet.number("padStiffness")
     assert 1.0 <= factor <= 10.0

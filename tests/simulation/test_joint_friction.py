@@ -1,6 +1,9 @@
 """Friction of joints: what sticks holds still, what slips is braked, and energy is only taken."""
 
+from math import exp, inf
+
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -9,10 +12,21 @@ from skillc_runtime.backends.simulation.joint_friction import BENDING_RAD, STICK
 STEP_S, SLOW_N_M, INERTIA = 0.001, 5.0, 0.5
 
 
-def turn(torque_n_m: float, speed: float, seconds: float) -> tuple[np.ndarray, np.ndarray]:
+def rubbing(
+    applied: np.ndarray, dq: np.ndarray, bent: float = 0.0, added: float = 0.0, time_s: float = inf, bias: float = 0.0
+) -> Friction:
+    """Return the friction of a joint whose arm makes up for it with a time constant."""
+    share = 1.0 - exp(-STEP_S / time_s)
+    slow = np.full(1, SLOW_N_M)
+    return Friction(applied, slow, dq, np.full(1, bent), added, STEP_S, np.zeros(1), share, np.full(1, bias))
+
+
+def turn(
+    torque_n_m: float, speed: float, seconds: float, time_s: float = inf, bias: float = 0.0
+) -> tuple[np.ndarray, np.ndarray]:
     """Return angles and speeds of a joint on which a torque acts from a speed on, as the simulation integrates."""
     applied, dq, angles, speeds, q = np.zeros(1), np.full(1, speed), [], [], 0.0
-    friction = Friction(applied, np.full(1, SLOW_N_M), dq, np.zeros(1), 0.0, STEP_S)
+    friction = rubbing(applied, dq, time_s=time_s, bias=bias)
     for _ in range(round(seconds / STEP_S)):
         rub(friction, 0.0)
         dq += STEP_S * (torque_n_m + applied) / INERTIA
@@ -47,5 +61,25 @@ def test_a_joint_that_moves_comes_to_rest_and_stays(speed: float) -> None:
 
 def test_motors_that_write_torques_in_each_step_have_it_added() -> None:
     applied, dq = np.full(1, 7.0), np.full(1, 1.0)
-    rub(Friction(applied, np.full(1, SLOW_N_M), dq, np.full(1, BENDING_RAD), 1.0, STEP_S), 0.0)
+    rub(rubbing(applied, dq, BENDING_RAD, 1.0), 0.0)
     assert 7.0 - 2 * SLOW_N_M < applied[0] < 7.0 - 0.9 * SLOW_N_M
+
+
+@given(st.floats(0.02, 3.0))
+def test_an_arm_with_torque_sensors_moves_as_without_friction(torque_n_m: float) -> None:
+    """Even a torque that friction would hold accelerates the joint, once that is noticed."""
+    _, speeds = turn(torque_n_m, 0.0, 2.0, time_s=0.005)
+    gained = INERTIA * (speeds[-1] - speeds[-501]) / 0.5
+    assert gained == pytest.approx(torque_n_m, rel=0.1, abs=0.02)
+
+
+@given(st.floats(-3.0, 3.0), st.floats(0.001, 0.02))
+def test_what_makes_up_for_friction_adds_no_energy(speed: float, time_s: float) -> None:
+    _, speeds = turn(0.0, speed, 2.0, time_s)
+    assert np.abs(speeds).max() <= abs(speed) + 1e-9
+
+
+@given(st.floats(-0.5, 0.5))
+def test_what_a_torque_sensor_adds_is_what_the_link_misses(bias: float) -> None:
+    _, speeds = turn(bias, 0.0, 2.0, time_s=0.005, bias=bias)
+    assert np.abs(speeds[500:] - speeds[500]).max() < 1e-3

@@ -11,13 +11,16 @@ from skillc_runtime.control import push_memory
 from skillc_runtime.control.arm_task import ArmTask
 from skillc_runtime.control.compliance_state import STIFFNESS
 from skillc_runtime.control.guarded_push import ActivePush
-from skillc_runtime.control.push_memory import FALL_SHARE, MOST_PUSHES, SIZE
+from skillc_runtime.control.push_memory import FALL_SHARE, MOST_PUSHES, SETTLED_S, SIZE
 from skillc_runtime.devices.guarded_push import GuardedPush, PushProgress
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import ROTATION
 
 LIFT_M = 0.02
 """How far a tool is taken off what it presses on; half the travel of its push where that is less."""
+
+RETARE_M = 0.01
+"""The same to tare near the surface: more than 5 deg of tilt and a pad that is pressed in need."""
 
 
 class ComplianceControl:
@@ -30,7 +33,7 @@ class ComplianceControl:
         self._task, self._release_damping = task, release_damping
         self.active_pushes: tuple[ActivePush, ...] = ()
         self.pushes: Array = np.zeros((MOST_PUSHES, SIZE))
-        self._paused = False
+        self._paused = self._retares = False
 
     @property
     def commanded_stiffness(self) -> Array:
@@ -76,6 +79,28 @@ class ComplianceControl:
     def tare(self) -> bool:
         """Let what the force sensor feels of nothing be 0; return whether nothing is left to be waited for."""
         return self.released or self._task.taring.tare(self._task.now)
+
+    @property
+    def tares(self) -> bool:
+        """Whether the arm feels forces that `tare` lets be 0."""
+        return self._task.taring.is_possible
+
+    def retare(self) -> bool:
+        """Take the tool off what it presses on, tare there, and press again; return whether it does."""
+        tool, taring, now = self._task.tool, self._task.taring, self._task.now
+        if not self._retares:
+            self._retares = self.tares and self._in_contact
+            if self._retares:
+                pressing = [each for each in self.active_pushes if each.pressed_s is not None]
+                self._hold()
+                for each in pressing:
+                    self._lift(each.push, RETARE_M)
+        elif tool.compliance.held:
+            if not tool.lifting(now) and taring.tare(now):
+                self._approach_again()
+        else:
+            self._retares = any((each.pressed_s or 0.0) < SETTLED_S for each in self.active_pushes)
+        return not self._retares
 
     def release(self, axis: Array, stiffness: float = 0.0) -> None:
         """Release a direction (3,), which then moves with the reference tool frame; stiffness in N/m.
@@ -162,10 +187,7 @@ class ComplianceControl:
         if tool.compliance.held:
             if tool.lifting(now):
                 return
-            self._let_go()
-            for active in self.active_pushes:
-                active.approach()
-                self._approach(active.push)
+            self._approach_again()
         self._paused = False
 
     def act(self) -> str | None:
@@ -218,8 +240,15 @@ class ComplianceControl:
         if self._task.tool.compliance.held:
             self._task.tool.let_go_released(self._task.now)
 
-    def _lift(self, push: GuardedPush) -> None:
-        way = min(LIFT_M, push.travel.distance_m / 2) * self._task.measured.in_base(push.along)
+    def _approach_again(self) -> None:
+        """Yield again after `_hold`, and let all pushes approach."""
+        self._let_go()
+        for active in self.active_pushes:
+            active.approach()
+            self._approach(active.push)
+
+    def _lift(self, push: GuardedPush, farthest_m: float = LIFT_M) -> None:
+        way = min(farthest_m, push.travel.distance_m / 2) * self._task.measured.in_base(push.along)
         self._task.tool.lift(way, push.approach_m_s, self._task.now)
 
     def _free_row(self) -> Array:
@@ -239,7 +268,7 @@ class ComplianceControl:
     def _forget_all(self) -> None:
         for each in self.active_pushes:
             each.end()
-        self.active_pushes = ()
+        self.active_pushes, self._retares = (), False
 
     def _approach(self, push: GuardedPush) -> None:
         """Push just hard enough to move the tool with the approach speed."""

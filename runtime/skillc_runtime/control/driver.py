@@ -43,6 +43,8 @@ class CompliantArmDriver:
         self.compliance = ComplianceControl(self._task, setup.gains.law.release_damping)
         self._validator = CommandValidator(setup.arm, self.measured.state, setup.safety)
         self._safety = self._validator.safety
+        if setup.arm.capabilities.measures_link_torques and (observer := self._safety.momentum_observer) is not None:
+            self._task.taring.impulse = observer.memory.total
         compile_imported()
         self._period = ControlPeriod(setup.arm, self._task, self._validator, self.compliance.pushes)
         self.measured.felt_wrench = lambda: self._safety.felt_wrench(self.measured.state)

@@ -35,12 +35,14 @@ class ObserverMemory:
     """What the observer keeps between control periods, for an arm.
 
     dq, impulse, torque (nv,): rad/s at the start of the window, N m s in it, N m as estimated; elapsed (1,): s of it.
+    total (1 + nv,): s of all windows, and the external impulse in them, N m s: noise of speeds is in its ends only.
     """
 
     dq: OutVector
     impulse: OutVector
     torque: OutVector
     elapsed: OutVector
+    total: OutVector
 
 
 class MomentumObserver:
@@ -48,7 +50,8 @@ class MomentumObserver:
 
     def __init__(self, state: ArmState) -> None:
         joints = state.q.size
-        self.memory = ObserverMemory(state.dq.copy(), np.zeros(joints), np.zeros(joints), np.zeros(1))
+        impulse, torque, total = np.zeros(joints), np.zeros(joints), np.zeros(1 + joints)
+        self.memory = ObserverMemory(state.dq.copy(), impulse, torque, np.zeros(1), total)
         self._wrench = np.zeros(6)
 
     def add_command(self, tau: Array, bias: Array, period: float) -> None:
@@ -90,8 +93,10 @@ def observe_momentum(memory: ObserverMemory, state: ArmState, period: float) -> 
         faster[j] = state.dq[j] - dq[j]
     times(state.mass_matrix, faster, gained)
     for j in range(torque.size):
+        memory.total[1 + j] += gained[j] - impulse[j]
         torque[j] += share * ((gained[j] - impulse[j]) / elapsed[0] - torque[j])
         dq[j], impulse[j] = state.dq[j], 0.0
+    memory.total[0] += elapsed[0]
     elapsed[0] = 0.0
 
 

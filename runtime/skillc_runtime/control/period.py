@@ -20,7 +20,7 @@ from skillc_runtime.control.limits import COMMANDED, DRIVEN
 from skillc_runtime.control.momentum_observer import add_impulse
 from skillc_runtime.control.plausibility import check_signals
 from skillc_runtime.control.push_memory import advance_pushes
-from skillc_runtime.control.safety import SafetyMemory, check_limits
+from skillc_runtime.control.safety import MEASURES_EFFORT, SafetyMemory, check_limits
 from skillc_runtime.control.task_error import EXERTED
 from skillc_runtime.control.virtual_arm import VirtualState
 from skillc_runtime.control.virtual_chain import VirtualChain, compute_virtual
@@ -147,7 +147,8 @@ def control_by_impedance(memory: ImpedancePeriod, now: float) -> int:
     impedance(memory.tau, memory.law, arm.state, memory.plan, memory.compliance, period)
     if not squared(memory.tau) < inf:
         return events | BAD_COMMAND
-    add_impulse(arm.safety.observer.impulse, memory.tau, arm.holds, period)
+    if arm.safety.limits[MEASURES_EFFORT] == 0.0:
+        add_impulse(arm.safety.observer.impulse, memory.tau, arm.holds, period)
     contact = np.empty(3)
     times(memory.law.task.axes, memory.law.task.rows[EXERTED, :3], contact)
     for i in range(3):
@@ -237,7 +238,8 @@ def control_joints_by_torques(memory: JointPeriod, now: float) -> int:
     computed_torque(memory.tau, memory.limits, arm.state, plan.rows[row : row + 3], longest)
     if not squared(memory.tau) < inf:
         return BAD_COMMAND
-    add_impulse(arm.safety.observer.impulse, memory.tau, arm.holds, period)
+    if arm.safety.limits[MEASURES_EFFORT] == 0.0:
+        add_impulse(arm.safety.observer.impulse, memory.tau, arm.holds, period)
     return _end_joints(memory)
 
 

@@ -131,12 +131,13 @@ class SafetyMonitor:
     """Describes violated limits of one arm, which `check_limits` finds in `memory`, and what the arm feels.
 
     The force on the tool is the sensor's, or estimated for an arm that takes torques. Contacts of links are felt by the
-    torques of the motors: those that are commanded, or measured ones.
+    torques of the motors: those that are commanded, or measured ones; of links, where these are measured.
     """
 
     def __init__(self, limits: SafetyLimits, state: ArmState, mode: Mode, able: Capabilities) -> None:
         self._feels_force, measures_effort = able.feels_force, able.measures_effort
-        self._takes_torques, self._measures_effort = mode == "torque", measures_effort and mode != "torque"
+        self._takes_torques = mode == "torque"
+        self._measures_effort = measures_effort and (mode != "torque" or able.measures_link_torques)
         observer = MomentumObserver(state)
         self.momentum_observer = observer if self._takes_torques or measures_effort else None
         signals = make_signal_memory(state, able.limits)
@@ -166,7 +167,7 @@ class SafetyMonitor:
 
     def add_command(self, command: Command, bias: Array, period: float) -> None:
         """Store the command for the next `period` s, and the bias (nv,) in N m."""
-        if self.momentum_observer is not None and isinstance(command, Torque):
+        if self.momentum_observer is not None and isinstance(command, Torque) and not self._measures_effort:
             self.momentum_observer.add_command(command.tau, bias, period)
 
     def felt_wrench(self, state: ArmState) -> Array | None:

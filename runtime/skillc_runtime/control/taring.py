@@ -3,13 +3,20 @@
 What a sensor adds to each force and torque moves a tool that yields, and is a part of the force with which it presses.
 At rest in free space it is all that is felt, so its mean is subtracted. A force that is greater than such an error may
 be a contact, and stays.
+
+An arm with torque sensors in its joints feels by these: what its momentum observer finds at rest, r, is what its model
+of the weight of arm and tool, and its sensors, get wrong in this posture. The bias b that carries the arm is corrected
+by the mean of n such measurements, step by step, so that nothing jumps: b' = b - r / (n + k).
 """
 
 from __future__ import annotations
 
 from math import hypot
 
+import numpy as np
+
 from skillc_runtime.control.measured import is_still
+from skillc_runtime.control.momentum_observer import MEASURING, estimate_wrench
 from skillc_runtime.devices.arm import Arm
 from skillc_runtime.motion.pose import Array
 
@@ -22,6 +29,12 @@ PATIENCE_S = 3.0
 GREATEST_N = 8.0
 """Less force on a tool at rest may be an error of the sensor: 4 N along each axis, as makers state."""
 
+GREATEST_ERROR_N = 25.0
+"""The same for what an arm feels by its torques: 3 % of its own weight, 0.2 kg of its tool, and its sensors."""
+
+CAUTION = 3.0
+"""The number k: of the first measurement a fourth is believed."""
+
 LEAST_N, LEAST_N_M = 0.15, 0.02
 """Less is the noise of the mean, and is not subtracted."""
 
@@ -30,32 +43,53 @@ COARSE = 10.0
 
 
 class Taring:
-    """Tares the force sensor of an arm: before the tool is controlled for the first time, and once it has rested."""
+    """Tares the force sensor of an arm: before the tool is controlled for the first time, and once it has rested.
+
+    impulse (1 + nv,): what the momentum observer of an arm that takes torques has added up, s and N m s; it changes.
+    """
 
     def __init__(self, arm: Arm) -> None:
         self._arm, self._rested, self._is_tared = arm, 0.0, False
         self._begun: float | None = None
+        self.impulse: Array | None = None
+        self._before, self._count = np.zeros(0), 0
 
     def tare_first(self, dq: Array) -> None:
         """Tare an arm with joint speeds dq (nv,) in rad/s, if it rests and never was: its tool is controlled now."""
         if not self._is_tared and is_still(dq):
             self._take(COARSE)
 
+    @property
+    def is_possible(self) -> bool:
+        """Whether the arm feels forces that can be 0."""
+        return self._arm.mean_wrench is not None or self.impulse is not None
+
     def tare(self, now: float) -> bool:
-        """Tare at `now` s if the arm has a sensor and has rested; return whether nothing is left to be waited for."""
-        if self._arm.mean_wrench is None:
+        """Tare at `now` s if the arm feels forces and has rested; return whether nothing is left to be waited for."""
+        if not self.is_possible:
             return True
         if self._begun is None:
             self._begun = self._rested = now
         if not is_still(self._arm.state().dq):
-            self._rested = now
+            self._rested, self._count = now, 0
+        elif self.impulse is not None:
+            self._correct(self.impulse)
         has_rested = now - self._rested >= REST_S
         if not has_rested and now - self._begun < PATIENCE_S:
             return False
         if has_rested:
             self._take(1.0)
-        self._begun = None
+        self._begun, self._count = None, 0
         return True
+
+    def _correct(self, impulse: Array) -> None:
+        """Let the bias follow what was felt since the last call, at rest, unless it may be a contact."""
+        if self._count > 0 and (passed_s := float(impulse[0] - self._before[0])) > 0.0:
+            external, felt = (impulse[1:] - self._before[1:]) / passed_s, np.empty(6)
+            estimate_wrench(felt, external, self._arm.state().jacobian, MEASURING)
+            if hypot(*felt[:3]) < GREATEST_ERROR_N:
+                self._arm.correct_bias(external / -(self._count + CAUTION))
+        self._before, self._count = impulse.copy(), self._count + 1
 
     def _take(self, doubt: float) -> None:
         mean = self._arm.mean_wrench

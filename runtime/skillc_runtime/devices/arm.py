@@ -115,6 +115,7 @@ class Capabilities:
     """The modes of an arm, whether it measures the wrench at its tool and the effort of its motors, and its limits.
 
     never_repeats: whether what it measures is never exactly the same twice while it moves or is loaded otherwise.
+    measures_link_torques: whether the effort is that on the links, measured behind gears and their friction.
     command_delay_s: the greatest time from a measurement to the effect of what follows from it, beyond the control
     period, as far as it is known.
     """
@@ -125,6 +126,7 @@ class Capabilities:
     limits: ArmLimits
     never_repeats: bool = False
     command_delay_s: float = 0.0
+    measures_link_torques: bool = False
 
 
 class Arm(Protocol):
@@ -191,6 +193,10 @@ class Arm(Protocol):
     def tare(self) -> None:
         """Let the wrench that is measured now be 0 from now on, while nothing touches the tool; NotOffered."""
         raise NotOffered("the arm has no sensor that can be tared")
+
+    def correct_bias(self, torque: Array) -> None:
+        """Add a torque (nv,) in N m to the bias from now on, beside what was added before; NotOffered."""
+        raise NotOffered("the arm's model of its weight cannot be corrected")
 
     @property
     def braked(self) -> bool:

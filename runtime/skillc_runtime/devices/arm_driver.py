@@ -240,6 +240,19 @@ class ComplianceInterface(Protocol):
         """
         ...
 
+    @property
+    def tares(self) -> bool:
+        """Whether the arm feels forces that `tare` lets be 0."""
+        ...
+
+    def retare(self) -> bool:
+        """Take the tool off what it presses on, tare there, and press again, along the axes that were released before.
+
+        Return whether it presses as long as a force needs to settle, or presses on nothing; call it in each tick until
+        then.
+        """
+        ...
+
     def release(self, axis: Array, stiffness: float = 0.0) -> None:
         """Release a direction, with a remaining stiffness in N/m.
 

@@ -57,6 +57,7 @@ ARM_KINDS: Final = (
     Kind("forceGainError", "", 6, at_wrist=True),
     Kind("forceCrossTalk", "", 12, at_wrist=True),
     Kind("jointFriction", "", per_joint=True, signed=False),
+    Kind("jointTorqueBias", "", per_joint=True),
     Kind("gravityError", ""),
     Kind("toolOffset", "m", 3),
     Kind("toolTurn", "rad", 3),

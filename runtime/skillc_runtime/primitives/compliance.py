@@ -198,7 +198,11 @@ class Push(Primitive):
 
 
 class Align(Primitive):
-    """Lets the pushed tool turn for at most `settle` s until it is flush with `surface`; writes the surface's pose."""
+    """Lets the pushed tool turn for at most `settle` s until it is flush with `surface`; writes the surface's pose.
+
+    A tool that yields is turned by a few hundredths of 1 N m. So an arm that feels forces is tared before, just off the
+    surface: what it gets wrong of its own weight differs between here and where its approach began.
+    """
 
     moves = NOTHING
     stays_put = True
@@ -212,17 +216,21 @@ class Align(Primitive):
         self._turned: Array = np.zeros(3)
         self._sums: deque[tuple[float, Array]] = deque()
         """Times, and at each the sum of all turns (3,) in rad before it."""
+        self._is_tared = False
 
     def start(self) -> None:
         """Release the rotation of the tool."""
         raise_fault(self.arm)
-        self._began, self._from = self.cell.now, self.arm.measured.pose.rotation
-        self.arm.compliance.release_rotation()
+        self._is_tared = False
+        self._try_to_release()
 
     def tick(self) -> Status:
         """Return SUCCESS when the tool is flush, its rotation is stiff again, and the surface's pose is written."""
         raise_fault(self.arm)
         now = self.cell.now
+        if not self._is_tared:
+            self._try_to_release()
+            return Status.RUNNING
         if self._held_at == inf and (now - self._began >= self._settle or self._is_flush(now)):
             self._hold()
         if now < self._held_at + SETTLING_S:
@@ -232,20 +240,35 @@ class Align(Primitive):
 
     def halt(self, reason: str) -> None:
         """Make the rotation of the tool stiff again."""
-        if self._held_at == inf:
+        if self._yields:
             self._hold()
 
     def pause(self) -> None:
         """Hold the rotation of the tool."""
-        if self._held_at == inf:
+        if self._yields:
             self.arm.compliance.restore_rotation()
 
     def resume(self) -> None:
         """Release the rotation again, for as long as at the start."""
-        if self._held_at == inf:
-            self._began = self.cell.now
-            self._sums.clear()
-            self.arm.compliance.release_rotation()
+        if self._yields:
+            self._release()
+
+    @property
+    def _yields(self) -> bool:
+        """Whether the rotation of the tool is released."""
+        return self._is_tared and self._held_at == inf
+
+    def _try_to_release(self) -> None:
+        self._is_tared = self.arm.compliance.retare()
+        if self._is_tared:
+            self._from = self.arm.measured.pose.rotation
+            self._release()
+
+    def _release(self) -> None:
+        """Release the rotation of the tool, from now on."""
+        self._began = self.cell.now
+        self._sums.clear()
+        self.arm.compliance.release_rotation()
 
     def _is_flush(self, now: float) -> bool:
         """Whether the tool has come to rest on the surface: it has hardly turned for a while."""

@@ -61,6 +61,15 @@ class RemoteCompliance:
         """Return True: devices are tared when they are taken under control."""
         return True
 
+    @property
+    def tares(self) -> bool:
+        """Return False, as said above."""
+        return False
+
+    def retare(self) -> bool:
+        """Return True, as said above."""
+        return True
+
     def release(self, axis: Array, stiffness: float = 0.0) -> None:
         """Release a direction, with a remaining stiffness in N/m.
 

@@ -47,6 +47,7 @@ class SimulatedArm(ModelledArm):
         joints, step_s = self.motors.joints, model.opt.timestep
         self.motors.link = make_command_link(facts, sizes, seed, step_s * steps_per_command)
         self.command_delay_s = find_greatest_delay(facts)
+        self.measures_link_torques = facts.sheet.has("jointTorqueTime")
         self.brakes = None if facts.has_servos or delay_s == inf else Brakes(joints, delay_s, step_s)
         self.friction = make_joint_friction(facts, sizes, joints, step_s)
         if self._feels_force and (gripper := self._gripper_name) is not None:

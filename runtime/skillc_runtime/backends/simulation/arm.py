@@ -73,6 +73,9 @@ class ModelledArm(Arm):
     command_delay_s: float = 0.0
     """The greatest delay of its commands, as far as it is known."""
 
+    measures_link_torques: bool = False
+    """Whether the effort is that on the links."""
+
     has_own_law: bool = False
     """Whether the robot itself has a compliant law, which takes targets of the tool."""
 
@@ -116,6 +119,9 @@ class ModelledArm(Arm):
         self._feels_force = facts.force_torque and gripper is not None
         self._gain, self._readings = np.zeros((6, 9)), np.zeros(9)
         self._modelled, self._tool_error = _model_weight(facts, sizes), make_tool_error(sizes)
+        self._correction = np.zeros(count)
+        effort_bias = np.multiply(sizes.get("jointTorqueBias", 0.0), self.limits.effort)
+        self._effort_bias = np.broadcast_to(effort_bias, count).copy()
         self._damping, self._zero, self._zero_at_tool = np.zeros(count), np.zeros(6), np.zeros(6)
         self._sensing = self._make_sensing()
         self._measure, mass = bind(measure, self._sensing), self._make_mass()
@@ -131,7 +137,7 @@ class ModelledArm(Arm):
         """The capabilities of the arm."""
         return Capabilities(
             self._motors.modes, self._feels_force, self.measures_effort, self.limits, self.never_repeats,
-            self.command_delay_s,
+            self.command_delay_s, self.measures_link_torques,
         )  # fmt: skip
 
     @property
@@ -256,6 +262,10 @@ class ModelledArm(Arm):
         self._zero[3:] += wrench[3:] + np.cross(self._lever(), wrench[:3])
         self._move_zero()
 
+    def correct_bias(self, torque: Array) -> None:
+        """Add a torque (nv,) in N m to the bias from now on."""
+        self._correction += torque
+
     @property
     def braked(self) -> bool:
         """Whether the arm stands still whatever is commanded."""
@@ -298,6 +308,8 @@ class ModelledArm(Arm):
             dq=self._dq,
             bias=self._bias,
             modelled=self._modelled,
+            correction=self._correction,
+            effort_bias=self._effort_bias,
             on_link=hand.on_link,
             motion_axes=data.cdof[self._dofs],
             centre=data.subtree_com[self._model.body_rootid[self._link]],

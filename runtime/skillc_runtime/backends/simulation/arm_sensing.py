@@ -83,7 +83,8 @@ class ArmSensing:
     above.
 
     Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; modelled: by what the arm's model multiplies
-    the bias; on_link (8, 3): as there. In the world:
+    the bias; correction, effort_bias (nv,): N m, what is added to that, and what torque sensors add; on_link (8, 3): as
+    there. In the world:
     motion_axes (nv, 6), MuJoCo's `cdof`, and centre (3,) m, where they hold; position (3,) m and rotation (3, 3) of
     last link and base; weight (3,) N of the payload. actuators, applied, passive (nv,): N m, in the last step, in which
     the servos' damping (nv,), N m s/rad, also acts on the change of the speeds. gain (6, 9) and readings (9,): of the
@@ -101,6 +102,8 @@ class ArmSensing:
     dq: Vector
     bias: Vector
     modelled: float
+    correction: Vector
+    effort_bias: Vector
     on_link: Matrix
     motion_axes: Matrix
     centre: Vector
@@ -156,9 +159,9 @@ def measure(arm: ArmSensing, now: float) -> int:
     update_hand(arm)
     for j in range(arm.q.size):
         joints[Q, j], joints[SPEED, j] = arm.q[j], arm.dq[j] + arm.noise[row, j]
-        joints[BIAS, j] = arm.modelled * arm.bias[j]
+        joints[BIAS, j] = arm.modelled * arm.bias[j] + arm.correction[j]
         exerted = arm.actuators[j] + arm.applied[j] + arm.passive[j]
-        joints[EFFORT, j] = exerted - arm.damping[j] * (arm.dq[j] - joints[BEFORE, j])
+        joints[EFFORT, j] = exerted + arm.effort_bias[j] - arm.damping[j] * (arm.dq[j] - joints[BEFORE, j])
         joints[BEFORE, j] = arm.dq[j]
     add_payload_bias(joints[BIAS], joints[CARRYING], arm.weight, axes, arm.in_base[LEVER], J)
     compute_wrench(arm.wrench, arm.gain, arm.readings, arm.zero, arm.in_base[3:6])

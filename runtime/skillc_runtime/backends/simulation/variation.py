@@ -22,6 +22,10 @@ from skillc_runtime.motion.pose import Array, Pose, exp
 OBSTACLE_M = (0.03, 0.03, 0.012)
 """Size of an obstacle that the world model does not have, such as a magnet on a surface."""
 
+LEAST_MASS_SHARE = 0.5
+"""The share of its weight that a tool keeps at least, however wrong this is: contacts of what hardly has a mass are
+those of no real tool."""
+
 OBSTACLE_SHARE = 0.5
 """An obstacle lies within this share of the surface, around its centre."""
 
@@ -98,9 +102,9 @@ class Variation(msgspec.Struct, frozen=True):
         return tool.sheet.number("padStiffness") * (1.0 + self.pad_share[tool.individual]) * factor
 
     def mass(self, tool: ToolSpec) -> float:
-        """Return the true mass of a tool in kg, at least a tenth of what it is believed to be."""
+        """Return the true mass of a tool in kg, at least half of what it is believed to be."""
         (error,) = self.sizes(tool).get("massError", (0.0,))
-        return max(tool.mass_kg + error, 0.1 * tool.mass_kg)
+        return max(tool.mass_kg + error, LEAST_MASS_SHARE * tool.mass_kg)
 
     def sizes(self, device: ArmSpec | ToolSpec) -> Sizes:
         """Return the imperfections of a device."""
