@@ -40,7 +40,7 @@ OPERATIONS := 600
 # How many random mistakes `make mistakes` makes in the shipped and in other libraries: one, two and three at once.
 EDITS := 10000
 
-.PHONY: help demo test slow sim longer check reasoners robots arms nodes browser wheel fuzz mistakes soak peers bench editors studio docs pictures accept pin lock clean
+.PHONY: help demo test slow sim longer check ontologies reasoners robots arms nodes browser wheel fuzz mistakes soak peers bench editors studio docs pictures accept pin lock clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+: .*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/'
@@ -78,6 +78,12 @@ check: .venv/.dev ## check style, types and import rules
 	$(BIN)/mypy --platform win32 --cache-dir .mypy_cache/win32 & other=$$!; \
 	    $(BIN)/mypy --platform darwin --cache-dir .mypy_cache/darwin && wait $$other
 	$(BIN)/lint-imports
+
+# Where ontologies of others are, in any folders below: what `make ontologies` tries.
+DIR := ..
+
+ontologies: .venv/.dev ## try the ontologies of others that are below DIR=.., each in a small library, with their scenes; prints a table
+	PYTHONPATH=tests $(BIN)/python -m originals $(DIR)
 
 reasoners: .venv/.dev ## check ontology, scenes, descriptions and domains with tools of other projects (some need Java)
 	$(BIN)/pytest -m reasoner -n 2

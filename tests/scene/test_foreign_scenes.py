@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pyoxigraph as ox
 import pytest
+from rdflib import Graph
 
 from skillc.services.scene_edit import edit_file
 from skillc_dsl.source import Source
-from skillc_rdf.vocabulary.terms import with_required
+from skillc_rdf.vocabulary.terms import with_named
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_sheets, read_documents, sheet_documents
@@ -30,7 +31,7 @@ t:of a owl:ObjectProperty ; rdfs:range t:Sample .
 def sensing() -> Vocabulary:
     found = beside(Source("t.ttl", HEAD + SENSING))
     assert found.diagnostics == ()
-    return found.value
+    return with_named(found.value, found.value.idle)
 
 
 def test_dates_are_read_and_written() -> None:
@@ -132,7 +133,7 @@ def test_a_name_that_is_probably_misspelt_is_an_error(said: str, name: str) -> N
 def test_what_is_stated_is_not_missed_and_frames_are_checked_beside_what_is_not_understood() -> None:
     needed = "[ a owl:Restriction ; owl:onProperty t:of ; owl:someValuesFrom t:Sample ]"
     others = beside(Source("t.ttl", f"{HEAD}{SENSING}t:Act rdfs:subClassOf {needed} .")).value
-    terms = with_required(others, [f"{T}of"])
+    terms = with_named(others, [f"{T}of"])
     said = f't:A a t:Act ; t:of [ a t:Sample ] . t:B a t:Act . {PLACE} t:S skiros:BaseFrameId "nowhere" .'
     problems = read_documents([Document("scene.ttl", HEAD + said), *sheet_documents()], terms).problems
     found = [(each.name, each.message.partition(" ")[0]) for each in problems if each.severity == "error"]
@@ -156,7 +157,7 @@ def test_a_required_value_is_an_error_only_if_a_skill_reads_it(
     named: tuple[str, ...], lacking: tuple[str, ...]
 ) -> None:
     others = beside(Source("t.ttl", HEAD + SENSING + NEEDING)).value
-    terms = with_required(others, [T + name for name in named])
+    terms = with_named(others, [T + name for name in named])
     acts = " ".join(f"t:A{number} a t:Act ." for number in range(5))
     problems = read_documents([Document("scene.ttl", HEAD + acts), *sheet_documents()], terms).problems
     assert {each.name for each in problems} == {"missing-property"}
@@ -166,3 +167,30 @@ def test_a_required_value_is_an_error_only_if_a_skill_reads_it(
     left = sorted({"t:of", "t:touches"} - set(lacking))
     assert bool(warned) == bool(left)
     assert not left or warned == f"t:A0, t:A1, t:A2 and 2 more lack what their classes require: {', '.join(left)}"
+
+
+UNFIT = """t:A a t:Act ; t:of t:Free . t:Free a skiros:Product . t:S a t:Sample ; t:taken "soon", "later" .
+t:Free t:due "2026-12-01"^^xsd:date ; t:taken "2026-11-29T08:30:00Z"^^xsd:dateTime . t:A t:of t:Gone, t:Gone2 .
+"""
+
+
+def test_what_contradicts_terms_that_no_skill_reads_is_kept_with_one_warning() -> None:
+    idle = beside(Source("t.ttl", HEAD + SENSING)).value
+    document = Document("scene.ttl", HEAD + UNFIT)
+    scene = read_documents([document, *sheet_documents()], idle)
+    assert scene.ok and [each.name for each in scene.problems] == ["not-understood"]
+    (warned,) = scene.problems
+    assert "6 statements of terms that no skill reads contradict the ontology" in warned.message
+    assert "`t:of` (3)" in warned.message and "`t:taken` (3)" in warned.message
+    assert scene.state.value(f"{T}Free", f"{T}due") == ("2026-12-01",)
+    saved = format_scene(scene.state, load_sheets(idle), document)
+    assert Graph().parse(data=saved, format="turtle").isomorphic(Graph().parse(data=HEAD + UNFIT, format="turtle"))
+
+
+def test_the_same_is_an_error_where_a_skill_reads_it() -> None:
+    idle = beside(Source("t.ttl", HEAD + SENSING)).value
+    document = Document("scene.ttl", HEAD + UNFIT)
+    scene = read_documents([document, *sheet_documents()], with_named(idle, [f"{T}taken"]))
+    errors = [each for each in scene.problems if each.severity == "error"]
+    assert {each.name for each in errors} >= {"wrong-data-type", "property-domain"}
+    assert not any("t:of" in each.message for each in errors)

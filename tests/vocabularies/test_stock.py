@@ -129,7 +129,7 @@ t:E a owl:Class ; rdfs:subClassOf [ a owl:Class ; owl:complementOf t:A ] ; owl:e
     classes = found.value.classes
     assert [d.name for d in found.diagnostics] == ["unused-axiom"] and "1 definition" in found.diagnostics[0].message
     assert classes[f"{T}A"].parents == (f"{T}C",) and found.value.disjoint(f"{T}A", f"{T}B")
-    assert classes[f"{T}D"].parents == (f"{T}A",) and classes[f"{T}D"].expected == (f"{T}has", f"{T}mass")
+    assert classes[f"{T}D"].parents == (f"{T}A",) and classes[f"{T}D"].required == (f"{T}has", f"{T}mass")
     assert found.value.disjoint(f"{T}D", f"{T}E") and found.value.aliases[f"{T}F"] == f"{T}E"
 
 

@@ -35,7 +35,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.source import Source, Span
 from skillc_dsl.spelling import did_you_mean
-from skillc_rdf.vocabulary.terms import with_required
+from skillc_rdf.vocabulary.terms import with_named
 from skillc_rdf.vocabulary.types import Vocabulary
 
 NO_FILES: Mapping[str, Source] = MappingProxyType({})
@@ -73,7 +73,7 @@ def resolve_program(
     terms = _first_places(each for found in resolver.found.values() for each in found)
     program = Program(
         name=name,
-        vocabulary=memo.vocabulary.same("required", with_required(vocabulary, terms)),
+        vocabulary=memo.vocabulary.same("named", with_named(vocabulary, terms)),
         files=files,
         skills=skills,
         implementations=tuple(_implementations(files, contexts, skills, resolver)),

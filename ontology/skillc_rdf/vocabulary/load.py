@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from msgspec.structs import replace
+
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.source import Source, Span
 from skillc_rdf.vocabulary.conflicts import with_concerned
@@ -19,7 +21,7 @@ from skillc_rdf.vocabulary.places import TermPositions
 from skillc_rdf.vocabulary.precedence import LISTED, Split, report_ignored, split_statements
 from skillc_rdf.vocabulary.prefixes import choose_prefixes, preferred_prefixes, report_taken_prefixes
 from skillc_rdf.vocabulary.reading import Ontology, read_ontologies
-from skillc_rdf.vocabulary.terms import Terms, find_deprecated, make_classes, make_properties, make_relations
+from skillc_rdf.vocabulary.terms import Terms, find_deprecated, find_idle, make_classes, make_properties, make_relations
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_rdf.vocabulary.unused import report_missing_imports, report_unused_axioms
 
@@ -66,6 +68,7 @@ def _vocabulary(
     )
     circles = [each for each in same.circles if kinds[each[0]] == CLASS]
     others = [each for each in same.circles if kinds[each[0]] != CLASS]
+    vocabulary = replace(vocabulary, idle=find_idle(terms, vocabulary))
     problems = (
         *check_value_types(graph, [iri for iri, kind in kinds.items() if kind == PROPERTY], places.terms),
         *report_cycles(circles, below, places, SUBCLASS, vocabulary.short),

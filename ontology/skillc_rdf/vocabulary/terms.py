@@ -51,10 +51,6 @@ class Terms(msgspec.Struct, frozen=True):
         """Return the term that an IRI stands for."""
         return self.aliases.get(iri, iri)
 
-    def is_shipped(self, iri: str) -> bool:
-        """Whether a term is a shipped one, as all are if there are no others."""
-        return not self.standing or iri in self.standing
-
     def same(self, iri: str) -> list[str]:
         """Return all names of a term, its own first."""
         return [iri, *(alias for alias, term in self.aliases.items() if term == iri)]
@@ -72,37 +68,32 @@ class Terms(msgspec.Struct, frozen=True):
 def make_classes(terms: Terms) -> dict[str, ClassTerm]:
     """Return the classes."""
     disjoint = _disjoint(terms)
-    every = ((iri, _required(terms, iri)) for iri in terms.of(CLASS))
     return {
         iri: ClassTerm(
             iri=iri,
             parents=terms.above(iri),
             disjoint=tuple(sorted(disjoint[iri])),
-            required=tuple(each for each in needed if terms.is_shipped(each)),
-            expected=tuple(each for each in needed if not terms.is_shipped(each)),
+            required=_required(terms, iri),
             comment=terms.graph.text(iri, COMMENT) or "",
             source=terms.places.position(iri),
         )
-        for iri, needed in every
+        for iri in terms.of(CLASS)
     }
 
 
-def with_required(vocabulary: Vocabulary, named: Collection[str]) -> Vocabulary:
-    """Return a vocabulary whose classes require what they expect, if it, or what it implies, is among `named` terms."""
-    expected = {each for term in vocabulary.classes.values() for each in term.expected}
-    read = frozenset(each for each in expected if not vocabulary.closure.above((each,)).isdisjoint(named))
+def find_idle(terms: Terms, vocabulary: Vocabulary) -> tuple[str, ...]:
+    """Return the relations and properties that are not shipped, sorted; there are none if all are."""
+    every = (*vocabulary.relations, *vocabulary.properties) if terms.standing else ()
+    return tuple(sorted(each for each in every if each not in terms.standing))
+
+
+def with_named(vocabulary: Vocabulary, named: Collection[str]) -> Vocabulary:
+    """Return a vocabulary of whose idle terms those that are `named`, or imply a relation that is, are idle no more."""
+    implied = vocabulary.super_relations
+    read = {each for each in vocabulary.idle if not implied.get(each, frozenset((each,))).isdisjoint(named)}
     if not read:
         return vocabulary
-    classes = {iri: _requiring(term, read) for iri, term in vocabulary.classes.items()}
-    return msgspec.structs.replace(vocabulary, classes=classes)
-
-
-def _requiring(term: ClassTerm, read: frozenset[str]) -> ClassTerm:
-    """Return a class that requires the terms that it expects and that are read."""
-    found = read.intersection(term.expected)
-    required = tuple(sorted({*term.required, *found}))
-    left = tuple(each for each in term.expected if each not in found)
-    return msgspec.structs.replace(term, required=required, expected=left) if found else term
+    return msgspec.structs.replace(vocabulary, idle=tuple(each for each in vocabulary.idle if each not in read))
 
 
 def make_relations(terms: Terms) -> dict[str, RelationTerm]:

@@ -70,15 +70,14 @@ ValueType: TypeAlias = ClassType | NumberType | VectorType | DirectionType | Pla
 class ClassTerm(msgspec.Struct, frozen=True, kw_only=True):
     """An ontology class.
 
-    `required` are the relations and properties that must be stated of each individual. Ontologies of others require
-    more: what is `expected` is required only by libraries that name it (`with_required`).
+    `required` are the relations and properties that must be stated of each individual, but for idle ones of the
+    vocabulary.
     """
 
     iri: str
     parents: tuple[str, ...] = ()
     disjoint: tuple[str, ...] = ()
     required: tuple[str, ...] = ()
-    expected: tuple[str, ...] = ()
     comment: str = ""
     source: Position | None = None
 
@@ -179,7 +178,9 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     """All terms by IRI (functions by name), the prefixes that shorten IRIs, and the aliases of terms.
 
     `deprecated` maps deprecated terms to their replacements, "" without one. `symbolic`: worlds of these terms have no
-    bodies, so that they need not state what a simulation has to know: sizes, poses and data sheets.
+    bodies, so that they need not state what a simulation has to know: sizes, poses and data sheets. `idle` are the
+    relations and properties of other ontologies than the shipped ones that no skill reads (`with_named`), sorted:
+    scenes may contradict them.
     """
 
     symbolic: bool = False
@@ -190,6 +191,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     relations: dict[str, RelationTerm] = {}
     properties: dict[str, PropertyTerm] = {}
     functions: dict[str, FunctionTerm] = {}
+    idle: tuple[str, ...] = ()
 
     @cached_property
     def ancestors(self) -> dict[str, frozenset[str]]:

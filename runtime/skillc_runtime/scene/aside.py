@@ -7,8 +7,9 @@ text where a property has no range; and empty names of frames.
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 import msgspec
 import pyoxigraph as ox
@@ -26,6 +27,7 @@ from skillc_runtime.store.literals import TEXTS
 from skillc_runtime.world.state.terms import BASE_FRAME_ID, FRAME_ID
 
 ASIDE = "not-understood"
+UNKNOWN = "unknown-individual"
 NAMELESS = "things without a name"
 FRAMES = (FRAME_ID, BASE_FRAME_ID)
 OWN = "https://w3id.org/skillc/"
@@ -39,6 +41,13 @@ class Sorted(msgspec.Struct, frozen=True):
 
     understood: tuple[Statement, ...]
     aside: tuple[tuple[str, Statement], ...]
+
+
+class Unfit(NamedTuple):
+    """A statement that contradicts the ontology, and how."""
+
+    statement: Statement
+    message: str
 
 
 def set_aside(said: Sequence[Statement], vocabulary: Vocabulary) -> Sorted:
@@ -70,6 +79,48 @@ def report_aside(aside: Iterable[tuple[str, Statement]], vocabulary: Vocabulary)
             help="declare what skills need in a .skill file or an ontology, and name things",
             severity="warning",
             labels=tuple(Label(place, "also this") for place in others[:SHOWN]),
+        )
+
+
+def find_unfit(said: Iterable[Statement], problems: Iterable[Diagnostic], vocabulary: Vocabulary) -> list[Unfit]:
+    """Return the statements of idle terms that are errors, or take part in one, each with the first error."""
+    idle = frozenset(vocabulary.idle)
+    if not idle:
+        return []
+    errors: dict[Span, str] = {}
+    unknown: dict[Span, str] = {}
+    for each in problems:
+        if each.severity == "error":
+            for place in (each.span, *(label.span for label in each.labels)):
+                errors.setdefault(place, each.message)
+            if each.name == UNKNOWN:
+                unknown[each.span] = each.message
+    written = (each for each in said if errors and each.predicate in idle)
+    found = ((each, _error_of(each, errors) or unknown.get(each.subject_place)) for each in written)
+    return [Unfit(each, message) for each, message in found if message is not None]
+
+
+def _error_of(each: Statement, errors: Mapping[Span, str]) -> str | None:
+    return errors.get(each.predicate_place) or errors.get(each.object_place)
+
+
+def report_unfit(unfit: Iterable[Unfit], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+    """Yield, once for each file, a warning that lists the statements that do not fit the terms in them."""
+    files: dict[str, list[Unfit]] = defaultdict(list)
+    for one in unfit:
+        files[one.statement.lines.path].append(one)
+    for found in files.values():
+        counts = Counter(vocabulary.short(each.statement.predicate) for each in found)
+        listed = ", ".join(f"`{name}` ({count})" for name, count in sorted(counts.items()))[:400]
+        first, *others = sorted((_place(each.statement), each.message) for each in found)
+        statements = "1 statement" if len(found) == 1 else f"{len(found)} statements"
+        yield Diagnostic(
+            ASIDE,
+            first[0],
+            f"{statements} of terms that no skill reads contradict the ontology, and are kept as they are: {listed}",
+            help=f"correct them before a skill reads the terms: {first[1]}",
+            severity="warning",
+            labels=tuple(Label(place, message) for place, message in others[:SHOWN]),
         )
 
 

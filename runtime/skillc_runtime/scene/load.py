@@ -15,7 +15,7 @@ from skillc_ontology.catalogue import sheet_files
 from skillc_rdf.turtle.statements import Parsed, Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
-from skillc_runtime.scene.aside import ASIDE, report_aside, set_aside
+from skillc_runtime.scene.aside import ASIDE, find_unfit, report_aside, report_unfit, set_aside
 from skillc_runtime.scene.checks.classes import check_class_parents, have_valid_parents, individuals_of_unknown_classes
 from skillc_runtime.scene.checks.identity import IdentityChecker
 from skillc_runtime.scene.checks.ineffective import check_ineffective, check_language_tags, check_missing_classes
@@ -48,13 +48,15 @@ from skillc_runtime.world.state.world_state import WorldState
 class Scene(msgspec.Struct, frozen=True):
     """The world of Turtle files, all problems, and the statements about individuals.
 
-    `doubtful` are individuals about which not all statements could be read.
+    `doubtful` are individuals about which not all statements could be read; `unfit` are statements which are no facts,
+    because they contradict terms that no skill reads.
     """
 
     state: WorldState
     problems: tuple[Diagnostic, ...]
     said: tuple[Statement, ...]
     doubtful: frozenset[str]
+    unfit: tuple[Statement, ...] = ()
 
     @property
     def ok(self) -> bool:
@@ -155,7 +157,15 @@ def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Sce
     clear = tuple(each for each in select_facts(said, vocabulary) if iri_of(each.subject) not in lost)
     declared = vocabulary.relations.keys() | vocabulary.properties.keys()
     partly = frozenset(iri_of(each.subject) for _, each in found.aside if each.predicate in declared)
-    scene = _build_scene(clear, vocabulary, [*syntax, *terms], _doubtful_individuals(parsed) | lost, partly)
+    doubtful = _doubtful_individuals(parsed) | lost
+    scene = _build_scene(clear, vocabulary, [*syntax, *terms], doubtful, partly)
+    if unfit := find_unfit(clear, scene.problems, vocabulary):
+        contradicting = {id(each.statement) for each in unfit}
+        clear = tuple(each for each in clear if id(each) not in contradicting)
+        written = [each for each in written if id(each) not in contradicting]
+        terms += report_unfit(unfit, vocabulary)
+        scene = _build_scene(clear, vocabulary, [*syntax, *terms], doubtful, partly)
+        scene = replace(scene, unfit=tuple(each.statement for each in unfit))
     scene = _with_scene_warnings(scene, written, own)
     return replace(scene, problems=_sort_problems(name_subjects(scene.problems, said, vocabulary.short)))
 
@@ -171,7 +181,11 @@ def read_with_sheets(own: Document, vocabulary: Vocabulary) -> Scene:
     if any(each.lines.path == own.path for each in scene.said) or any(each.name != ASIDE for each in scene.problems):
         return scene
     place = Span(own.path, 1, 1, 1, 1)
-    nothing = Diagnostic("empty-scene", place, "there is nothing in this scene", "name a thing: `:x a CLASS .`")
+    cure = "name a thing: `:x a CLASS .`"
+    if any(each.span.path == own.path for each in scene.problems):
+        nothing = Diagnostic("empty-scene", place, "nothing in this scene is understood", cure, "warning")
+    else:
+        nothing = Diagnostic("empty-scene", place, "there is nothing in this scene", cure)
     return replace(scene, problems=(*scene.problems, nothing))
 
 

@@ -5,16 +5,18 @@ from __future__ import annotations
 import os
 import re
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from math import isfinite
 from pathlib import Path
 
 import pyoxigraph as ox
 
+from skillc_rdf.turtle.statements import Extent, Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import NumberType, Vocabulary
 from skillc_runtime.scene.aside import set_aside
 from skillc_runtime.scene.documents import Document, statements_of, with_canonical_terms
+from skillc_runtime.scene.load import read_documents, sheet_documents
 from skillc_runtime.scene.statements import iri_of, select_facts, with_own_classes
 from skillc_runtime.store.literals import text_literal
 from skillc_runtime.store.triples import CLASS, SUBCLASS, TYPE
@@ -115,10 +117,19 @@ def _other_statements(source: Document, state: WorldState) -> Iterator[ox.Triple
     vocabulary = with_own_classes(state.vocabulary, said)
     about = select_facts(set_aside(said, vocabulary).understood, vocabulary)
     gone = {iri_of(each.subject) for each in about} - state.individuals
-    stated = {(each.subject_at, each.predicate_at, each.object_at) for each in about}
+    unfit = _unfit(source, vocabulary, about)
+    stated = {(each.subject_at, each.predicate_at, each.object_at) for each in about} - unfit
     for each in said:
         if iri_of(each.subject) not in gone and (each.subject_at, each.predicate_at, each.object_at) not in stated:
             yield ox.Triple(each.subject, ox.NamedNode(each.predicate), each.object)  # type: ignore[arg-type]
+
+
+def _unfit(source: Document, vocabulary: Vocabulary, about: Sequence[Statement]) -> set[tuple[Extent, Extent, Extent]]:
+    """Return where the statements are that are no facts, because they contradict terms that no skill reads."""
+    if not any(each.predicate in vocabulary.idle for each in about):
+        return set()
+    found = read_documents([source, *sheet_documents()], vocabulary).unfit
+    return {(each.subject_at, each.predicate_at, each.object_at) for each in found}
 
 
 class _TurtleWriter:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
-from skillc_rdf.vocabulary.types import ClassTerm
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.data_sheet import DataSheet
 from skillc_runtime.world.state.quantities import placeholder
@@ -18,40 +17,40 @@ LISTED = 3
 def check_required(state: WorldState) -> Iterator[SceneViolation]:
     """Yield each individual that lacks required properties or relations, once with all of them.
 
-    What is lacking of what classes expect, and no skill reads, is one warning.
+    What is lacking of terms that no skill reads is one warning.
     """
-    yield from _check_required(state)
-    yield from _check_expected(state)
-
-
-def _check_required(state: WorldState) -> Iterator[SceneViolation]:
-    short = state.vocabulary.short
-    for individual, required in _find_needs(state, lambda term: term.required):
+    idle = frozenset(state.vocabulary.idle)
+    unread: dict[str, list[str]] = {}
+    for individual, required in _required(state):
         lost = {predicate: cls for predicate, cls in required if not _has(state, individual, predicate)}
         if lost and state.is_a(individual, ARM_SHEET):
             open_ = {f"{SKILLC}{name}" for name in DataSheet(state, individual).unstated}
             lost = {predicate: cls for predicate, cls in lost.items() if predicate not in open_}
-        if lost:
-            of = ", ".join(sorted({short(cls) for cls in lost.values()}))
-            names = ", ".join(map(short, sorted(lost)))
-            message = f"{short(individual)} has no {names}, as every {of} must"
-            cure = " ".join(f"`{short(name)} {_placeholder(state, name)} ;`" for name in sorted(lost))
-            yield SceneViolation(individual, None, "missing-property", message, f"write {cure}")
+        if left := sorted(lost.keys() & idle):
+            unread[individual] = left
+        if lost.keys() - idle:
+            yield _lacking(state, individual, {each: cls for each, cls in lost.items() if each not in idle})
+    if unread:
+        yield _unread(state, unread)
 
 
-def _check_expected(state: WorldState) -> Iterator[SceneViolation]:
-    found = {
-        individual: lost
-        for individual, expected in _find_needs(state, lambda term: term.expected)
-        if (lost := [predicate for predicate, _ in expected if not _has(state, individual, predicate)])
-    }
-    if not found:
-        return
+def _lacking(state: WorldState, individual: str, lost: Mapping[str, str]) -> SceneViolation:
+    """Return the violation of an individual that lacks terms, each with the class that requires it."""
+    short = state.vocabulary.short
+    of = ", ".join(sorted({short(cls) for cls in lost.values()}))
+    names = ", ".join(map(short, sorted(lost)))
+    message = f"{short(individual)} has no {names}, as every {of} must"
+    cure = " ".join(f"`{short(name)} {_placeholder(state, name)} ;`" for name in sorted(lost))
+    return SceneViolation(individual, None, "missing-property", message, f"write {cure}")
+
+
+def _unread(state: WorldState, found: Mapping[str, list[str]]) -> SceneViolation:
+    """Return the warning for individuals that lack terms which no skill reads."""
     who = _listed(map(state.vocabulary.short, found))
     what = _listed(map(state.vocabulary.short, sorted({each for lost in found.values() for each in lost})))
     message = f"{who} lack{'s' * (len(found) == 1)} what their classes require: {what}"
     cure = "state it before a skill reads it: it is an error then"
-    yield SceneViolation(next(iter(found)), None, "missing-property", message, cure, "warning")
+    return SceneViolation(next(iter(found)), None, "missing-property", message, cure, "warning")
 
 
 def _listed(names: Iterable[str]) -> str:
@@ -59,15 +58,13 @@ def _listed(names: Iterable[str]) -> str:
     return ", ".join(first[:LISTED]) + (f" and {len(first) - LISTED} more" if first[LISTED:] else "")
 
 
-def _find_needs(
-    state: WorldState, needs: Callable[[ClassTerm], tuple[str, ...]]
-) -> list[tuple[str, tuple[tuple[str, str], ...]]]:
-    """Return the individuals with needs, sorted by IRI, each with predicates and the classes that need them."""
+def _required(state: WorldState) -> list[tuple[str, tuple[tuple[str, str], ...]]]:
+    """Return the individuals with requirements, sorted by IRI, each with predicates and the classes requiring them."""
     known = state.vocabulary.classes
     by_classes: dict[frozenset[str], tuple[tuple[str, str], ...]] = {}
     for classes in {classes for _, classes in state.classes.items()}:
         ours = (known[cls] for cls in sorted(classes) if cls in known)
-        by_classes[classes] = tuple((predicate, term.iri) for term in ours for predicate in needs(term))
+        by_classes[classes] = tuple((predicate, term.iri) for term in ours for predicate in term.required)
     return sorted((one, by_classes[classes]) for one, classes in state.classes.items() if by_classes[classes])
 
 
