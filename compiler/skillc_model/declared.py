@@ -17,6 +17,7 @@ from skillc_model.tree import Call
 UNIMPLEMENTED = "as_declared"
 """The name of the implementation of a skill that has none."""
 S = TypeVar("S", bound=msgspec.Struct)
+T = TypeVar("T", bound=Task)
 
 
 def act_as_declared(library: SkillLibrary) -> SkillLibrary:
@@ -42,6 +43,7 @@ def act_as_declared(library: SkillLibrary) -> SkillLibrary:
         whole,
         implementations={name: _without_body(each, live) for name, each in whole.implementations.items()},
         tasks={name: _with_live_arguments(each, live) for name, each in whole.tasks.items()},
+        tests={name: _with_live_arguments(each, live) for name, each in whole.tests.items()},
     )
 
 
@@ -80,7 +82,7 @@ def _unless_live(parameter: Parameter, live: Names) -> Parameter:
     return replace(parameter, direction="opt", default=default)
 
 
-def _with_live_arguments(task: Task, live: Mapping[str, Names]) -> Task:
+def _with_live_arguments(task: T, live: Mapping[str, Names]) -> T:
     if task.body is None:
         return task
     return replace(task, body=_keep_live_arguments(task.body, live, frozenset(each.name for each in task.parameters)))

@@ -143,6 +143,30 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
     source: Position
 
 
+class Expectation(msgspec.Struct, frozen=True, kw_only=True):
+    """What is expected at the end of a test: a condition, a failure with a text in its reason, or else no plan.
+
+    `text` is the condition as its author wrote it.
+    """
+
+    condition: Condition | None = None
+    failure: str | None = None
+    text: str = ""
+    source: Position
+
+    @property
+    def is_no_plan(self) -> bool:
+        """Whether there shall be no plan."""
+        return self.condition is None and self.failure is None
+
+
+class Test(Task, frozen=True, kw_only=True):
+    """A task that starts after `starts`, as changes of the facts of its scene, and what is expected of it."""
+
+    starts: tuple[Effect, ...] = ()
+    expects: tuple[Expectation, ...] = ()
+
+
 class SkillLibrary(msgspec.Struct, frozen=True, kw_only=True):
     """A compiled library: the content of library.json, which is all that the runtime loads.
 
@@ -161,6 +185,7 @@ class SkillLibrary(msgspec.Struct, frozen=True, kw_only=True):
     skills: dict[str, Skill] = {}
     implementations: dict[str, Implementation] = {}
     tasks: dict[str, Task] = {}
+    tests: dict[str, Test] = {}
     names: dict[str, str] = {}
 
     def implementations_of(self, skill: str) -> tuple[Implementation, ...]:

@@ -29,12 +29,13 @@ KEYWORDS: MappingProxyType[Group, tuple[str, ...]] = MappingProxyType(
     {
         "declaration": (
             *("use", "prefix", "import", "class", "disjoint", "relation", "property", "function"),
-            *("skill", "impl", "of", "task"),
+            *("skill", "impl", "of", "task", "test"),
         ),
         "member": (
             *("in", "opt", "infer", "any", "out", "range", "refine", "pre", "hold", "post", "sensed", "duration"),
             *("uses", "shares", "pause", "anywhere", "between", "steps", "keep"),
             *("let", "prefer", "run", "python", "do", "scene", "goal", "verify"),
+            *("start", "expect", "failure", "no", "plan"),
         ),
         "flag": ("scoped", "noplan", "fallback", "endless"),
         "trait": ("functional", "symmetric", "transitive", "inverse", "sub"),
@@ -60,6 +61,12 @@ NAMES_ELSEWHERE: frozenset[str] = frozenset(
             "between",
             "steps",
             "keep",
+            "test",
+            "start",
+            "expect",
+            "failure",
+            "no",
+            "plan",
             *KEYWORDS["flag"],
             *KEYWORDS["trait"],
             *KEYWORDS["property"],

@@ -28,6 +28,7 @@ SCOPES: dict[Group, str] = {
 DECLARED = {
     "skill": "entity.name.function",
     "task": "entity.name.function",
+    "test": "entity.name.function",
     "function": "entity.name.function",
     "class": "entity.name.type.class",
     "relation": "entity.name.function.relation",

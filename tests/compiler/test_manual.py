@@ -15,6 +15,7 @@ from shipped import shelf, vocabulary
 from skillc.services.checking import CheckRequest, check_paths
 from skillc.services.known_checks import check_uncached
 from skillc.services.library_files import find_library
+from skillc.services.testing.suite import find_suites, run_suite
 from skillc_compiler.goals.parsing import parse_goal
 from skillc_compiler.manual import Page, load_pages, page_names, parse_page
 from skillc_compiler.pipeline import compile
@@ -71,6 +72,8 @@ def problems(page: Page, text: str) -> list[str]:
             return [d.name for d in parse_goal(text.strip(), vocabulary(), boards, {"lab": LAB}).diagnostics]
         case "project":
             return in_project(text)
+        case "test":
+            return in_tests(text)
         case _:
             return in_skill_file(page.name, text)
 
@@ -95,6 +98,14 @@ def in_project(text: str) -> list[str]:
         Path(folder, "grasping").mkdir()
         Path(folder, "grasping/skillc.toml").write_text('name = "grasping"\n', "utf-8")
         return [d.name for d in check_paths(CheckRequest((Path(folder),))).diagnostics]
+
+
+def in_tests(text: str) -> list[str]:
+    """Return the names of the problems that the tests in a library of one file have."""
+    with TemporaryDirectory() as folder:
+        Path(folder, "example.skill").write_text(text, "utf-8")
+        suites = find_suites([folder])
+        return [d.name for suite in suites for each in run_suite(suite, suite.new_coverage()) for d in each.problems]
 
 
 @cache

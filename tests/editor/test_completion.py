@@ -11,7 +11,7 @@ from skillc_dsl import units
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
 
-BEGINNINGS = ("class", "function", "impl", "import", "prefix", "property", "relation", "skill", "task", "use")
+BEGINNINGS = ("class", "function", "impl", "import", "prefix", "property", "relation", "skill", "task", "test", "use")
 DIMENSIONS = " ".join(units.DIMENSIONS)
 EXACT = [
     (

@@ -29,6 +29,7 @@ _SYMBOL_KINDS = {
     "skill": types.SymbolKind.Interface,
     "implementation": types.SymbolKind.Object,
     "task": types.SymbolKind.Event,
+    "test": types.SymbolKind.Event,
     "parameter": types.SymbolKind.Variable,
     "condition": types.SymbolKind.Boolean,
     "let": types.SymbolKind.Constant,

@@ -62,31 +62,29 @@ def check_tasks_in_scenes(
     fine: list[TaskDiagnostics] = []
     places = value_checks.value_places(program)
     known = {name: task for name, task in library.tasks.items() if not task.parameters}
-    unchecked = [] if scenes.symbolic else list(_unchecked(scenes.valid))
-    without_space = scenes.symbolic or bool(unchecked)
-    judge = _judge_nothing if without_space else judge or judge_cell
-    cells = {path: list(_of_cell(path, scenes, known, judge)) for path in scenes.valid}
+    with_bodies = {path: scene for path, scene in scenes.valid.items() if not scene.state.vocabulary.symbolic}
+    unchecked = list(_unchecked(with_bodies))
+    judge = _judge_nothing if unchecked else judge or judge_cell
+    cells = {path: list(_of_cell(path, scenes, known, judge)) for path in with_bodies}
     stopped: dict[CellProblem, list[Label]] = {}
     for name, path in scenes.files.items():
         if path in scenes.valid and name in known:
             of_task = TaskDiagnostics(display_path, scenes.valid[path], known[name])
-            found = list(_of_task(of_task, library, cells[path], places, stopped))
+            found = list(_of_task(of_task, library, cells.get(path, ()), places, stopped))
             errors += (each for each in found if not _is_reported(each, compiled.diagnostics))
-            broken = any(each.diagnostic.severity == "error" for each in cells[path])
-            fine += [] if found or broken else [of_task]
+            broken = any(each.diagnostic.severity == "error" for each in cells.get(path, ()))
+            fine += [] if found or broken or path not in with_bodies else [of_task]
     errors = list({(each.span, each.name, each.message): each for each in reversed(errors)}.values())[::-1]
     labelled = {(label.span.path, label.span.line) for each in errors for label in each.labels}
-    valid = [(scene, str(path)) for path, scene in scenes.valid.items()]
-    others = [] if without_space else [each for scene, path in valid for each in _of_devices(scene, path)]
-    others += (each for scene, path in valid for each in _of_individuals(library, scene, path))
-    others += (each for scene, path in valid if not scenes.symbolic for each in check_angles(scene, path))
+    valid = [(scene, str(path)) for path, scene in with_bodies.items()]
+    others = [] if unchecked else [each for scene, path in valid for each in _of_devices(scene, path)]
+    others += (each for path, scene in scenes.valid.items() for each in _of_individuals(library, scene, str(path)))
+    others += (each for scene, path in valid for each in check_angles(scene, path))
     others = [each for each in others if (each.span.path, each.span.line) not in labelled]
     unusable = {each.span.path for each in others if each.severity == "error"}
     usable = [each for each in fine if str(scenes.files[each.task.name]) not in unusable]
     told = {path: [each.violation.individual for each in found] for path, found in cells.items()}
-    seen = (
-        [] if look is None or without_space else _in_space(usable, library, look, lambda name: told[scenes.files[name]])
-    )
+    seen = [] if look is None or unchecked else _in_space(usable, library, look, lambda name: told[scenes.files[name]])
     cell = (_with_tasks(each, stopped) for found in cells.values() for each in found)
     return [*errors, *others, *unchecked, *seen, *cell]
 

@@ -160,7 +160,9 @@ def _declarations(files: LibraryFiles) -> Iterator[s.TaskDeclaration]:
     from skillc_dsl.parsing.parser import parse
 
     for source in files.sources:
-        yield from (each for each in parse(source).value.declarations if isinstance(each, s.TaskDeclaration))
+        declared = parse(source).value.declarations
+        tasks = (each for each in declared if isinstance(each, s.TaskDeclaration))
+        yield from (each for each in tasks if not isinstance(each, s.TestDeclaration))
 
 
 def _calls_of(task: s.TaskDeclaration) -> str:

@@ -113,10 +113,10 @@ def find_task_in_scene(reference: str, backend: BackendName = DEFAULT_BACKEND) -
     task = find_task(library, name)
     if task.goal is None and task.body is None:
         raise RequestError(f"the task `{name}` has neither a goal nor a body")
-    return library, task, _find_scene(task, files)
+    return library, task, find_scene_of(task, files)
 
 
-def _find_scene(task: Task, files: LibraryFiles) -> Path:
+def find_scene_of(task: Task, files: LibraryFiles) -> Path:
     """Return the file of a task's scene, or of the default one of its project. RequestError if there is none."""
     if task.scene is None:
         default = named_scenes.default_scene(files.project) if files.project else None

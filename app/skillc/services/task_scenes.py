@@ -84,8 +84,12 @@ def read_task_scenes(
     if others:
         chosen = {scene.resolve() for scene in others}
         files = {task: path for task, path in files.items() if path.resolve() in chosen}
-    vocabulary = msgspec.structs.replace(program.vocabulary, symbolic=texts.symbolic)
-    scenes = {path: read(path, vocabulary) for path in sorted({*files.values(), *others})}
+    tested = frozenset() if others else _only_tested(program, files)
+    without_bodies = msgspec.structs.replace(program.vocabulary, symbolic=True)
+    scenes = {
+        path: read(path, without_bodies if texts.symbolic or path in tested else program.vocabulary)
+        for path in sorted({*files.values(), *others})
+    }
     valid = {path: scene.value for path, scene in scenes.items() if scene.ok and scene.value}
     known = {path: classes_by_individual(scene.state, program.vocabulary) for path, scene in valid.items()}
     missing = (_missing(text, texts) for task, text in written if found[task] is None and not others)
@@ -103,6 +107,13 @@ def classes_by_individual(state: WorldState, vocabulary: Vocabulary) -> Individu
         iri: sorted({each for cls in state.types(iri) for each in ({cls} if cls in known else above[cls] & known)})
         for iri in state.individuals
     }
+
+
+def _only_tested(program: Program, files: Mapping[str, Path]) -> frozenset[Path]:
+    """Return the scenes of tests that no task is in: these run in cells without bodies."""
+    declared = (each for unit in program.files for each in unit.file.declarations)
+    tests = {each.name.text for each in declared if isinstance(each, s.TestDeclaration)}
+    return frozenset(files.values()) - {path for name, path in files.items() if name not in tests}
 
 
 def _without_scene(program: Program) -> Iterator[str]:

@@ -29,13 +29,17 @@ def watch_sources(request: CheckRequest, show: Show, reporter: Reporter) -> NoRe
     RequestError if there is nothing to check at first.
     """
     memos: Memos = {}
-    wanted = _roots(request, read_libraries(request))
+    watch_folders(_roots(request, read_libraries(request)), lambda: _check(request, show, reporter, memos), reporter)
+
+
+def watch_folders(wanted: tuple[Path, ...], work: Callable[[], tuple[Path, ...]], reporter: Reporter) -> NoReturn:
+    """Call `work` after each change of a file in folders, for ever; it returns those to watch, none for the same."""
     while True:
         folders = _present(wanted)
         changes = _changes(folders)
         next(changes)
         while folders == _folders(wanted):
-            wanted = _check(request, show, reporter, memos) or wanted
+            wanted = work() or wanted
             if folders == _folders(wanted):
                 reporter.say("waiting for changes; press Ctrl-C to stop")
                 _await(changes, folders, wanted)
@@ -100,9 +104,12 @@ def _check(request: CheckRequest, show: Show, reporter: Reporter, memos: Memos) 
 
 
 def _roots(request: CheckRequest, libraries: Sequence[LibraryFiles]) -> tuple[Path, ...]:
+    scenes = (request.scene.parent,) if request.scene else ()
+    return tuple(dict.fromkeys((*list_folders(libraries), *scenes)))
+
+
+def list_folders(libraries: Sequence[LibraryFiles]) -> tuple[Path, ...]:
     """Return the folders of libraries and of their scenes, without shipped scenes."""
     files = (scene for library in libraries for scene in named_scenes(library))
     scenes = {scene.parent for scene in files if not scene.is_relative_to(SHIPPED)}
-    if request.scene:
-        scenes.add(request.scene.parent)
     return tuple(dict.fromkeys((*(library.root for library in libraries), *sorted(scenes))))

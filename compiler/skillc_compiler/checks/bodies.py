@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, Task
+from skillc_compiler.program.typed import Program, Task, Test
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 
@@ -36,11 +36,11 @@ def _last_line(span: Span) -> Span:
 
 def _task(task: Task) -> Iterator[Diagnostic]:
     if (task.goal is None) == (task.body is None):
-        both = task.goal is not None
+        both, kind = task.goal is not None, "test" if isinstance(task, Test) else "task"
         yield Diagnostic(
             "missing-body",
             task.name_span,
-            f"the task `{task.name}` has {'both a goal and a body' if both else 'neither a goal nor a body'}",
+            f"the {kind} `{task.name}` has {'both a goal and a body' if both else 'neither a goal nor a body'}",
             help="write either `goal CONDITION` or `do NODE`",
             labels=() if both else (Label(_last_line(task.span), "add it before this `}`"),),
         )

@@ -20,7 +20,8 @@ READS = Reads.LIBRARY
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a warning for each skill that no task reaches, in a library with tasks."""
     own = [unit for unit in program.files if unit.library == program.name]
-    if not any(isinstance(d, s.TaskDeclaration) for unit in own for d in unit.file.declarations):
+    declared = [each for unit in own for each in unit.file.declarations if isinstance(each, s.TaskDeclaration)]
+    if all(isinstance(each, s.TestDeclaration) for each in declared):
         return
     reached = _reached_skills(program)
     paths = {unit.file.path for unit in own}

@@ -108,7 +108,7 @@ def _names(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterato
             yield from _types(around)
         case ("PROPERTY" | "FUNCTION",), ("OF",):
             yield from offers.offer_dimensions()
-        case ("SKILL" | "IMPL" | "TASK",), _:
+        case ("SKILL" | "IMPL" | "TASK" | "TEST",), _:
             yield from _in_members(analysis, around, cursor)
 
 

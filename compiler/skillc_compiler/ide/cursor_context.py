@@ -67,8 +67,8 @@ def find_context(analysis: Analysis, path: str, cursor: InCode) -> CursorContext
     skill = program.skills.get(of) if kind in ("skill", "impl") else None
     ways = program.implementations_of.get(of, ()) if kind == "impl" else ()
     implementation = next((way for way in ways if way.name == name), None)
-    task = next((task for task in program.tasks if kind == "task" and task.name == name), None)
-    scene = analysis.library.scenes.get(name, {}) if kind == "task" else {}
+    task = next((task for task in program.tasks if kind in ("task", "test") and task.name == name), None)
+    scene = analysis.library.scenes.get(name, {}) if kind in ("task", "test") else {}
     found = dict(_locals(implementation or skill or task, implementation, analysis.types))
     found |= dict(_quantified(cursor.before, visible))
     return CursorContext(visible, skill, implementation, task, most_specific_classes(program.vocabulary, scene), found)

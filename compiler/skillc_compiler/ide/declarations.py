@@ -169,6 +169,11 @@ class FileOccurrences(BodyOccurrences, frozen=True):
             yield Occurrence(written.scene.span, SceneSymbol(written.scene.value))
         if written.goal is not None:
             yield from self.condition(known, written.goal)
+        if isinstance(written, s.TestDeclaration):
+            for start in written.starts:
+                yield from self.condition(known, start.condition)
+            for expected in written.expects:
+                yield from self.condition(known, expected.condition) if expected.condition is not None else ()
         if written.body is not None:
             yield from self.node(BodyContext(written.span), known, written.body.node)
 

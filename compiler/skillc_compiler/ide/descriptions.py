@@ -27,7 +27,7 @@ from skillc_compiler.ide.symbols import (
     TypeSymbol,
 )
 from skillc_compiler.ide.term_pages import format_page
-from skillc_compiler.program.typed import Parameter, Requirement, Skill, Task
+from skillc_compiler.program.typed import Parameter, Requirement, Skill, Task, Test
 from skillc_compiler.program.types import describe_type
 from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import local_name
@@ -92,7 +92,8 @@ def _of_program(analysis: Analysis, symbol: _OfProgram) -> str:
 def _task(name: str, task: Task | None) -> str:
     declared = task.parameters if task else ()
     parameters = ", ".join(f"{each.name}: {term_pages.format_bare_type(each.declared)}" for each in declared)
-    return format_page(f"task {name}({parameters})" if parameters else f"task {name}", task.doc if task else "")
+    head = f"test {name}" if isinstance(task, Test) else f"task {name}"
+    return format_page(f"{head}({parameters})" if parameters else head, task.doc if task else "")
 
 
 def _skill(analysis: Analysis, skill: Skill) -> str:

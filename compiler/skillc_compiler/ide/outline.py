@@ -13,7 +13,17 @@ from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.source import Source, Span
 
 EntryKind: TypeAlias = Literal[
-    "class", "relation", "property", "function", "skill", "implementation", "task", "parameter", "condition", "let"
+    "class",
+    "relation",
+    "property",
+    "function",
+    "skill",
+    "implementation",
+    "task",
+    "test",
+    "parameter",
+    "condition",
+    "let",
 ]
 
 
@@ -68,7 +78,8 @@ def _entry(written: s.Declaration) -> OutlineEntry:
             )
         case s.TaskDeclaration(name=name, parameters=parameters, scene=scene, span=span):
             detail = " ".join(filter(None, (_head(parameters) if parameters else "", scene.value if scene else "")))
-            return OutlineEntry(name.text, detail, "task", span, name.span)
+            kind: EntryKind = "test" if isinstance(written, s.TestDeclaration) else "task"
+            return OutlineEntry(name.text, detail, kind, span, name.span)
         case _:
             assert_never(written)
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from msgspec import structs
+
 from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.lower.bodies import lower_node
 from skillc_compiler.program.typed import (
@@ -15,6 +17,7 @@ from skillc_compiler.program.typed import (
     Requirement,
     Skill,
     Task,
+    Test,
     TypedExpression,
     TypedNode,
     start_position,
@@ -82,6 +85,24 @@ def lower_task(typed: Task) -> library.Task:
         goal_text=typed.goal_text,
         body=lower_node(typed.body) if typed.body else None,
         source=start_position(typed.span),
+    )
+
+
+def lower_test(typed: Test) -> library.Test:
+    """Return a test."""
+    started = (effect for each in typed.starts for effect in effects_of(each))
+    return library.Test(
+        **structs.asdict(lower_task(typed)),
+        starts=tuple(each for each in started if not isinstance(each, NoEffect)),
+        expects=tuple(
+            library.Expectation(
+                condition=fold(each.condition.meaning) if each.condition else None,
+                failure=each.failure,
+                text=each.text,
+                source=start_position(each.span),
+            )
+            for each in typed.expects
+        ),
     )
 
 

@@ -13,7 +13,7 @@ from skillc_compiler.logic.selection import rank_implementations
 from skillc_compiler.lower import declarations as flattening
 from skillc_compiler.lower.memo import LowerMemo
 from skillc_compiler.program.spans import SpanIndex
-from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, TypedNode
+from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Test, TypedNode
 from skillc_compiler.program.walk import calls_in
 from skillc_compiler.resolve.declarations import used_vocabularies
 from skillc_compiler.resolve.files import library_namespace
@@ -36,6 +36,11 @@ def lower_program(program: Program, problems: Sequence[Diagnostic], memo: LowerM
     for one in kept:
         by_skill[one.skill.name].append(one)
     order = {name: rank_implementations(program.vocabulary, by_skill[name]) for name in skills}
+    tasks = [
+        task
+        for task in sorted(program.tasks, key=lambda task: task.name)
+        if not errors.any_on_lines_of(task.span) and _calls_known(task.body, skills)
+    ]
     unnamed = SkillLibrary(
         name=program.name,
         namespace=_namespace(program),
@@ -49,11 +54,8 @@ def lower_program(program: Program, problems: Sequence[Diagnostic], memo: LowerM
             i.key: memo.implementations.recall((i,), partial(_implementation, i))
             for i in sorted(kept, key=lambda i: i.key)
         },
-        tasks={
-            task.name: flattening.lower_task(task)
-            for task in sorted(program.tasks, key=lambda task: task.name)
-            if not errors.any_on_lines_of(task.span) and _calls_known(task.body, skills)
-        },
+        tasks={each.name: flattening.lower_task(each) for each in tasks if not isinstance(each, Test)},
+        tests={each.name: flattening.lower_test(each) for each in tasks if isinstance(each, Test)},
     )
     return msgspec.structs.replace(unnamed, names=_assign_names(unnamed, memo))
 

@@ -34,9 +34,9 @@ import msgspec
 
 FAMILIES = (
     *("text", "quantities", "scenes", "properties", "implementations", "data flow", "planning", "ontology", "names"),
-    *("logic", "projects"),
+    *("logic", "projects", "tests"),
 )
-FINDERS = ("compiler", "vocabulary", "scene", "check", "formatter", "goal", "project")
+FINDERS = ("compiler", "vocabulary", "scene", "check", "formatter", "goal", "project", "test")
 _FOLDER = Path(__file__).parent
 _PAGE = re.compile(
     r"---\nfamily: (?P<family>.+)\nfound-by: (?P<found_by>.+)\n---\n\n"
@@ -51,8 +51,9 @@ class Page(msgspec.Struct, frozen=True):
 
     `family` is the heading under which it is listed; `found_by` is the part that reports it: the compiler, the loaders
     of vocabularies and scenes, `skillc check` of a library with its scenes, the formatter, the parser of goals from the
-    command line, or the reader of projects. `title` is a sentence without its full stop, `prose` is Markdown. `bad` is
-    a whole file with this problem and no other, `good` a file without problems; both are in `language`.
+    command line, the reader of projects, or `skillc test`. `title` is a sentence without its full stop, `prose` is
+    Markdown. `bad` is a whole file with this problem and no other, `good` a file without problems; both are in
+    `language`.
     """
 
     name: str

@@ -218,6 +218,38 @@ class Task(msgspec.Struct, frozen=True):
         """The name of the task among those of implementations."""
         return f"task {self.name}"
 
+    @property
+    def conditions(self) -> tuple[TypedCondition, ...]:
+        """The conditions outside of its body."""
+        return () if self.goal is None else (self.goal,)
+
+
+class Expectation(msgspec.Struct, frozen=True):
+    """What is expected at the end of a test: a condition, a failure with a text in its reason, or else no plan."""
+
+    condition: TypedCondition | None
+    failure: str | None
+    text: str
+    span: Span
+
+    @property
+    def is_no_plan(self) -> bool:
+        """Whether there shall be no plan."""
+        return self.condition is None and self.failure is None
+
+
+class Test(Task, frozen=True):
+    """A task that starts with other facts than its scene, and what is expected of it; it has no parameters."""
+
+    starts: tuple[TypedCondition, ...] = ()
+    expects: tuple[Expectation, ...] = ()
+
+    @property
+    def conditions(self) -> tuple[TypedCondition, ...]:
+        """The conditions outside of its body."""
+        expected = (each.condition for each in self.expects if each.condition is not None)
+        return (*(() if self.goal is None else (self.goal,)), *self.starts, *expected)
+
 
 class ParsedFile(msgspec.Struct, frozen=True):
     """A parsed file, the library it belongs to with the namespace of its terms, and the files it imports.

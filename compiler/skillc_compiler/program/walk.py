@@ -63,8 +63,8 @@ def all_conditions(program: Program) -> Iterator[TypedCondition]:
         if event.condition:
             yield from conditions_in(event.condition)
     for task in program.tasks:
-        if task.goal:
-            yield from conditions_in(task.goal)
+        for condition in task.conditions:
+            yield from conditions_in(condition)
     for node in all_nodes(program):
         for condition in node.conditions:
             yield from conditions_in(condition)

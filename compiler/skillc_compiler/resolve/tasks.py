@@ -1,10 +1,12 @@
-"""Resolving tasks: parameters, a scene, and a goal or a body."""
+"""Resolving tasks and tests: parameters, a scene, a goal or a body, and what is expected."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program.typed import Parameter, Task
+from msgspec import structs
+
+from skillc_compiler.program.typed import Expectation, Parameter, Task, Test
 from skillc_compiler.program.types import type_of
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.nodes import resolve_node
@@ -15,21 +17,39 @@ from skillc_dsl import syntax as s
 
 def resolve_task(context: FileContext, written: s.TaskDeclaration) -> Task:
     """Return the resolved task."""
-    scope = Scope(f"the task `{written.name.text}`", skill=f"task {written.name.text}")
+    kind = "test" if isinstance(written, s.TestDeclaration) else "task"
+    scope = Scope(f"the {kind} `{written.name.text}`", skill=f"task {written.name.text}")
     parameters = tuple(_parameters(context, written))
     for parameter, each in zip(written.parameters, parameters, strict=True):
         scope = context.bind(scope, parameter.name, LocalName(each.type, "parameter", each.span))
-    return Task(
+    goal = resolve_condition(context, scope, written.goal) if written.goal is not None else None
+    task = Task(
         name=written.name.text,
         doc=written.doc,
         parameters=parameters,
         scene=written.scene.value if written.scene else None,
-        goal=resolve_condition(context, scope, written.goal) if written.goal is not None else None,
+        goal=goal,
         goal_text=written.goal_text,
         body=resolve_node(context, scope, written.body.node)[0] if written.body else None,
         name_span=written.name.span,
         span=written.span,
     )
+    return _with_expectations(context, scope, written, task) if isinstance(written, s.TestDeclaration) else task
+
+
+def _with_expectations(context: FileContext, scope: Scope, written: s.TestDeclaration, task: Task) -> Test:
+    """Return the test whose task is resolved."""
+    starts = tuple(resolve_condition(context, scope, each.condition) for each in written.starts)
+    expects = tuple(
+        Expectation(
+            condition=resolve_condition(context, scope, each.condition) if each.condition is not None else None,
+            failure=each.failure.value if each.failure is not None else None,
+            text=each.text,
+            span=each.span,
+        )
+        for each in written.expects
+    )
+    return Test(**structs.asdict(task), starts=starts, expects=expects)
 
 
 def _parameters(context: FileContext, written: s.TaskDeclaration) -> Iterator[Parameter]:

@@ -11,7 +11,7 @@ from skillc_dsl.formatting.members import MemberFormatter
 from skillc_dsl.parsing.tokens import Branch, Token, Tree
 
 _HEADER = ("use", "prefix", "import_")
-_BLOCKS = ("skill", "impl", "task")
+_BLOCKS = ("skill", "impl", "task", "test")
 _WORD = 4
 """The minimum width of the column of keywords in a skill, such as `pre` and `hold`."""
 

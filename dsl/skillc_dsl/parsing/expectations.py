@@ -39,6 +39,7 @@ def _phrases() -> tuple[Phrase, ...]:
             "LET RUN",
             list_following_terminals(impl) - {"RBRACE"},
         ),
+        ("a member of a test, such as `start` or `expect`", "START EXPECT DO", _set("SCENE GOAL DO START EXPECT")),
         ("a member of a task, such as `scene` or `goal`", "SCENE GOAL DO", _set("SCENE GOAL DO")),
         ("a condition", "NOT EXISTS NUMBER", conditions | values),
         ("a step, such as `seq` or a call", "SEQ IF", list_following_terminals(f"{impl} DO")),
@@ -70,6 +71,7 @@ def explain_where_it_belongs(token: Token) -> str:
         ("a `skill`", "SKILL NAME LBRACE"),
         ("an `impl`", "IMPL NAME OF NAME LBRACE"),
         ("a `task`", "TASK NAME LBRACE"),
+        ("a `test`", "TEST NAME LBRACE"),
     )
     fitting = [
         kind for kind, start in homes if token.type != "RBRACE" and token.type in list_following_terminals(start)

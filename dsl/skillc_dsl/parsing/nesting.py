@@ -10,7 +10,7 @@ from skillc_dsl.source import Span
 
 DEEPEST = 64
 """The maximum depth of nested steps, conditions and values."""
-_WITH_MEMBERS = frozenset({"skill", "impl", "task"})
+_WITH_MEMBERS = frozenset({"skill", "impl", "task", "test"})
 
 
 def drop_too_deep(tree: Tree, path: str) -> tuple[Tree, tuple[Diagnostic, ...]]:

@@ -24,6 +24,7 @@ _NAMED = MappingProxyType(
         "SKILL": "skill",
         "IMPL": "implementation",
         "TASK": "task",
+        "TEST": "test",
         "LET": "value",
         "FOR": "variable",
     }
@@ -76,6 +77,8 @@ def _find(tokens: Sequence[Token]) -> Iterator[tuple[int, str, str]]:
             kind, word = _NAMED.get(before), token.value
         if before == "IMPL" and [each.type for each in tokens[index + 1 : index + 2]] != ["OF"]:
             kind = None  # its name is what is missing
+        if before == "TEST" and [each.type for each in tokens[index + 1 : index + 2]] != ["LBRACE"]:
+            kind = None  # it is a name itself
         if kind is not None and terminals.get(word) in reserved[kind]:
             yield index, kind, word
         before = token.type

@@ -17,6 +17,7 @@ from skillc_dsl.syntax.conditions import Relation as Relation
 from skillc_dsl.syntax.declarations import ClassDeclaration as ClassDeclaration
 from skillc_dsl.syntax.declarations import Declaration as Declaration
 from skillc_dsl.syntax.declarations import ErrorNode as ErrorNode
+from skillc_dsl.syntax.declarations import Expect as Expect
 from skillc_dsl.syntax.declarations import File as File
 from skillc_dsl.syntax.declarations import FunctionDeclaration as FunctionDeclaration
 from skillc_dsl.syntax.declarations import HeadParameter as HeadParameter
@@ -28,7 +29,9 @@ from skillc_dsl.syntax.declarations import PropertyDeclaration as PropertyDeclar
 from skillc_dsl.syntax.declarations import RelationDeclaration as RelationDeclaration
 from skillc_dsl.syntax.declarations import SkillDeclaration as SkillDeclaration
 from skillc_dsl.syntax.declarations import SkillMember as SkillMember
+from skillc_dsl.syntax.declarations import Start as Start
 from skillc_dsl.syntax.declarations import TaskDeclaration as TaskDeclaration
+from skillc_dsl.syntax.declarations import TestDeclaration as TestDeclaration
 from skillc_dsl.syntax.declarations import Trait as Trait
 from skillc_dsl.syntax.declarations import Use as Use
 from skillc_dsl.syntax.members import Body as Body

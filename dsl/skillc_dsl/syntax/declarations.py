@@ -140,6 +140,32 @@ class TaskDeclaration(msgspec.Struct, frozen=True):
     span: Span
 
 
+class Start(msgspec.Struct, frozen=True):
+    """`start condition`: what is so at the start of a test."""
+
+    condition: Condition
+    span: Span
+
+
+class Expect(msgspec.Struct, frozen=True):
+    """`expect condition`, `expect failure "text"` or `expect no plan`; `text` is the condition as written.
+
+    With neither a condition nor a failure it is `no plan`.
+    """
+
+    condition: Condition | None
+    failure: Text | None
+    text: str
+    span: Span
+
+
+class TestDeclaration(TaskDeclaration, frozen=True):
+    """`test name { scene, start .., goal or do, expect .. }`: a task that has no parameters, and what comes of it."""
+
+    starts: tuple[Start, ...] = ()
+    expects: tuple[Expect, ...] = ()
+
+
 Declaration: TypeAlias = (
     ClassDeclaration
     | RelationDeclaration

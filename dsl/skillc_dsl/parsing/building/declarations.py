@@ -10,6 +10,7 @@ from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.parsing.building.members import MemberBuilder
 from skillc_dsl.parsing.building.places import Child, MemberPart, Spanned, children_of_type, find_part, keyword_at
 from skillc_dsl.parsing.tokens import Tree
+from skillc_dsl.source import Span
 
 P = TypeVar("P", bound=Spanned)
 TraitKind = Literal["functional", "symmetric", "transitive", "inverse", "sub"]
@@ -111,20 +112,45 @@ class FileBuilder(MemberBuilder):
 
     def task(self, children: list[Child]) -> s.TaskDeclaration:
         """`task name(parameter, ..) { scene, goal or do }`"""
+        return s.TaskDeclaration(*self._task("task", children))
+
+    def test(self, children: list[Child]) -> s.TestDeclaration:
+        """`test name { scene, start .., goal or do, expect .. }`"""
+        starts, expects = children_of_type(children, s.Start), children_of_type(children, s.Expect)
+        return s.TestDeclaration(*self._task("test", children), starts, expects)
+
+    def _task(
+        self, word: str, children: list[Child]
+    ) -> tuple[s.Name, tuple[s.HeadParameter, ...], s.Text | None, s.Condition | None, str, s.Body | None, str, Span]:
+        """Return the fields of a task or a test, which is called `word` in messages."""
         name, span = self.as_name(children[1]), self.over(children)
-        scene = self._only(part for part in children_of_type(children, MemberPart) if part.rule == "scene")
-        goal = self._only(part for part in children_of_type(children, MemberPart) if part.rule == "goal")
+        scene = self._only(word, (part for part in children_of_type(children, MemberPart) if part.rule == "scene"))
+        goal = self._only(word, (part for part in children_of_type(children, MemberPart) if part.rule == "goal"))
         condition = self.condition(goal.children[1]) if goal else None
-        return s.TaskDeclaration(
+        return (
             name,
             children_of_type(children, s.HeadParameter),
             self.string(scene.children[1]) if scene else None,
             condition,
             self.written(condition.span) if condition else "",
-            self._only(children_of_type(children, s.Body)),
+            self._only(word, children_of_type(children, s.Body)),
             self.doc(span),
             span,
         )
+
+    def start_fact(self, children: list[Child]) -> s.Start:
+        """`start condition`"""
+        return s.Start(self.condition(children[1]), self.over(children))
+
+    def expect(self, children: list[Child]) -> s.Expect:
+        """`expect condition`, `expect failure "text"`, `expect no plan`"""
+        span, word = self.over(children), keyword_at(children, 1)
+        if word == "failure" and len(children) == 3:
+            return s.Expect(None, self.string(children[2]), "", span)
+        if word == "no" and len(children) == 3:
+            return s.Expect(None, None, "", span)
+        condition = self.condition(children[1])
+        return s.Expect(condition, None, self.written(condition.span), span)
 
     def scene(self, children: list[Child]) -> MemberPart:
         """`scene "file.ttl"`"""
@@ -134,12 +160,12 @@ class FileBuilder(MemberBuilder):
         """`goal condition`"""
         return self.part("goal", children)
 
-    def _only(self, found: Iterable[P]) -> P | None:
+    def _only(self, of: str, found: Iterable[P]) -> P | None:
         """Return the first member of a kind and report all others."""
         members = tuple(found)
         for other in members[1:]:
             word = self.written(other.span).split()[0]
             labels = (Label(members[0].span, "the first one"),)
-            message = f"the task has a second `{word}`"
+            message = f"the {of} has a second `{word}`"
             self.problems.append(Diagnostic("repeated-member", other.span, message, "keep one", labels=labels))
         return members[0] if members else None

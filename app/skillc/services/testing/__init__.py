@@ -1,0 +1,1 @@
+"""Runs the tests of libraries on the world model alone; start with `suite`."""
