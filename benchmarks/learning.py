@@ -1,9 +1,9 @@
 """What learning finds: the hypervolume of its front against random search, and the best against the defaults.
 
-`learning.py [REPETITIONS [CANDIDATES [TRIALS]]]`: two objectives of inserting a peg, with each sampler and other seeds
-of the worlds and of the sampler in each repetition; as many candidates for both. The hypervolume is what the front
-dominates below the defaults and a quarter more, as a share of that; both samplers are compared by the rank test of Mann
-and Whitney. Fresh seeds compare what is proposed with the defaults.
+`learning.py [REPETITIONS [CANDIDATES [TRIALS]]]`: two objectives of pressing a button, with each sampler, and other
+seeds of the worlds and of the sampler in each repetition; as many candidates for both. The hypervolume is what the
+front dominates below the defaults and a quarter more, as a share of that; both samplers are compared by the rank test
+of Mann and Whitney. Fresh seeds compare what is proposed with the defaults.
 """
 
 from __future__ import annotations
@@ -26,11 +26,9 @@ from skillc.services.learning.result import DEFAULTS, Learned
 from skillc.services.learning.spec import LearnSpec, SamplerName
 from skillc.services.reporting import SilentReporter
 
-TASK, MINIMISE, SUBJECT = (
-    "contact:insert_peg",
-    "simulated_time, greatest_force",
-    "greatest_force <= 40 N, depth >= 98 %",
-)
+TASK, MINIMISE = "contact:press_button", "simulated_time, greatest_force"
+SUBJECT = "held_force >= 95 %, greatest_force <= 120 %"
+PARAMETERS = "PressButton.pace, Push.approach, MoveLinear.speed"
 MARGIN = 1.25
 """The corner from which the hypervolume is measured, as a multiple of the objectives of the defaults."""
 
@@ -46,6 +44,7 @@ def run(sampler: SamplerName, repetition: int, candidates: int, trials: int, fre
     spec = LearnSpec(
         minimise=MINIMISE,
         subject_to=SUBJECT,
+        parameters=PARAMETERS,
         candidates=candidates,
         trials=trials,
         fresh=fresh,
@@ -61,7 +60,7 @@ def run(sampler: SamplerName, repetition: int, candidates: int, trials: int, fre
 def hypervolume(learned: Learned) -> float:
     """Return the area between the front and the corner, as a share of the corner's own; 0 for no front."""
     base = learned.candidate(DEFAULTS).objectives
-    assert base is not None, "the defaults insert the peg"
+    assert base is not None, "the defaults press the button"
     corner = [MARGIN * each for each in base]
     front = [each.objectives for each in map(learned.candidate, learned.front) if each.objectives is not None]
     area, height = 0.0, corner[1]
@@ -78,7 +77,7 @@ def describe(values: Sequence[float]) -> str:
 
 if __name__ == "__main__":
     asked = [int(each) for each in sys.argv[1:]]
-    repetitions, candidates, trials = (*asked, *(5, 20, 3)[len(asked) :])
+    repetitions, candidates, trials = (*asked, *(5, 20, 2)[len(asked) :])
     found: dict[SamplerName, list[float]] = {"tpe": [], "random": []}
     with tempfile.TemporaryDirectory() as folder:
         for repetition in range(repetitions):

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import sys
-from types import TracebackType
-
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import TextColumn
 from rich.table import Column
 
-from skillc.cli.console import find_display_obstacle, rich_console
-from skillc.cli.settings import output_settings
+from skillc.cli.stderr_progress import StderrProgress
 from skillc.services.learning.coordinator import Progress as LearningState
 from skillc.services.learning.spec import LearnSpec
 
@@ -17,41 +13,22 @@ MOST_SHOWN = 3
 """How many members of the front are shown."""
 
 
-class LearningProgress:
+class LearningProgress(StderrProgress):
     """Shows how many candidates are done, and the front so far: a bar on a terminal, a line for each elsewhere.
 
     Nothing if `quiet`.
     """
 
     def __init__(self, task: str, spec: LearnSpec, quiet: bool) -> None:
-        self._console = rich_console(sys.stderr)
-        self._spec, self._done, self._fresh = spec, 0, 0
-        self._is_quiet = quiet or output_settings().quiet
-        hidden = self._is_quiet or find_display_obstacle() is not None
-        columns = (
-            TextColumn("{task.description}", markup=False),
-            BarColumn(),
-            MofNCompleteColumn(),
-            TimeRemainingColumn(),
-            TextColumn("{task.fields[front]}", markup=False, table_column=Column(no_wrap=True, overflow="ellipsis")),
-        )
-        self._bar = Progress(*columns, console=self._console, disable=hidden, transient=True)
-        self._row = self._bar.add_task(task, total=spec.candidates, front="")
-
-    def __enter__(self) -> LearningProgress:
-        self._bar.start()
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self._bar.stop()
+        front = TextColumn("{task.fields[front]}", markup=False, table_column=Column(no_wrap=True, overflow="ellipsis"))
+        super().__init__(task, spec.candidates, 0, quiet, front, front="")
+        self._done, self._fresh = 0, 0
 
     def __call__(self, state: LearningState) -> None:
         """Show a state."""
         front = _format_front(state)
         self._bar.update(self._row, completed=state.done, front=front)
-        if self._bar.disable and not self._is_quiet:
+        if self._prints_lines:
             if state.done > self._done:
                 where = f"{state.done} of {state.wanted} candidates, {state.trials} trials"
                 self._console.print(f"{where}: {front}", soft_wrap=True)

@@ -22,9 +22,10 @@ from skillc.services.learning.parameters import choose_learnable, find_learnable
 from skillc.services.learning.racing import Aim
 from skillc.services.learning.recorded_run import RunOrder, record_run
 from skillc.services.learning.result import DEFAULTS, Learned
+from skillc.services.learning.samplers import require_sampler
 from skillc.services.learning.search import Search, list_settings, try_fresh
 from skillc.services.learning.spec import LearnSpec
-from skillc.services.learning.study import Basis, Candidate, Heading, Study, require_sampler
+from skillc.services.learning.study import Basis, Candidate, Heading, Study
 from skillc.services.learning.text import LearnedValue, change_texts, require_own
 from skillc.services.library_files import LibraryFiles
 from skillc.services.real_devices import require_reality

@@ -11,18 +11,18 @@ import time
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, BinaryIO, assert_never
+from typing import Any, BinaryIO
 
 import msgspec
 
-from skillc.errors import RequestError, ServiceError
+from skillc.errors import ServiceError
 from skillc.extras import naming_extras, require
 from skillc.services.files import writing_to
 from skillc.services.learning.figures import World
 from skillc.services.learning.parameters import Learnable
 from skillc.services.learning.racing import Verdict
+from skillc.services.learning.samplers import make_distribution, make_sampler
 from skillc.services.learning.spec import SamplerName
 from skillc_runtime.platforms.file_locks import try_lock
 
@@ -34,8 +34,6 @@ ENDED_S, LOOK_S = 2.0, 0.1
 """How long it may take until the processes of a killed one have ended, and how often that is looked at, in s."""
 LEAST_KNOWN = 10
 """From how many candidates on it is said which parameters are important."""
-STARTS = 10
-"""How many candidates are random before a sampler uses what is known, unless few are wanted."""
 
 
 class Heading(msgspec.Struct, frozen=True, kw_only=True):
@@ -158,7 +156,7 @@ class Study:
     def use_sampler(self, sampler: SamplerName, wanted: int, seed: int) -> None:
         """Choose how candidates are asked for from now on; `wanted` is how many there are to be."""
         # What was drawn before is not drawn again by a study that is continued.
-        self._study.sampler = _make_sampler(self._optuna, sampler, wanted, seed + 1000 * len(self.candidates))
+        self._study.sampler = make_sampler(self._optuna, sampler, wanted, seed + 1000 * len(self.candidates))
 
     def ask(self) -> Candidate:
         """Return a new candidate."""
@@ -166,7 +164,7 @@ class Study:
         if not any(each.state.name != "FAIL" for each in self._study.get_trials(deepcopy=False)):
             self._study.enqueue_trial({each.name: each.default for each in self.basis.learnable})
         with _reporting(self.folder):
-            trial = self._study.ask({each.name: _distribution(self._optuna, each) for each in self.basis.learnable})
+            trial = self._study.ask({each.name: make_distribution(self._optuna, each) for each in self.basis.learnable})
         candidate = Candidate(number=trial.number, values=self._round(trial.params), worlds={})
         self.candidates[trial.number] = candidate
         return candidate
@@ -258,35 +256,6 @@ def _import_optuna() -> Any:
         import optuna
     logging.getLogger("optuna").setLevel(logging.CRITICAL)  # progress is shown by who asks for it
     return optuna
-
-
-def _distribution(optuna: Any, each: Learnable) -> Any:
-    if each.whole:
-        return optuna.distributions.IntDistribution(int(each.low), int(each.high), log=each.is_logarithmic)
-    return optuna.distributions.FloatDistribution(each.low, each.high, log=each.is_logarithmic)
-
-
-def require_sampler(sampler: SamplerName) -> None:
-    """Raise RequestError if what a sampler needs is not installed."""
-    if sampler == "gp" and (missing := [name for name in ("torch", "scipy") if find_spec(name) is None]):
-        raise RequestError(f"the sampler `gp` needs {' and '.join(missing)}: pip install {' '.join(missing)}")
-
-
-def _make_sampler(optuna: Any, sampler: SamplerName, wanted: int, seed: int) -> Any:
-    samplers, starts = optuna.samplers, max(2, min(STARTS, wanted // 4))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of what is experimental in it
-        match sampler:
-            case "tpe":
-                return samplers.TPESampler(multivariate=True, constant_liar=True, n_startup_trials=starts, seed=seed)
-            case "nsga2":
-                return samplers.NSGAIISampler(population_size=max(4, min(50, wanted // 5)), seed=seed)
-            case "gp":
-                return samplers.GPSampler(n_startup_trials=starts, seed=seed)
-            case "random":
-                return samplers.RandomSampler(seed=seed)
-            case _:
-                assert_never(sampler)
 
 
 @contextmanager
