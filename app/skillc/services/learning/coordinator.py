@@ -142,7 +142,8 @@ def _begin(request: LearnRequest, subject: _Subject, study: Study, reporter: Rep
     folder = request.out / RUNS / "defaults"
     trial = record_run(_order(request, subject), folder, request.spec.deadline_s)
     events = (each.event for each in read_envelopes(folder / RECORDING, reporter))
-    learnable = choose_learnable(find_learnable(subject.library, subject.files, events), request.spec.names)
+    found = find_learnable(subject.library, subject.files, events)
+    learnable = choose_learnable(found, request.spec.names, subject.files)
     figures = measured_figures(trial)
     objectives, _ = read_expressions((request.spec.minimise or ""), (request.spec.subject_to or ""), figures)
     units = {name: tuple(sorted(units)) for name, units in figures.units.items()}

@@ -27,8 +27,6 @@ DIGITS = 3
 DECADE = 10.0
 """The ratio of the ends of a range from which on it is searched on a logarithmic scale."""
 INT = "Int"
-STD = "std/"
-"""Where the paths of the implementations begin that every library shares."""
 
 
 class Learnable(msgspec.Struct, frozen=True, kw_only=True):
@@ -91,20 +89,23 @@ def find_learnable(library: SkillLibrary, files: LibraryFiles, events: Iterable[
     return tuple(found.values())
 
 
-def choose_learnable(learnable: Sequence[Learnable], asked: Sequence[str]) -> tuple[Learnable, ...]:
+def choose_learnable(
+    learnable: Sequence[Learnable], asked: Sequence[str], files: LibraryFiles
+) -> tuple[Learnable, ...]:
     """Return those of the names asked for: `speed`, `Wipe.speed`, `Wipe.wipe_lanes.speed`.
 
-    Without names, those of the library's own implementations. RequestError if there are none, or a name fits none or
-    several; it lists what there is.
+    Without names, those of implementations in the library's own files. RequestError if there are none, or a name fits
+    none or several; it lists what there is.
     """
     if not learnable:
         raise RequestError("nothing can be learned: the task uses the default of no parameter with a range")
     if asked:
         return tuple(dict.fromkeys(_find(learnable, name) for name in asked))
-    own = tuple(each for each in learnable if not each.path.startswith(STD))
+    paths = {source.path for source in files.sources}
+    own = tuple(each for each in learnable if each.path in paths)
     if not own:
         raise RequestError(
-            "the task uses no defaults of implementations of its own library; name parameters of shared ones, of "
+            "the task uses no defaults of implementations of its own library; name parameters of others: "
             f"{_list(learnable)}"
         )
     return own

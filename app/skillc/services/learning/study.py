@@ -95,7 +95,7 @@ class Study:
     def _open(self, heading: Heading) -> None:
         self._optuna = _import_optuna()
         with _reporting(self.folder):
-            self._storage = self._optuna.storages.RDBStorage(f"sqlite:///{(self.folder / FILE).resolve()}")
+            self._storage = self._optuna.storages.RDBStorage(f"sqlite:///{(self.folder / FILE).resolve().as_posix()}")
             names = [each.study_name for each in self._storage.get_all_studies()]
         self._study: Any = None
         self.candidates: dict[int, Candidate] = {}
