@@ -62,10 +62,10 @@ def test_it_finds_what_is_better_in_both_objectives(tmp_path: Path) -> None:
         wide = [each for each in study.candidates.values() if each.values[1] >= 30.0]
         assert wide
         assert all(each.verdict == "infeasible" and len(each.worlds) == 1 for each in wide)
-        assert all(set(each.worlds) == set(SEEDS) for each in list_measured(study).values())
-        front = list_front(study, wanted)
+        assert all(set(each.worlds) == set(SEEDS) for each in list_measured(study.candidates).values())
+        front = list_front(study.candidates, wanted)
         assert front
-        chosen = choose(study, wanted)
+        chosen = choose(study.candidates, wanted)
         assert chosen is not None
         assert chosen in front
         least = aim("force_rmse").mean(study.candidates[chosen].worlds.values())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc.cli.layout import TerminalPage
+from skillc.cli.layout import Style, TerminalPage
 from skillc.services.learning.evidence import format_seeds
 from skillc.services.learning.result import DEFAULTS, Learned, Tried
 
@@ -70,7 +70,8 @@ def _list_fresh(learned: Learned, page: TerminalPage) -> Iterator[str]:
         return
     count = len(fresh.seeds)
     met = f"{fresh.learned_met} of {count} trials met all constraints, with the defaults {fresh.defaults_met}"
-    yield from page.wrap(f"with the fresh seeds {format_seeds(fresh.seeds)}, {met}", hanging="  ")
+    style: Style = "" if learned.is_confirmed else "bad"
+    yield from page.wrap(f"with the fresh seeds {format_seeds(fresh.seeds)}, {met}", style, hanging="  ")
     header = ("", "defaults", "learned", "difference, 95% CI")
     rows = []
     for each in fresh.objectives:

@@ -1,6 +1,6 @@
 """Learn the parameters of skills from trials of a task.
 
-Exit code 3 if nothing better than the defaults was found, or not all was tried.
+Exit code 3 if nothing better than the defaults was found and confirmed, or not all was tried.
 """
 
 from __future__ import annotations
@@ -82,4 +82,4 @@ def command(
         print_json(learned)
     else:
         print_result(format_learned(learned, page_of(sys.stdout)))
-    return 0 if learned.complete and learned.chosen is not None else 3
+    return 0 if learned.complete and learned.is_confirmed else 3

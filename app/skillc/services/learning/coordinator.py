@@ -105,7 +105,7 @@ def learn(request: LearnRequest, watch: StartMonitor, reporter: Reporter) -> Lea
         is_whole = _search(request, subject, study, aim, watch, reporter)
         learned, changes = _conclude(request, subject, study, aim, is_whole)
     if request.spec.apply and is_whole:
-        learned = _apply(learned, changes, reporter)
+        learned = _apply(request, learned, changes, reporter)
     write_file(request.out / CHANGES, learned.diff)
     return learned
 
@@ -162,7 +162,7 @@ def _search(
         with closing(search.run(executor, prepare, request.spec.deadline_s)) as steps:
             for _ in steps:
                 show(_measure_progress(request, study, aim))
-        chosen = results.choose(study, aim, request.spec.take)
+        chosen = results.choose(study.candidates, aim, request.spec.take)
         numbers = () if chosen is None else (DEFAULTS, chosen)
         with Dispatch(executor, prepare, request.spec.deadline_s) as dispatch:
             for _ in try_fresh(study, numbers, _fresh_seeds(request), request.parallel, dispatch):
@@ -178,7 +178,7 @@ def _fresh_seeds(request: LearnRequest) -> tuple[int, ...]:
 
 def _measure_progress(request: LearnRequest, study: Study, aim: Aim) -> Progress:
     means = {number: aim.mean(each.worlds.values()) for number, each in study.candidates.items()}
-    front = (means[number] for number in results.list_front(study, aim))
+    front = (means[number] for number in results.list_front(study.candidates, aim))
     return Progress(
         done=sum(each.verdict is not None for each in study.candidates.values()),
         wanted=request.spec.candidates,
@@ -194,7 +194,7 @@ def _conclude(
 ) -> tuple[Learned, tuple[FileChange, ...]]:
     """Return the result, with the change of the texts, and the run of the best candidate recorded if all is done."""
     assert study.basis is not None
-    chosen = results.choose(study, aim, request.spec.take)
+    chosen = results.choose(study.candidates, aim, request.spec.take)
     known = study.fresh.get(DEFAULTS, {}), study.fresh.get(-1 if chosen is None else chosen, {})
     learned = Learned(
         task=subject.experiment.task,
@@ -204,8 +204,8 @@ def _conclude(
         parameters=study.basis.learnable,
         seeds=tuple(range(request.spec.seed, request.spec.seed + request.spec.trials)),
         wanted=request.spec.candidates,
-        candidates=results.describe_candidates(study, aim),
-        front=results.list_front(study, aim),
+        candidates=results.describe_candidates(study.candidates, study.basis.learnable, aim),
+        front=results.list_front(study.candidates, aim),
         chosen=chosen,
         importances={each.text: study.compute_importances(index) for index, each in enumerate(aim.objectives)},
         fresh=results.compare_fresh(aim, *known),
@@ -247,10 +247,15 @@ def _order(request: LearnRequest, subject: _Subject) -> RunOrder:
     )
 
 
-def _apply(learned: Learned, changes: tuple[FileChange, ...], reporter: Reporter) -> Learned:
+def _apply(request: LearnRequest, learned: Learned, changes: tuple[FileChange, ...], reporter: Reporter) -> Learned:
     """Write the changed texts."""
     if learned.chosen is None:
         raise RequestError("nothing better than the defaults was found: there is nothing to apply")
+    if not learned.is_confirmed and request.spec.take is None:
+        raise RequestError(
+            "fewer fresh trials meet all constraints than with the defaults: it is not applied; "
+            f"--take {learned.chosen} applies it nonetheless"
+        )
     require_own(changes)
     for each in changes:
         rewrite_file(each.path, each.before, each.after)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from statistics import fmean
+from typing import TypeAlias
 
 import msgspec
 
@@ -11,9 +12,11 @@ from skillc.errors import RequestError
 from skillc.services.learning.figures import World
 from skillc.services.learning.parameters import Learnable
 from skillc.services.learning.racing import Aim, Verdict, find_front
-from skillc.services.learning.study import Candidate, Study
+from skillc.services.learning.study import Candidate
 from skillc_runtime.evaluation.trials.confidence import Interval, compute_mean_interval
 
+Candidates: TypeAlias = Mapping[int, Candidate]
+"""The candidates of a study, by number."""
 DEFAULTS = 0
 """The number of the candidate that has the defaults."""
 
@@ -82,37 +85,42 @@ class Learned(msgspec.Struct, frozen=True, kw_only=True):
     applied: bool = False
     recordings: dict[str, str] = {}
 
+    @property
+    def is_confirmed(self) -> bool:
+        """Whether a candidate is proposed with which no fewer fresh trials meet all constraints than with defaults."""
+        return self.chosen is not None and (self.fresh is None or self.fresh.learned_met >= self.fresh.defaults_met)
+
     def candidate(self, number: int) -> Tried:
         """Return a candidate by its number."""
         return next(each for each in self.candidates if each.number == number)
 
 
-def list_measured(study: Study) -> dict[int, Candidate]:
+def list_measured(candidates: Candidates) -> dict[int, Candidate]:
     """Return the candidates that were tried in all worlds and met all constraints, by number."""
-    return {number: each for number, each in study.candidates.items() if each.verdict == "measured"}
+    return {number: each for number, each in candidates.items() if each.verdict == "measured"}
 
 
-def list_front(study: Study, aim: Aim) -> tuple[int, ...]:
+def list_front(candidates: Candidates, aim: Aim) -> tuple[int, ...]:
     """Return the numbers of the measured candidates that no other one dominates."""
-    return find_front(_means(study, aim))
+    return find_front(_means(candidates, aim))
 
 
-def choose(study: Study, aim: Aim, asked: int | None = None) -> int | None:
+def choose(candidates: Candidates, aim: Aim, asked: int | None = None) -> int | None:
     """Return the number of the candidate that is proposed: of the front, that with the least mean of the objectives.
 
     These are differences to the defaults, each as a share of the spread of the measured candidates. Where the defaults
     meet the constraints, only candidates count that are not worse than them in any objective, as long as there are
     such. None if there is no front, or it is the defaults. RequestError for one asked for that was not measured.
     """
-    means = _means(study, aim)
+    means = _means(candidates, aim)
     if asked is not None:
         if asked not in means:
             raise RequestError(f"--take {asked}: there is no such candidate that met all constraints in all trials")
         return asked
     if not means:
         return None
-    same = study.candidates[DEFAULTS].values
-    front = [number for number in find_front(means) if study.candidates[number].values != same]
+    same = candidates[DEFAULTS].values
+    front = [number for number in find_front(means) if candidates[number].values != same]
     if not front:
         return None
     base = means.get(DEFAULTS)
@@ -127,20 +135,19 @@ def choose(study: Study, aim: Aim, asked: int | None = None) -> int | None:
     return best if base is None or not_worse or cost(best) < cost(DEFAULTS) else None
 
 
-def describe_candidates(study: Study, aim: Aim) -> tuple[Tried, ...]:
+def describe_candidates(candidates: Candidates, learnable: Sequence[Learnable], aim: Aim) -> tuple[Tried, ...]:
     """Return the candidates that are tried no more."""
-    assert study.basis is not None
     return tuple(
         Tried(
             number=each.number,
-            values=write_values(study.basis.learnable, each.values),
+            values=write_values(learnable, each.values),
             verdict=each.verdict,
             trials=len(each.worlds),
             objectives=aim.mean(each.worlds.values()),
             violations={name: missed for name, missed in aim.violations(each.worlds.values()).items() if missed},
             failures=tuple(dict.fromkeys(why for world in each.worlds.values() for why in world.failures)),
         )
-        for each in study.candidates.values()
+        for each in candidates.values()
         if each.verdict is not None
     )
 
@@ -174,6 +181,6 @@ def compare_fresh(aim: Aim, defaults: Mapping[int, World], learned: Mapping[int,
     )
 
 
-def _means(study: Study, aim: Aim) -> dict[int, tuple[float, ...]]:
-    found = {number: aim.mean(each.worlds.values()) for number, each in list_measured(study).items()}
+def _means(candidates: Candidates, aim: Aim) -> dict[int, tuple[float, ...]]:
+    found = {number: aim.mean(each.worlds.values()) for number, each in list_measured(candidates).items()}
     return {number: values for number, values in found.items() if values is not None}

@@ -77,7 +77,7 @@ class Search:
 
     def _judge(self, candidate: Candidate) -> None:
         """Tell the study if a candidate is done. The defaults are tried in all worlds: others are compared with it."""
-        measured = [each.worlds for each in list_measured(self.study).values()]
+        measured = [each.worlds for each in list_measured(self.study.candidates).values()]
         verdict = judge(self.aim, candidate.worlds, self.seeds, measured)
         whole = all(seed in candidate.worlds for seed in self.seeds)
         if verdict is None or (candidate.number == DEFAULTS and not whole):
