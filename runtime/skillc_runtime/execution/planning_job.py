@@ -22,12 +22,12 @@ from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.refinement.run_planning import LOOK_S, SpaceLook
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.execution.worker_process import ReportingFunction, Returned, WorkerProcess, WorkerResult
-from skillc_runtime.planning.arrangement import arrange_plan
+from skillc_runtime.planning.arrangement import arrange_followed
 from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.progress import PlanningProgress, ReportProgress
 from skillc_runtime.planning.solve import DEADLINE_S
-from skillc_runtime.planning.validation import PlanError, validate
+from skillc_runtime.planning.validation import PlanError, check_goal_reached, follow_plan
 from skillc_runtime.platforms.processes import DEFAULT_START, StartMethod
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.world_state import WorldState
@@ -129,8 +129,10 @@ def find_arrival_problem(prepared: PreparedTask, library: SkillLibrary, now: Wor
     if planned is not None and isinstance(objective, AchieveGoal) and now is not prepared.assignment.state:
         plan = planned.solved.plan
         try:
-            validate(plan, library, now, objective.goal)
-            arrangement = arrange_plan(plan, *foresee(library, now, objective.goal))
+            foreseen, state = foresee(library, now, objective.goal)
+            worlds = follow_plan(plan, foreseen, state)
+            check_goal_reached(objective.goal, worlds[-1])
+            arrangement = arrange_followed(plan, foreseen, worlds)
         except PlanError as reason:
             return str(reason)
         if build_plan_body(plan, arrangement, library, prepared.space) != prepared.body:

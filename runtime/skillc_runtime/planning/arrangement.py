@@ -13,7 +13,7 @@ from skillc_model.read_write import ReadWriteSet, facts_read
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.plan import Plan, Step
-from skillc_runtime.planning.validation import apply_step, compute_effects
+from skillc_runtime.planning.validation import compute_effects, follow_plan
 from skillc_runtime.planning.world_changes import find_changed_facts, find_settled_facts
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -42,13 +42,28 @@ def arrange_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> Arrang
     deordering without blocks). Steps that the plan keeps apart are in series, too. PlanError if the plan does not work
     from `state`.
     """
-    predecessors = find_predecessors(plan, library, state)
+    library, state = foresee(library, state)
+    return arrange_followed(plan, library, follow_plan(plan, library, state))
+
+
+def arrange_followed(plan: Plan, library: SkillLibrary, worlds: Sequence[WorldState]) -> Arrangement:
+    """Return what `arrange_plan` does of a plan that leads through these worlds, as of `follow_plan`."""
+    predecessors = _find_predecessors(plan, library, worlds)
     return arrange_partial_order(range(len(predecessors)), lambda one, other: one in predecessors[other])
 
 
 def find_predecessors(plan: Plan, library: SkillLibrary, state: WorldState) -> tuple[frozenset[int], ...]:
     """Return for each step the earlier ones that must end first; PlanError if the plan does not work from `state`."""
-    sets = _read_write_sets(plan.steps, *foresee(library, state))
+    library, state = foresee(library, state)
+    return _find_predecessors(plan, library, follow_plan(plan, library, state))
+
+
+def _find_predecessors(plan: Plan, library: SkillLibrary, worlds: Sequence[WorldState]) -> tuple[frozenset[int], ...]:
+    locked = locked_parameters(library)
+    sets = [
+        read_write_set(step, library, locked, before, after)
+        for step, before, after in zip(plan.steps, worlds, worlds[1:], strict=False)
+    ]
     predecessors: list[frozenset[int]] = []
     for late in range(len(sets)):
         direct = [each for each in range(late) if (each, late) in plan.apart or sets[each].conflicts(sets[late])]
@@ -95,16 +110,6 @@ def _connected_components(steps: Iterable[int], linked: Callable[[int, int], boo
         merged = sorted([step, *(each for group in meeting for each in group)])
         groups = [group for group in groups if group not in meeting] + [merged]
     return sorted(groups)
-
-
-def _read_write_sets(steps: Iterable[Step], library: SkillLibrary, state: WorldState) -> list[ReadWriteSet]:
-    locked = locked_parameters(library)
-    found = []
-    for step in steps:
-        after = apply_step(step, library, state)
-        found.append(read_write_set(step, library, locked, state, after))
-        state = after
-    return found
 
 
 def read_write_set(

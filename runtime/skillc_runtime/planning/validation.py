@@ -34,13 +34,18 @@ def validate(plan: Plan, library: SkillLibrary, state: WorldState, goal: Conditi
     implementations can start, if its effects violate an axiom, if a postcondition does not hold after it, or if the
     goal does not hold at the end.
     """
-    library, state = foresee(library, state, goal)
+    return check_goal_reached(goal, follow_plan(plan, *foresee(library, state, goal))[-1])
+
+
+def follow_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> tuple[WorldState, ...]:
+    """Return the world before a plan and after each step; PlanError, which names the step, if one does not work."""
+    worlds = [state]
     for number, step in enumerate(plan.steps, start=1):
         try:
-            state = apply_step(step, library, state)
+            worlds.append(apply_step(step, library, worlds[-1]))
         except PlanError as reason:
             raise PlanError(f"step {number}, {step.skill}: {reason}") from reason
-    return check_goal_reached(goal, state)
+    return tuple(worlds)
 
 
 def check_goal_reached(goal: Condition, state: WorldState) -> WorldState:
