@@ -15,6 +15,10 @@ from skillc.services.reporting import SilentReporter
 from skillc.services.task_loading import load_task
 from skillc_runtime.execution.assignment import PreparedTask, prepare_task
 from skillc_runtime.execution.refinement.run_planning import SpaceLook
+from skillc_runtime.execution.refinement.scope import call_of
+from skillc_runtime.execution.refinement.situation import begin_at_home
+from skillc_runtime.execution.refinement.walk import Scope, Walk
+from skillc_runtime.planning.plan import Step
 from skillc_runtime.recording.run_spec import RunSpec
 
 
@@ -76,6 +80,18 @@ def test_another_place_is_found_for_a_part_in_a_small_bin_and_for_a_base_that_co
     name = write_layout(draw_layout(seed, kind), tmp_path / "drawn")
     with load_task(RunSpec(task=name), SilentReporter()) as task:
         assert look(task) == ("yes", "")
+
+
+@pytest.mark.slow
+def test_what_lies_on_a_part_is_no_reason_to_try_other_postures(tmp_path: Path) -> None:
+    devices = {"arm": "Arm-1", "object": "Part-2", "robot": "Robot-1", "gripper": "Hand-1", "from": "Cell"}
+    pick = Step("Pick", {name: f"http://example.org/lab#{each}" for name, each in devices.items()})
+    with load_task(RunSpec(task=write_layout(draw_layout(5, "stack"), tmp_path / "drawn")), SilentReporter()) as task:
+        walk = Walk(task.library)
+        begin = begin_at_home(task.assignment.state)
+        assert next(walk.go(call_of(pick, task.library), begin, Scope({})), None) is None
+    why = [each.why for each in walk.failures]
+    assert "lab:Part-3 lies on lab:Part-2, which is to be moved" in why and len(why) < 20, "one for each way to pick"
 
 
 @pytest.mark.sim

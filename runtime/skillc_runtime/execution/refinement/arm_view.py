@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import TypeVar
 
 import mujoco
 import numpy as np
@@ -14,7 +15,7 @@ from skillc_runtime.collision.collision_checker import CollisionChecker
 from skillc_runtime.collision.collision_model import ARM, HAND, build_collision_model
 from skillc_runtime.collision.other_arms import read_other_arms
 from skillc_runtime.collision.path_planning import JointSpace
-from skillc_runtime.collision.scenery import read_scenery
+from skillc_runtime.collision.scenery import Scenery, read_scenery
 from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation
 from skillc_runtime.kinematics.chain import Chain, read_chain
 from skillc_runtime.kinematics.sweep import JointLoad
@@ -28,6 +29,11 @@ from skillc_runtime.world.state.world_state import WorldState
 
 ROOM_RAD, ROOM_SHARE = 0.05, 0.1
 """How far joints keep from the ends of their ranges, where they are pushed back; at most this share of their range."""
+
+T = TypeVar("T")
+
+MOST_KEPT = 64
+"""How many models and views of arms are kept, the newest."""
 
 GRAVITY = np.array([0.0, 0.0, -9.81])
 
@@ -67,21 +73,30 @@ class ArmView:
 
 
 def view_arm(here: Situation, arm: str) -> ArmView:
-    """Return an arm in a situation; SheetError or FrameError if facts about it are missing."""
-    state, base = here.state, pose(here.state, arm)
+    """Return an arm in a situation; SheetError or FrameError if facts about it are missing.
+
+    Where only its own posture differs, situations share it but for that.
+    """
     if arm not in here.postures:
-        raise SheetError(f"{state.vocabulary.short(arm)} has no posture `home`")
+        raise SheetError(f"{here.state.vocabulary.short(arm)} has no posture `home`")
+    others = tuple((other, q.tobytes()) for other, q in here.postures.items() if other != arm)
+    key = (here.state, arm, others, tuple(here.openings.items()))
+    view = _recall(here, key, lambda: _read_view(here, arm))
+    return replace(view, q=np.asarray(here.postures[arm], dtype=float))
+
+
+def _read_view(here: Situation, arm: str) -> ArmView:
+    state, base = here.state, pose(here.state, arm)
     assembly = read_arm_assembly(state, arm, dict(here.openings))
     others = read_other_arms(state, arm, base, here.postures, here.openings)
-    model = build_collision_model(assembly, read_scenery(state, base).with_blocks(others))
-    sheet = sheet_of(state, arm)
-    chain = read_chain(model.compiled, f"{ARM}flange" if assembly.hand is None else f"{HAND}tcp")
+    sheet, scenery = sheet_of(state, arm), read_scenery(state, base).with_blocks(others)
+    home = sheet.posture("home")
+    chain, checker = _recall(here, (assembly, scenery), lambda: _read_model(assembly, scenery, home))
     held = _held_tool(state, arm)
     if held is not None:
         chain = chain.with_tool(chain.place_tool(np.zeros(chain.joints)) @ held)
-    limits = model.compiled.jnt_range[: model.joints].copy()
+    limits = checker.model.compiled.jnt_range[: checker.model.joints].copy()
     room = np.minimum(ROOM_RAD, ROOM_SHARE * (limits[:, 1] - limits[:, 0]))
-    home = sheet.posture("home")
     return ArmView(
         arm=arm,
         base=base,
@@ -90,11 +105,31 @@ def view_arm(here: Situation, arm: str) -> ArmView:
         free_range=np.column_stack([limits[:, 0] + room, limits[:, 1] - room]),
         effort=_read_effort(assembly.model),
         home=home,
-        q=np.asarray(here.postures[arm], dtype=float),
-        checker=CollisionChecker(model, home),
+        q=home,
+        checker=checker,
         assembly=assembly,
         movable=frozenset(map(state.vocabulary.short, state.instances(MANIPULATABLE))),
     )
+
+
+def _read_model(assembly: ArmAssembly, scenery: Scenery, home: Array) -> tuple[Chain, CollisionChecker]:
+    """Return the chain of an arm to its hand, and what checks it; home (nv,) in rad."""
+    model = build_collision_model(assembly, scenery)
+    chain = read_chain(model.compiled, f"{ARM}flange" if assembly.hand is None else f"{HAND}tcp")
+    return chain, CollisionChecker(model, home)
+
+
+def _recall(here: Situation, key: Hashable, read: Callable[[], T]) -> T:
+    """Return what was read in a situation that shares its models with this one; else read it."""
+    models = here.models
+    if key in models:
+        found: T = models[key]
+        return found
+    found = read()
+    if len(models) >= MOST_KEPT:
+        del models[next(iter(models))]
+    models[key] = found
+    return found
 
 
 def _held_tool(state: WorldState, arm: str) -> Pose | None:

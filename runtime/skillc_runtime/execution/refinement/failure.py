@@ -28,7 +28,7 @@ class SpaceFailure:
     """Why a primitive does not get what it needs, as a sentence without its subject.
 
     `depth` is how many motions went well before, `within` the calls around it, from the outermost on, which begins at
-    `source`.
+    `source`. If it is `in_any_posture`, it does not go however the arms have come there.
     """
 
     cause: Cause
@@ -36,6 +36,7 @@ class SpaceFailure:
     depth: int = 0
     within: tuple[str, ...] = ()
     source: Position | None = None
+    in_any_posture: bool = False
 
     @property
     def is_in_space(self) -> bool:

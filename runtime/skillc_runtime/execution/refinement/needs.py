@@ -182,7 +182,8 @@ def _hold(need: Hold, here: Situation) -> Outcome:
     above = next(_lying_on(here, need.thing), None)
     if above is not None:
         short = state.vocabulary.short
-        return SpaceFailure("in-the-way", f"{short(above)} lies on {short(need.thing)}, which is to be moved")
+        why = f"{short(above)} lies on {short(need.thing)}, which is to be moved"
+        return SpaceFailure("in-the-way", why, in_any_posture=True)
     in_hand = need.at.inverse() @ pose(state, need.thing)
     held = relocation_changes(state, need.thing, in_hand, frame_name(state, need.gripper))
     sideways = SetProperty(need.thing, HELD_SIDEWAYS, is_sideways(need.at))

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -101,7 +102,7 @@ class Situation:
 
     postures: of arms, (nv,) in rad; openings: of grippers, in m; forces: of tools that press, (3,) in N in the world;
     spreads: offsets (n, 3) in m in the world of tools with a motion that is added; motions, stands, places, ways,
-    drives: all so far.
+    drives: all so far; models: of arms in situations like this one, which share them, by what they depend on.
     """
 
     state: WorldState
@@ -114,6 +115,7 @@ class Situation:
     places: tuple[ChosenPlace, ...] = ()
     ways: tuple[ChosenWay, ...] = ()
     drives: tuple[BaseDrive, ...] = ()
+    models: dict[Hashable, Any] = field(default_factory=dict)
 
     def with_changes(self, changes: tuple[Change, ...] | list[Change]) -> Situation:
         """Return the situation after changes of the world; WorldError if they contradict it.

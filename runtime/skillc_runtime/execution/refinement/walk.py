@@ -52,12 +52,16 @@ class Scope:
 
 @dataclass(slots=True)
 class Walk:
-    """A walk through bodies with a library. `unseen` are the calls of which nobody knows what they need of space."""
+    """A walk through bodies with a library. `unseen` are the calls of which nobody knows what they need of space.
+
+    `stuck_in` is in how many calls the body is in which a call does not go in any posture: no others are tried in it.
+    """
 
     library: SkillLibrary
     left: int = NEEDS
     failures: list[SpaceFailure] = field(default_factory=list)
     unseen: dict[str, None] = field(default_factory=dict)
+    stuck_in: int | None = None
 
     @property
     def furthest(self) -> SpaceFailure | None:
@@ -78,6 +82,7 @@ class Walk:
                 yield from (replace(end, spreads=here.spreads) for end in self._at_once(together, here, scope))
             case tree.Selector(children=children):
                 for child in children:
+                    self.stuck_in = None
                     yield from self.go(child, here, scope)
             case tree.Wait() | tree.WaitUntil() | tree.Check() | tree.Apply():
                 yield here
@@ -100,10 +105,12 @@ class Walk:
                 yield from self.go(node.child, here, scope)
             case tree.Try() | tree.Invert():
                 yield from self.go(node.child, here, scope)
+                self.stuck_in = None
                 yield here
             case tree.While():
                 if self._holds(node.condition, here, scope) is not False:
                     yield from self.go(node.child, here, scope)
+                self.stuck_in = None
                 yield here
             case _:
                 assert_never(node)
@@ -136,6 +143,7 @@ class Walk:
         if holds is not False:
             yield from self.go(node.then, here, scope)
         if holds is not True:
+            self.stuck_in = None
             yield from (here,) if node.orelse is None else self.go(node.orelse, here, scope)
 
     def _for_each(self, node: tree.ForEach, here: Situation, scope: Scope) -> Iterator[Situation]:
@@ -164,6 +172,8 @@ class Walk:
             self._fail(_without_value(why), here, inside)
             return
         for implementation in ranked_implementations(self.library, call.skill, call.implementation):
+            if self.stuck_in is not None:
+                return
             try:
                 bound = bind_implementation(implementation, arguments, here.state)
             except EvaluationError as why:
@@ -181,6 +191,10 @@ class Walk:
         try:
             for there, known in list_values(implementation.lets, here, values):
                 yield from self._run_body(implementation, known, there, scope)
+                if self.stuck_in == len(scope.within) or there is not here:
+                    self.stuck_in = None  # with another grasp or place it may go
+                elif self.stuck_in is not None:
+                    return
         except EvaluationError as why:
             self._fail(_without_value(why), here, scope)
 
@@ -235,6 +249,8 @@ class Walk:
                     self._fail(after, here, scope)
                 else:
                     yield from self._meet_all(needs[1:], after, scope)
+                if self.stuck_in is not None:
+                    return
         except (FrameError, SheetError, WorldError):
             self.unseen[" > ".join(scope.within)] = None
             yield here
@@ -261,6 +277,8 @@ class Walk:
 
     def _fail(self, failure: SpaceFailure, here: Situation, scope: Scope) -> None:
         self.failures.append(replace(failure, depth=len(here.motions), within=scope.within, source=scope.source))
+        if failure.in_any_posture:
+            self.stuck_in = len(scope.within) - 1
 
 
 def _rank(failure: SpaceFailure) -> tuple[bool, int, bool]:
