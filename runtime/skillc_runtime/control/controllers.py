@@ -57,9 +57,9 @@ def make_controllers(
         case ImpedanceGains() as law:
             return _impedance(gains, law, limits, state, period, delay_s)
         case ForwardDynamicsGains() as law:
-            return _forward_dynamics(gains, law, JointLimit(limits, state.q), virtual)
+            return _forward_dynamics(gains, law, JointLimit(limits, state.q), virtual, delay_s)
         case VelocityGains(compliance=law, tracking_rate=rate, tracking_time=lag):
-            return _forward_dynamics(gains, law, SpeedLimit(limits, state.q, rate, lag), virtual)
+            return _forward_dynamics(gains, law, SpeedLimit(limits, state.q, rate, lag), virtual, delay_s)
         case RobotGains():
             joint_limit = JointLimit(limits, state.q)
             return ControllerPair(RobotLaw(joint_limit, state), joint_limit)
@@ -99,6 +99,6 @@ def _impedance(
 
 
 def _forward_dynamics(
-    gains: Gains, law: ForwardDynamicsGains, limit: JointLimit, virtual: mujoco.MjModel
+    gains: Gains, law: ForwardDynamicsGains, limit: JointLimit, virtual: mujoco.MjModel, delay_s: float
 ) -> ControllerPair:
-    return ControllerPair(ForwardDynamics(gains, law, limit, VirtualArm(virtual)), limit)
+    return ControllerPair(ForwardDynamics(gains, law, limit, VirtualArm(virtual), delay_s), limit)

@@ -3,7 +3,8 @@
 w_C = -K sat(e) + W + W_ext;  a = A w_C / T + nu_d / T + a_d;  ddq = H^-1 (J_C^T a - c)
 dq <- g dq + (1 - g) T ddq, g = exp(-h/T);  q <- q + h dq
 Scherzinger, Roennau, Dillmann 2017; gains per second, Coriolis forces c, feed-forward along stiff axes. C: compliance
-frame. Most of the speed beyond the limit of the compliance is removed.
+frame. Along the axis of a push A is less where something stiff is touched, see `contact_stiffness`. Most of the speed
+beyond the limit of the compliance is removed.
 """
 
 from __future__ import annotations
@@ -13,8 +14,15 @@ from math import exp
 
 import numpy as np
 
+from skillc_runtime.control.contact_stiffness import (
+    STIFFNESS,
+    forget_stiffness,
+    identify_stiffness,
+    stiffest_contact,
+)
 from skillc_runtime.control.gains import ForwardDynamicsGains, Gains
 from skillc_runtime.control.limits import COMMANDED, FASTEST, JointLimit, limit_joints
+from skillc_runtime.control.push_memory import FALL_SHARE
 from skillc_runtime.control.task_error import (
     ACCELERATION,
     ERROR,
@@ -42,7 +50,8 @@ class ForwardDynamicsMemory:
     """Parameters and state of the law of one arm, kept between control periods; C is the compliance frame.
 
     dq (nv,): rad/s, of the virtual arm; task: errors along C; limits (9, nv): see `JointLimit`; rate (6,): admittance
-    over its lag, 1/kg and 1/(kg m^2); lag: s; felt (6,): the wrench on the tool, N and N m, base axes.
+    over its lag, 1/kg and 1/(kg m^2); lag: s; felt (6,): the wrench on the tool, N and N m, base axes;
+    contact (4,): see `contact_stiffness`; stiffest: N/m, up to which the rate is not reduced.
     """
 
     dq: OutVector
@@ -51,6 +60,8 @@ class ForwardDynamicsMemory:
     rate: Vector
     lag: float
     felt: OutVector
+    contact: OutVector
+    stiffest: float
 
 
 class ForwardDynamics:
@@ -59,7 +70,9 @@ class ForwardDynamics:
     Arrays are reused. Joints (nv,) in rad and rad/s; the reference is in the base frame.
     """
 
-    def __init__(self, gains: Gains, law: ForwardDynamicsGains, limit: JointLimit, arm: VirtualArm) -> None:
+    def __init__(
+        self, gains: Gains, law: ForwardDynamicsGains, limit: JointLimit, arm: VirtualArm, delay_s: float = 0.0
+    ) -> None:
         self._limit, self._arm = limit, arm
         self._memory = ForwardDynamicsMemory(
             dq=np.zeros(arm.joints),
@@ -68,6 +81,8 @@ class ForwardDynamics:
             rate=np.repeat([law.admittance, law.rotational_admittance], 3) / law.admittance_time,
             lag=law.admittance_time,
             felt=np.zeros(6),
+            contact=np.zeros(4),
+            stiffest=stiffest_contact(law.admittance, law.admittance_time, delay_s),
         )
 
     @property
@@ -112,6 +127,26 @@ class ForwardDynamics:
 
 
 @inlined
+def _watch_contact(
+    memory: ForwardDynamicsMemory, virtual: VirtualState, compliance: AppliedCompliance, period: float
+) -> tuple[int, float]:
+    """Return the axis of C along which the tool pushes, -1 for none, and the share of the admittance along it."""
+    rows, axes, velocity, pushed = memory.task.rows, memory.task.axes, np.empty(3), -1
+    for i in range(3):
+        if compliance.wrench[i] != 0.0:
+            pushed = i
+    if pushed < 0:
+        forget_stiffness(memory.contact, 0.0)
+        return pushed, 1.0
+    times(virtual.jacobian[:3], memory.dq, velocity)
+    speed = axes[0, pushed] * velocity[0] + axes[1, pushed] * velocity[1] + axes[2, pushed] * velocity[2]
+    approach = abs(compliance.fastest[pushed]) / FALL_SHARE
+    identify_stiffness(memory.contact, speed, rows[MEASURED, pushed], approach, period)
+    stiffness = memory.contact[STIFFNESS]
+    return pushed, memory.stiffest / stiffness if stiffness > memory.stiffest else 1.0
+
+
+@inlined
 def move_virtual_arm(
     memory: ForwardDynamicsMemory,
     virtual: VirtualState,
@@ -129,9 +164,11 @@ def move_virtual_arm(
     dq, rows, axes, lag = memory.dq, memory.task.rows, memory.task.axes, memory.lag
     compute_task_error(memory.task, virtual.tool, reference, compliance, felt)
     push, in_base, torque, ddq = np.empty(6), np.empty(6), np.empty(dq.size), np.empty(dq.size)
+    pushed, reduced = _watch_contact(memory, virtual, compliance, period)
     for i in range(6):
         force = rows[MEASURED, i] + compliance.wrench[i] - compliance.stiffness[i] * rows[ERROR, i]
-        push[i] = memory.rate[i] * force + rows[TWIST, i] / lag + rows[ACCELERATION, i]
+        rate = memory.rate[i] * (reduced if i == pushed else 1.0)
+        push[i] = rate * force + rows[TWIST, i] / lag + rows[ACCELERATION, i]
     for i in range(3):
         push[i] -= BRAKED * speed_excess(lag * push[i], compliance.fastest[i]) / lag
     times(axes, push[:3], in_base[:3])
