@@ -20,6 +20,7 @@ from skillc_runtime.scene.checks.classes import check_class_parents, have_valid_
 from skillc_runtime.scene.checks.identity import IdentityChecker
 from skillc_runtime.scene.checks.ineffective import check_ineffective, check_language_tags, check_missing_classes
 from skillc_runtime.scene.checks.terms import check_spelling
+from skillc_runtime.scene.checks.unread import check_unread
 from skillc_runtime.scene.conversion import name_subjects
 from skillc_runtime.scene.documents import Document, SceneError, parse, unreadable_problem, with_canonical_terms
 from skillc_runtime.scene.interpretation import interpret_table
@@ -209,6 +210,7 @@ def _with_scene_warnings(scene: Scene, written: Sequence[Statement], own: frozen
     vocabulary = scene.state.vocabulary
     identity = IdentityChecker(written, scene.state)
     found = [*identity.check(), *check_missing_classes(written, vocabulary), *check_language_tags(written, vocabulary)]
+    found += check_unread(written, vocabulary)
     found += check_ineffective(written, select_facts(written, vocabulary), vocabulary, own, identity.used)
     return replace(scene, problems=_sort_problems([*scene.problems, *found]))
 
