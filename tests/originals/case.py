@@ -102,7 +102,7 @@ def _try_library(case: Mapping[str, Any], opened: OpenOntologies, work: Path, ro
     found = json.loads(checked.stdout) if checked.stdout else [{"severity": "error", "message": checked.stderr}]
     row.warnings = sum(each["severity"] == "warning" for each in found)
     row.failures += [f"check: {each['message']}" for each in found if each["severity"] == "error"]
-    object_name = opened.vocabulary.short(object_) if "object" in case else "lab:Other"
+    object_name = case.get("object_name", "lab:Other")
     goal = f"<{LAB}One> <{case['relation']}> <{object_}>"
     named = f"lab:One {terms['relation']} {object_name}"
     planned = run(

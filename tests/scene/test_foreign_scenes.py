@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from pathlib import Path
 
 import pyoxigraph as ox
 import pytest
+from click.testing import CliRunner
 from rdflib import Graph
 
+from skillc.cli.main import skillc
 from skillc.services.scene_edit import edit_file
 from skillc_dsl.source import Source
 from skillc_rdf.vocabulary.terms import with_named
@@ -194,3 +197,32 @@ def test_the_same_is_an_error_where_a_skill_reads_it() -> None:
     errors = [each for each in scene.problems if each.severity == "error"]
     assert {each.name for each in errors} >= {"wrong-data-type", "property-domain"}
     assert not any("t:of" in each.message for each in errors)
+
+
+UNITS = """<http://example.org/t> a owl:Ontology . t:Unit a owl:Class . t:Metre a t:Unit . t:Inch a t:Unit .
+t:Length a owl:Class . t:in a owl:ObjectProperty ; rdfs:domain t:Length ; rdfs:range t:Unit .
+"""
+
+
+def test_individuals_of_ontologies_that_a_scene_mentions_are_in_its_world() -> None:
+    units = beside(Source("t.ttl", HEAD + UNITS))
+    assert units.diagnostics == () and units.value.individuals.keys() == {f"{T}Metre", f"{T}Inch"}
+    document = Document("scene.ttl", f"{HEAD}@prefix l: <http://e/l#> . l:Rod a t:Length ; t:in t:Metre .")
+    scene = read_documents([document, *sheet_documents()], units.value)
+    assert scene.problems == ()
+    state = scene.state
+    assert state.types(f"{T}Metre") == {f"{T}Unit"} and f"{T}Inch" not in state.individuals
+    assert state.holds("http://e/l#Rod", f"{T}in", f"{T}Metre")
+
+
+def test_an_individual_of_an_ontology_where_it_does_not_fit_is_an_error_at_the_scene(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("own").mkdir()
+    Path("own/units.ttl").write_text(HEAD + UNITS, "utf-8")
+    said = f"{HEAD}@prefix l: <http://e/l#> .\nl:Bin a skiros:Container ; skiros:contain t:Metre .\n"
+    Path("scene.ttl").write_text(said, "utf-8")
+    result = CliRunner().invoke(skillc, ["world", "scene.ttl", "--ontology", "own"])
+    assert result.exit_code == 1 and "relation-range" in result.stderr
+    assert re.search(r"-> scene.ttl:\d+:\d+", result.stderr) and "ontologies:" not in result.stderr

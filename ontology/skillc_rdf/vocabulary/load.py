@@ -21,7 +21,15 @@ from skillc_rdf.vocabulary.places import TermPositions
 from skillc_rdf.vocabulary.precedence import LISTED, Split, report_ignored, split_statements
 from skillc_rdf.vocabulary.prefixes import choose_prefixes, preferred_prefixes, report_taken_prefixes
 from skillc_rdf.vocabulary.reading import Ontology, read_ontologies
-from skillc_rdf.vocabulary.terms import Terms, find_deprecated, find_idle, make_classes, make_properties, make_relations
+from skillc_rdf.vocabulary.terms import (
+    Terms,
+    find_deprecated,
+    find_idle,
+    find_individuals,
+    make_classes,
+    make_properties,
+    make_relations,
+)
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_rdf.vocabulary.unused import report_missing_imports, report_unused_axioms
 
@@ -43,12 +51,14 @@ def load(sources: Sequence[Source], own: Sequence[Source] = ()) -> Outcome[Vocab
     graph.add(assumed)
     places = TermPositions(each.source for each in (*shipped.value, *theirs.value))
     understood = _vocabulary(graph, places, standing, choose_prefixes(graph, theirs.value, known))
+    counting = (triple for part in parts for triple in part.counting)
+    vocabulary = replace(understood.value, individuals=find_individuals(counting, understood.value))
     problems = (
         *(*shipped.diagnostics, *theirs.diagnostics, *report_taken_prefixes(theirs.value, known)),
         *(*understood.diagnostics, *_undeclared(new, places, understood.value)),
         *_of_files(theirs.value, parts, graph, understood.value),
     )
-    return Outcome(understood.value, problems)
+    return Outcome(vocabulary, problems)
 
 
 def _vocabulary(

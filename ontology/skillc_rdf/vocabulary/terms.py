@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import combinations
 
 import msgspec
@@ -79,6 +79,23 @@ def make_classes(terms: Terms) -> dict[str, ClassTerm]:
         )
         for iri in terms.of(CLASS)
     }
+
+
+def find_individuals(triples: Iterable[ox.Triple], vocabulary: Vocabulary) -> dict[str, tuple[str, ...]]:
+    """Return the individuals that triples say to be of classes of the vocabulary, with these classes, sorted by IRI."""
+    found = defaultdict[str, set[str]](set)
+    for each in triples:
+        subject, cls = each.subject, each.object
+        if each.predicate.value == TYPE and isinstance(subject, ox.NamedNode) and isinstance(cls, ox.NamedNode):
+            named = vocabulary.aliases.get(cls.value, cls.value)
+            if named in vocabulary.classes and not _is_term(subject.value, vocabulary):
+                found[subject.value].add(named)
+    return {iri: tuple(sorted(found[iri])) for iri in sorted(found)}
+
+
+def _is_term(iri: str, vocabulary: Vocabulary) -> bool:
+    terms = (vocabulary.classes, vocabulary.relations, vocabulary.properties, vocabulary.aliases)
+    return any(iri in each for each in terms)
 
 
 def find_idle(terms: Terms, vocabulary: Vocabulary) -> tuple[str, ...]:

@@ -180,7 +180,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     `deprecated` maps deprecated terms to their replacements, "" without one. `symbolic`: worlds of these terms have no
     bodies, so that they need not state what a simulation has to know: sizes, poses and data sheets. `idle` are the
     relations and properties of other ontologies than the shipped ones that no skill reads (`with_named`), sorted:
-    scenes may contradict them.
+    scenes may contradict them. `individuals` are those of these ontologies, such as units, with their classes.
     """
 
     symbolic: bool = False
@@ -192,6 +192,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     properties: dict[str, PropertyTerm] = {}
     functions: dict[str, FunctionTerm] = {}
     idle: tuple[str, ...] = ()
+    individuals: dict[str, tuple[str, ...]] = {}
 
     @cached_property
     def ancestors(self) -> dict[str, frozenset[str]]:

@@ -26,6 +26,7 @@ from skillc_runtime.scene.documents import Document, SceneError, parse, unreadab
 from skillc_runtime.scene.interpretation import interpret_table
 from skillc_runtime.scene.memory import PLACED_BYTES, TooLittleMemory, check_available
 from skillc_runtime.scene.mistakes import LocatedFacts
+from skillc_runtime.scene.ontology_individuals import described_elsewhere, without_elsewhere
 from skillc_runtime.scene.statements import (
     SUBCLASS,
     iri_of,
@@ -139,6 +140,7 @@ def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Sce
     world; templates and annotations are ignored.
     """
     parsed = [parse(document, vocabulary.namespaces) for document in documents]
+    parsed += described_elsewhere(parsed, vocabulary)
     said = [with_canonical_terms(each, vocabulary.aliases) for document in parsed for each in document.statements]
     here = parsed[0].statements[0].lines.path if parsed and parsed[0].statements else ""
     vocabulary = with_prefixes(vocabulary, parsed)
@@ -168,7 +170,8 @@ def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Sce
         scene = _build_scene(clear, vocabulary, [*syntax, *terms], doubtful, partly)
         scene = replace(scene, unfit=tuple(each.statement for each in unfit))
     scene = _with_scene_warnings(scene, written, own)
-    return replace(scene, problems=_sort_problems(name_subjects(scene.problems, said, vocabulary.short)))
+    problems = without_elsewhere(name_subjects(scene.problems, said, vocabulary.short))
+    return replace(scene, problems=_sort_problems(problems))
 
 
 def read_with_sheets(own: Document, vocabulary: Vocabulary) -> Scene:

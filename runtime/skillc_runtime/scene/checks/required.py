@@ -63,9 +63,10 @@ def _required(state: WorldState) -> list[tuple[str, tuple[tuple[str, str], ...]]
     known = state.vocabulary.classes
     by_classes: dict[frozenset[str], tuple[tuple[str, str], ...]] = {}
     for classes in {classes for _, classes in state.classes.items()}:
-        ours = (known[cls] for cls in sorted(classes) if cls in known)
-        by_classes[classes] = tuple((predicate, term.iri) for term in ours for predicate in term.required)
-    return sorted((one, by_classes[classes]) for one, classes in state.classes.items() if by_classes[classes])
+        above = (known[cls] for cls in sorted(classes) if cls in known)
+        by_classes[classes] = tuple((predicate, term.iri) for term in above for predicate in term.required)
+    ours = ((one, classes) for one, classes in state.classes.items() if one not in state.vocabulary.individuals)
+    return sorted((one, by_classes[classes]) for one, classes in ours if by_classes[classes])
 
 
 def _has(state: WorldState, individual: str, predicate: str) -> bool:
