@@ -23,6 +23,7 @@ FILES = (
     ("skillc.toml", "common/skillc.toml.j2"),
     ("{name}.skill", "{template}/library.skill.j2"),
     ("tasks.skill", "{template}/tasks.skill.j2"),
+    ("tests.skill", "{template}/tests.skill.j2"),
     ("cell.ttl", "{template}/cell.ttl.j2"),
     ("tests/test_{name}.py", "common/test_library.py.j2"),
     (".github/workflows/check.yml", "common/check.yml.j2"),
