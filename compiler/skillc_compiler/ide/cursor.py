@@ -14,7 +14,7 @@ from skillc_dsl.parsing.tables import load_tables
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source, Span
 
-_HEAD = re.compile(r"\s*(class|relation|property|function|skill|impl|task)\b|(use|prefix|import)\b")
+_HEAD = re.compile(r"\s*(class|relation|property|function|skill|impl|task|test(?=\s+\w+\s*\{))\b|(use|prefix|import)\b")
 _NUMBER = re.compile(r"(?<!\w)(?<!\w-)(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)(?:[ \t]+|(?=[^\W\d]))([^\W\d][\w/]*)?$")
 _WORD = re.compile(r"(?:[^\W\d]\w*:)?[^\W\d][\w-]*$|[^\W\d]\w*:$|[^\W\d]\w*$")
 _BARE = re.compile(r"[^\W\d]\w*$")

@@ -21,7 +21,7 @@ from skillc_dsl.parsing.token_repairs import join_tokens
 from skillc_dsl.parsing.tokens import Branch, Token, Tree, tokens_in
 from skillc_dsl.source import Source, Span
 
-_LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "___nodes_star")
+_LISTS = ("__start_star", "__skill_star", "__impl_star", "__task_star", "__test_star", "___nodes_star")
 _MOST_STATES = 10 * DEEPEST
 """The maximum size of the parser stack, which bounds the time of recovery."""
 MOST_FAULTS = 200

@@ -15,7 +15,7 @@ from skillc_dsl.encoding import MOST_CHARACTERS
 from skillc_dsl.parsing.parser import MOST_PROBLEMS, parse
 from skillc_dsl.source import Source
 
-_KEYWORDS = "class|relation|property|function|skill|impl|task"
+_KEYWORDS = r"class|relation|property|function|skill|impl|task|test(?=\s+\w+\s*\{)"
 _DECLARATION = re.compile(
     rf"^(?:(?:[ \t]*#[^\n]*\n)++(?:(?P<below>{_KEYWORDS})\b)?|(?P<first>{_KEYWORDS})\b)", re.MULTILINE
 )
