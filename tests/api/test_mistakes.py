@@ -13,7 +13,7 @@ import pytest
 import skillc
 from skillc_ontology import catalogue
 
-BROKEN_SCENE = "@prefix lab: <http://example.org/lab#> .\nlab:A a lab:Nothing .\n"
+BROKEN_SCENE = "@prefix skillc: <https://w3id.org/skillc/core#> .\n<urn:a> a skillc:Nothing .\n"
 
 
 @pytest.fixture(autouse=True)
