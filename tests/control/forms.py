@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 import sys
-from dataclasses import replace
 
 import numpy as np
+from msgspec.structs import replace
 from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
 
 from skillc_runtime.backends.mujoco.wrist import WristFilter, filter_wrist

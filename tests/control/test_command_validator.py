@@ -1,9 +1,8 @@
 """Nothing that is not a number passes the guard, in either direction; the arm then holds."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from rig import HOMES, LAWS, Bench
 
 from skillc_runtime.control.command_validator import CommandValidator

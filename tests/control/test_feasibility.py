@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 import skillc_ontology
 from skillc_runtime.control.feasibility import SlowedTrajectory, slow_to_feasible

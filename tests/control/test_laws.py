@@ -1,10 +1,10 @@
 """Properties of the two laws: what must hold whatever the numbers are."""
 
-from dataclasses import replace
 from typing import get_args
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from rig import GAINS, ROBOTS, Bench, moved_by
 
 from skillc_runtime.control.controller import ControlError

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, is_dataclass, replace
-
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from rig import Bench, moved_by
 
 from skillc_runtime.control.limits import COMMANDED
@@ -24,6 +23,7 @@ from skillc_runtime.control.push_memory import MOST_PUSHES, PHASE, PRESSING
 from skillc_runtime.control.safety import FORCE
 from skillc_runtime.devices.guarded_push import GuardedPush, Travel
 from skillc_runtime.motion.numerics.compiled import COMPILES, bind
+from skillc_runtime.motion.numerics.places import fields_of, is_record
 from skillc_runtime.motion.overlays import Circle, Lissajous
 from skillc_runtime.motion.path import path_through
 from skillc_runtime.motion.pose import exp
@@ -35,16 +35,16 @@ PERIODS = 900
 
 def twin(memory):
     """The same memory elsewhere."""
-    if is_dataclass(memory):
-        return replace(memory, **{each.name: twin(getattr(memory, each.name)) for each in fields(memory)})
+    if is_record(kind := type(memory)):
+        return kind(*(twin(getattr(memory, name)) for name in fields_of(kind)))
     return memory.copy() if isinstance(memory, np.ndarray) else memory
 
 
 def arrays(memory, path=""):
     """All arrays of a memory, with their names."""
-    if is_dataclass(memory):
-        for each in fields(memory):
-            yield from arrays(getattr(memory, each.name), f"{path}.{each.name}")
+    if is_record(type(memory)):
+        for name in fields_of(type(memory)):
+            yield from arrays(getattr(memory, name), f"{path}.{name}")
     elif isinstance(memory, np.ndarray):
         yield path, memory
 

@@ -1,9 +1,8 @@
 """What a controller promises: bounded commands, no jumps, the same at every rate, holding when in doubt."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from rig import GAINS, HOMES, LAWS, ROBOTS, Bench, moved_by
 
 from skillc_runtime.control.controller import ControlError

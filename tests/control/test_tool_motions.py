@@ -1,9 +1,8 @@
 """Arcs, jerk limits and overlays on an arm, and how what does not fit it is told."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from one_arm import ARM, BOARD, OneArm
 from rig import GAINS, HOMES, moved_by
 

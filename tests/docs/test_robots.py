@@ -53,7 +53,9 @@ def test_no_code_and_no_skill_knows_the_last_arm_by_name() -> None:
         for path in (ROOT / folder).rglob("*.py")
         if path.parent.name != "franka" and path.name not in INTERFACES
     ]
-    skills = [path for path in (ROOT / "skills_src").rglob("*.skill") if path.name not in ("tasks.skill", "tests.skill")]
+    skills = [
+        path for path in (ROOT / "skills_src").rglob("*.skill") if path.name not in ("tasks.skill", "tests.skill")
+    ]
     assert len(code) > 500 and len(skills) > 10
     named = re.compile(r"panda(?!s)|franka(?!\s+Control)|\bfr3\b", re.IGNORECASE)
     assert [path for path in (*code, *skills) if named.search(path.read_text("utf-8"))] == []

@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from msgspec import structs
+from msgspec.structs import replace
 
 from skillc.services.planning import FolderPlanCache, plan_goal, prepare_planners
 from skillc.services.reporting import SilentReporter

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import combinations
 from typing import Any, Literal
+
+import msgspec
 
 from skillc_rdf.turtle.terms import OWL, RDF, RDFS, XSD
 
@@ -33,8 +34,7 @@ _EXPECTED = re.compile(r"positives: \[([^\]]*)\]")
 _SAID = re.compile(r'ValidityError\("([^"]*)"')
 
 
-@dataclass(frozen=True, slots=True)
-class OwlSyntax:
+class OwlSyntax(msgspec.Struct, frozen=True):
     """A syntax of OWL, and how py-horned-owl calls it."""
 
     name: str

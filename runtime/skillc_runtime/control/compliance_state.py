@@ -6,7 +6,6 @@ released, so it rotates with the tool.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf
 
 import msgspec
@@ -52,8 +51,7 @@ STIFFNESS_GRAIN, WRENCH_GRAIN = 1e-2, 1e-3
 """Closer to their targets than this, N/m and N m/rad, or N and N m, stiffness and wrench have arrived."""
 
 
-@dataclass(frozen=True, slots=True)
-class ComplianceMemory:
+class ComplianceMemory(msgspec.Struct, frozen=True):
     """What a law uses, as in `Compliance`, and what that follows, with a time constant of command_time s.
 
     exerted (3,): N, along the axes of the reference tool frame; target (2, 6): stiffness and wrench; follows (1,): 0 if

@@ -9,9 +9,9 @@ beyond the limit of the compliance is removed.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import exp
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.control.contact_stiffness import (
@@ -45,8 +45,7 @@ BRAKED = 0.9
 """Share of the excess of the tool's speed that is removed."""
 
 
-@dataclass(frozen=True, slots=True)
-class ForwardDynamicsMemory:
+class ForwardDynamicsMemory(msgspec.Struct, frozen=True):
     """Parameters and state of the law of one arm, kept between control periods; C is the compliance frame.
 
     dq (nv,): rad/s, of the virtual arm; task: errors along C; limits (9, nv): see `JointLimit`; rate (6,): admittance

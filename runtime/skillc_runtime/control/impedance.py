@@ -8,9 +8,9 @@ Albu-Schaeffer et al. 2003, Mayr and Salt-Ducaju 2022; with velocity and acceler
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import sqrt
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.control.damping import BRAKE_RATE, tool_inertia
@@ -52,8 +52,7 @@ FASTEST_DECAY = 1.5
 """Greatest decay rate of damping, times the control period: from 2 on it is unstable."""
 
 
-@dataclass(frozen=True, slots=True)
-class ImpedanceMemory:
+class ImpedanceMemory(msgspec.Struct, frozen=True):
     """Parameters and state of the law of one arm, kept between control periods; C is the compliance frame.
 
     task: errors and forces along C; tool (4, 3): the measured tool centre point in base, position in m, then rotation;

@@ -6,9 +6,9 @@ De Luca et al. 2006, with the mass matrix taken as constant within a window.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import exp
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.arm import ArmState
@@ -30,8 +30,7 @@ MEASURING = 1e-5
 """lam^2 for forces that are averaged: what noise does to them matters less than what damping takes away."""
 
 
-@dataclass(frozen=True, slots=True)
-class ObserverMemory:
+class ObserverMemory(msgspec.Struct, frozen=True):
     """What the observer keeps between control periods, for an arm.
 
     dq, impulse, torque (nv,): rad/s at the start of the window, N m s in it, N m as estimated; elapsed (1,): s of it.

@@ -6,10 +6,10 @@ acts on them. See `driver` for what it does.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf
 from typing import Final
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.control.compliance_state import ComplianceMemory, follow_target
@@ -53,8 +53,7 @@ TOOL_JUMP_M_S = 3.0
 """A tool that seems to move faster was moved on the hand, for example by grasping."""
 
 
-@dataclass(frozen=True, slots=True)
-class ArmMemory:
+class ArmMemory(msgspec.Struct, frozen=True):
     """What is measured of an arm, and what is kept of it between control periods.
 
     holds (nv,): what holds it at its last known position, N m or rad; bias_holds (1,): 1 for the former. place (3,): of
@@ -82,8 +81,7 @@ def begin_period(arm: ArmMemory, now: float) -> int:
     return 0
 
 
-@dataclass(frozen=True, slots=True)
-class ImpedancePeriod:
+class ImpedancePeriod(msgspec.Struct, frozen=True):
     """All that a period under Cartesian impedance works on; pushes (n, m): a row each; tau (nv,): N m, the command."""
 
     arm: ArmMemory
@@ -158,8 +156,7 @@ def control_by_impedance(memory: ImpedancePeriod, now: float) -> int:
     return events
 
 
-@dataclass(frozen=True, slots=True)
-class ForwardDynamicsPeriod:
+class ForwardDynamicsPeriod(msgspec.Struct, frozen=True):
     """All that a period of forward-dynamics compliance works on; pushes (n, m): a row each."""
 
     arm: ArmMemory
@@ -192,8 +189,7 @@ def control_by_forward_dynamics(memory: ForwardDynamicsPeriod, now: float) -> in
     return events
 
 
-@dataclass(frozen=True, slots=True)
-class JointPeriod:
+class JointPeriod(msgspec.Struct, frozen=True):
     """All that a period in which the joints are moved works on.
 
     plan: of their reference; limits: of the arm, see `TorqueLimit` and `JointLimit`; torque_rate: N m/s, and tau (nv,):
@@ -262,8 +258,7 @@ def control_joints_by_servos(memory: JointPeriod, now: float) -> int:
     return _end_joints(memory)
 
 
-@dataclass(frozen=True, slots=True)
-class PushPeriod:
+class PushPeriod(msgspec.Struct, frozen=True):
     """All that pushes under any law work on; contact (3,): N, the force on the tool, in base."""
 
     arm: ArmMemory

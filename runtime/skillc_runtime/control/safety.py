@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf, sqrt
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.control.momentum_observer import (
@@ -38,8 +38,7 @@ CHECK_PERIOD_S = 0.005
 """Period with which limits are checked."""
 
 
-@dataclass(frozen=True, slots=True)
-class Workspace:
+class Workspace(msgspec.Struct, frozen=True):
     """A box that the tool must not leave: the pose of its centre in the arm's base frame, its size (3,) in m."""
 
     middle: Pose
@@ -50,8 +49,7 @@ class Workspace:
         return distance_outside(point, self.middle.position, self.middle.rotation, self.size)
 
 
-@dataclass(frozen=True, slots=True)
-class SafetyLimits:
+class SafetyLimits(msgspec.Struct, frozen=True):
     """Limits beyond which an arm is stopped.
 
     contact_force_n: of the tool on its surroundings; collision_torque_n_m: at a joint, explained neither by its motion
@@ -72,8 +70,7 @@ AGE, VIOLATED = 0, 1
 """Entries of `SafetyMemory.clock`: s since the last check, and 1 if a limit was violated then."""
 
 
-@dataclass(frozen=True, slots=True)
-class SafetyMemory:
+class SafetyMemory(msgspec.Struct, frozen=True):
     """The limits of one arm, and what is kept between control periods.
 
     limits (8,), clock (2,): see above; middle (3,), axes (3, 3), size (3,): of the workspace, in m, in base.

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 
 from skillc_runtime.control.momentum_observer import ObserverMemory
@@ -47,8 +46,7 @@ SUM, LATE = 8, 11
 """Where in `SignalMemory.wrench` the force of the wrist is added up, N s, and where it is as late as an observer, N."""
 
 
-@dataclass(frozen=True, slots=True)
-class SignalMemory:
+class SignalMemory(msgspec.Struct, frozen=True):
     """What is kept of the signals of an arm.
 
     joints (11, nv), numbers (13,), facts (5,): see above; wrench (14,): measured before, N and N m, the squares of

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import sqrt
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.motion.arrays import OutMatrix
@@ -20,8 +20,7 @@ ERROR, TWIST, ACCELERATION, MEASURED, HELD, SOFTNESS, EXERTED, DAMPING, BRAKING 
 """Rows of `TaskError.rows`."""
 
 
-@dataclass(frozen=True, slots=True)
-class TaskError:
+class TaskError(msgspec.Struct, frozen=True):
     """Errors, velocities and forces along the axes of the compliance frame C.
 
     axes (3, 3): C in base. rows (9, 6), each [linear; angular]: ERROR, tool minus reference, m and rad, clamped in

@@ -9,9 +9,9 @@ of a circle of 15 mm, compared with 1.4 %. Without Coriolis forces the mean forc
 from __future__ import annotations
 
 from copy import deepcopy
-from dataclasses import dataclass
 from pathlib import Path
 
+import msgspec
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -51,8 +51,7 @@ def _concentrate(body: mujoco.MjsBody, mass: float, inertia: float) -> None:
     body.ipos, body.iquat = np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])
 
 
-@dataclass(frozen=True, slots=True)
-class VirtualState:
+class VirtualState(msgspec.Struct, frozen=True):
     """Pose and dynamics of a virtual arm, in the arm's base frame; the arrays change with the arm.
 
     tool: the tool centre point; jacobian (6, nv): [linear m; angular rad] per rad; inertia (nv, nv): kg m^2, may be

@@ -6,10 +6,10 @@ M = sum m J_v^T J_v + I J_w^T J_w;  c = sum m J_v^T a + I J_w^T alpha, a and alp
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import cos, sin
 from typing import Any
 
+import msgspec
 import mujoco
 import numpy as np
 
@@ -32,8 +32,7 @@ POSITION, SPIN, TURNING, PULL = 0, 1, 2, 3
 """Rows of the motion of a body: position in m, angular velocity in rad/s, angular acceleration, acceleration."""
 
 
-@dataclass(frozen=True, slots=True)
-class VirtualChain:
+class VirtualChain(msgspec.Struct, frozen=True):
     """A tree of bodies with joints, one a row, parents first; body 0 is the base. The tool is the origin of the last.
 
     moved (n, nv): 1 where a joint moves a body. axes, anchors (nv, 3): in base, written by `compute_virtual`.

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias, TypeVar, assert_never
+
+import msgspec
 
 from skillc_runtime.motion.arrays import Matrix, Vector
 from skillc_runtime.motion.pose import Array, Pose
 
 
-@dataclass(frozen=True, slots=True)
-class ArmState:
+class ArmState(msgspec.Struct, frozen=True):
     """The measurements of an arm at one instant, in the arm's base frame, at the tool centre point.
 
     q, dq (nv,): rad, rad/s. tool: tool centre point in base. jacobian (6, nv): [linear m; angular rad] per rad.
@@ -29,22 +29,19 @@ class ArmState:
     effort: Vector
 
 
-@dataclass(frozen=True, slots=True)
-class Torque:
+class Torque(msgspec.Struct, frozen=True):
     """Joint torques (nv,) in N m, including gravity compensation."""
 
     tau: Array
 
 
-@dataclass(frozen=True, slots=True)
-class JointPosition:
+class JointPosition(msgspec.Struct, frozen=True):
     """Joint positions (nv,) in rad for the arm's own servos."""
 
     q: Array
 
 
-@dataclass(frozen=True, slots=True)
-class JointVelocity:
+class JointVelocity(msgspec.Struct, frozen=True):
     """Joint speeds (nv,) in rad/s for the arm's own servos."""
 
     dq: Array
@@ -84,8 +81,7 @@ class NotOffered(Exception):
     """A device cannot do what is asked for, and stays as it is; the message says why."""
 
 
-@dataclass(frozen=True, slots=True)
-class ArmLoad:
+class ArmLoad(msgspec.Struct, frozen=True):
     """What an arm's hand holds: its mass in kg, with its centre (3,) in m in its own frame, which is at `held`.
 
     tool: the tool centre point then. Both poses are in the frame of the tool centre point of the empty hand.
@@ -97,8 +93,7 @@ class ArmLoad:
     tool: Pose
 
 
-@dataclass(frozen=True, slots=True)
-class ArmLimits:
+class ArmLimits(msgspec.Struct, frozen=True):
     """Limits of joints: range (nv, 2) rad, velocity (nv,) rad/s, effort (nv,) N m, acceleration (nv,) rad/s^2.
 
     The acceleration is infinite if it is not known.
@@ -110,8 +105,7 @@ class ArmLimits:
     acceleration: Vector
 
 
-@dataclass(frozen=True, slots=True)
-class Capabilities:
+class Capabilities(msgspec.Struct, frozen=True):
     """The modes of an arm, whether it measures the wrench at its tool and the effort of its motors, and its limits.
 
     never_repeats: whether what it measures is never exactly the same twice while it moves or is loaded otherwise.

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Protocol
+
+import msgspec
 
 from skillc_runtime.devices.arm import ArmLimits
 from skillc_runtime.devices.guarded_push import GuardedPush, PushProgress
@@ -29,8 +30,7 @@ class Infeasible(ValueError):
         return Infeasible, (self.problem, self.place)
 
 
-@dataclass(frozen=True, slots=True)
-class TaskLimits:
+class TaskLimits(msgspec.Struct, frozen=True):
     """Limits of skills: force N, speed m/s and acceleration m/s^2 of the tool, jerk m/s^3 of motions."""
 
     force_n: float
@@ -86,8 +86,7 @@ class ArmMeasurements(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class ToolMotion:
+class ToolMotion(msgspec.Struct, frozen=True):
     """A motion of the tool, in the arm's base frame, that the arm can follow.
 
     start (nv,), joints: rad, the joints at its start, and at samples of it.

@@ -5,8 +5,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector
@@ -26,8 +25,7 @@ ENDS, BRAKES = 0, 1
 """Entries of `JointPlan.motion`, s of motion time: when the motion is over, and when the rest of the one before is."""
 
 
-@dataclass(frozen=True, slots=True)
-class JointPlan:
+class JointPlan(msgspec.Struct, frozen=True):
     """All that the reference of some joints depends on, and the samples of the next control periods.
 
     clock (5,): see `TimeScaling`; motion (2,): see above; velocity (nv,): rad/s, with which the motion before came;

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
+from msgspec.structs import replace
 
 from skillc_runtime.motion.joint import JointReference, JointTrajectory
 from skillc_runtime.motion.joint_plan import (

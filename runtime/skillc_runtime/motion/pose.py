@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import atan2, cos, hypot, sin, sqrt
+
+import msgspec
 
 from skillc_runtime.motion.arrays import Array as Array
 from skillc_runtime.motion.arrays import Matrix, Vector, np
 
 
-@dataclass(frozen=True, slots=True)
-class Pose:
+class Pose(msgspec.Struct, frozen=True):
     """A frame in a parent frame: `position` (3,) in m, `rotation` (3, 3), its columns are the axes in the parent."""
 
     position: Vector

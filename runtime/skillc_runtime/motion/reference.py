@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Protocol
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.motion.arrays import Matrix, Vector
@@ -14,8 +15,7 @@ POSITION, ROTATION, TWIST, ACCELERATION = slice(0, 1), slice(1, 4), slice(4, 6),
 """Rows of `Reference.rows`."""
 
 
-@dataclass(frozen=True, slots=True)
-class Reference:
+class Reference(msgspec.Struct, frozen=True):
     """The desired pose, twist and acceleration of the tool centre point, all in the parent frame of the pose.
 
     rows (8, 3): position in m, rotation, twist in m/s and rad/s, acceleration in m/s^2 and rad/s^2; one array, since

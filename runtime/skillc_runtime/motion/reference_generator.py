@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf
 
 import numpy as np
+from msgspec.structs import replace
 
 from skillc_runtime.motion import reference_plan as plans
 from skillc_runtime.motion.numerics.compiled import bind

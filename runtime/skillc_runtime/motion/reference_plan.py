@@ -5,9 +5,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector
@@ -44,8 +44,7 @@ SHIFT_START, SHIFT_WAY, SHIFT_PROFILE, SHIFT_SINCE, SHIFT_NUMBERS = 0, 3, 6, 11,
 NO_TABLE: Array = np.zeros((0, COLUMNS_OF_PATH))
 
 
-@dataclass(frozen=True, slots=True)
-class ReferencePlan:
+class ReferencePlan(msgspec.Struct, frozen=True):
     """All that the reference of a tool depends on, in one frame, and the last sample.
 
     rows, path (8, 3): the sample and the same without overlays and shift, as in `Reference`; rest (8, 3): where the

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import partial
 from math import dist
+
+import msgspec
 
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.gripper import Gripper
@@ -31,8 +32,7 @@ Reading = Callable[[], "str | None"]
 """What a device says against a fact, as text; None while it does not contradict it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Expected:
+class Expected(msgspec.Struct, frozen=True):
     """A fact that a device can contradict, with what reads the device.
 
     Where `also_given` is false, what the scene says of it is not compared: a place need not be where a base stops.

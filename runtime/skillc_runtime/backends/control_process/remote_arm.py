@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from skillc_runtime.backends.control_process.host import ControlProcess
 from skillc_runtime.backends.control_process.remote_compliance import RemoteCompliance

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import mujoco
 
 from skillc_runtime.backends.simulation.machine_code import find_warnings
@@ -32,8 +32,7 @@ class SimulationDiverged(BackendBroken):
     """The physics does not yield usable numbers any more; the message says what diverged, and when."""
 
 
-@dataclass(frozen=True, slots=True)
-class Warnings:
+class Warnings(msgspec.Struct, frozen=True):
     """found (1, n): for each warning of MuJoCo 0, or something else if it was given."""
 
     found: Integers

@@ -11,10 +11,10 @@ where the lever is the greatest distance of anything that a joint moves from it,
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import sqrt
 from typing import Any, Final
 
+import msgspec
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -41,8 +41,7 @@ ANGLE_OF_CHORD: Final = 2.2215
 """An angle between orientations in rad is at most pi / sqrt(2) times the distance of their quaternions."""
 
 
-@dataclass(frozen=True, slots=True)
-class Ways:
+class Ways(msgspec.Struct, frozen=True):
     """Where things are, and where they were at the last look.
 
     joints (n, 5): as of `find_joints`; mocap_levers (n,): m. allowed (1,): m, how far all
@@ -60,8 +59,7 @@ class Ways:
     allowed: OutVector
 
 
-@dataclass(frozen=True, slots=True)
-class Clearances:
+class Clearances(msgspec.Struct, frozen=True):
     """What may touch, and what is left out.
 
     pairs (n, 6): two geoms, their bodies, their contact margin in m, and 1 if the first one is a plane. boxes (ngeom,

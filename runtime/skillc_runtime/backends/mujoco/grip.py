@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf, sqrt
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.backends.mujoco.mirror import Pull, measure_pull
@@ -34,8 +35,7 @@ DUE, SINCE = 0, 1
 """Entries of `Grip.times`, s: of the next check; the start of the present overload, or infinity."""
 
 
-@dataclass(frozen=True, slots=True)
-class Load:
+class Load(msgspec.Struct, frozen=True):
     """The load on a grasp: force (3,), N, between hand and object, in the world; others: see `Grip`.
 
     palm (3, 3): its axes in the world.
@@ -68,8 +68,7 @@ def check_load(load: Load, now: float) -> int:
     return SLIPS if is_overloaded(load, now) else 0
 
 
-@dataclass(frozen=True, slots=True)
-class PulledLoad:
+class PulledLoad(msgspec.Struct, frozen=True):
     """A load whose force is a pull."""
 
     load: Load

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.backends.mujoco.model_map import ModelMap
@@ -13,8 +13,7 @@ from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import inlined
 
 
-@dataclass(frozen=True, slots=True)
-class Held:
+class Held(msgspec.Struct, frozen=True):
     """All bodies that are held, in the tight model, and the degrees of freedom that move them.
 
     chains (n, 3): the place of a body in `bodies`, in this order, a degree of freedom that moves it, and its number in

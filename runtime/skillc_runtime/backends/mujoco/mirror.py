@@ -6,9 +6,9 @@ So all that measures, records, films and saves a cell knows one model only, what
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, Literal
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.backends.mujoco.exchange import (
@@ -32,8 +32,7 @@ from skillc_runtime.motion.numerics.copying import Copies, copy_pieces
 from skillc_runtime.motion.numerics.places import call_entry
 
 
-@dataclass(frozen=True, slots=True)
-class Pull:
+class Pull(msgspec.Struct, frozen=True):
     """The force (3,) in N, world axes, of a hand on what is held, in the step after which it was computed last.
 
     called (1, 3): the addresses of MuJoCo's function, of the model and of its data.
@@ -49,8 +48,7 @@ def measure_pull(pull: Pull) -> None:
     call_entry(pull.called[0, 0], pull.called[0, 1], pull.called[0, 2])
 
 
-@dataclass(frozen=True, slots=True)
-class HalfStep:
+class HalfStep(msgspec.Struct, frozen=True):
     """Half a step of the tight model: what it takes from the free data before, and what it shows there after.
 
     called (3,): the addresses of MuJoCo's function, of the model and of its data, all exact.

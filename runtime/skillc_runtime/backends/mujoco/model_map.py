@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, Literal, assert_never
 
+import msgspec
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -35,8 +35,7 @@ OF_OPTIONS = (
 """What may be changed in a model after it was built."""
 
 
-@dataclass(frozen=True, slots=True)
-class ModelMap:
+class ModelMap(msgspec.Struct, frozen=True):
     """The parts of a model in which things are held (`tight`) by their numbers in the one in which all is free.
 
     bodies, geoms, sites: by number in the free model, the number in the tight one. joints, dofs, coordinates,

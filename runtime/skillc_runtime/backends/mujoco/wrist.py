@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import mujoco
 import numpy as np
 
@@ -21,8 +21,7 @@ MEAN_S = 0.3
 """Time constant of the mean by which a sensor is tared: its noise counts as that of the mean of 0.6 s."""
 
 
-@dataclass(frozen=True, slots=True)
-class WristFilter:
+class WristFilter(msgspec.Struct, frozen=True):
     """The low-pass filter of a sensor.
 
     readings (9,) move by `share` of the difference to the noisy raw ones (9,) in each step, and mean (9,) by

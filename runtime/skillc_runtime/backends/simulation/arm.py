@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
+import msgspec
 import mujoco
 import numpy as np
 
@@ -46,8 +46,7 @@ from skillc_runtime.motion.numerics.program import IDLE, Rows, join, row_of
 from skillc_runtime.motion.pose import Array, Pose
 
 
-@dataclass(frozen=True, slots=True)
-class Payload:
+class Payload(msgspec.Struct, frozen=True):
     """The assumed payload of an arm without its gripper: mass kg, centre of mass (3,) m in the last link's frame."""
 
     mass_kg: float

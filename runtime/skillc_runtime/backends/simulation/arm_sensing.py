@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 
 from skillc_runtime.motion.arrays import Integers, Matrix, OutMatrix, OutVector, Vector
@@ -73,8 +72,7 @@ def compute_wrench(wrench: OutVector, gain: Matrix, readings: Vector, zero: Vect
     transposed_times(axes, at_wrist[3:], wrench[3:])
 
 
-@dataclass(frozen=True, slots=True)
-class ArmSensing:
+class ArmSensing(msgspec.Struct, frozen=True):
     """The inputs and outputs of `measure` for one arm; all arrays are reused or change with the simulation.
 
     Written, in the arm's base frame. joints (6, nv): Q rad, SPEED and BEFORE rad/s, others N m; in_base (8, 3): see
@@ -184,8 +182,7 @@ def add_payload_mass(mass: OutMatrix, lever: Vector, J: Matrix, payload_kg: floa
             mass[i, j] += payload_kg * spun[i, j]
 
 
-@dataclass(frozen=True, slots=True)
-class MassMemory:
+class MassMemory(msgspec.Struct, frozen=True):
     """The mass matrix (nv, nv) of an arm, in kg m^2, and what it is computed from.
 
     whole (n, n): of all joints of the model, of which those of the arm begin at number `first`. compute (m, 4): see

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 
 from skillc_runtime.backends.simulation.base_drive import (
     DURATION,
@@ -32,8 +34,7 @@ NEAR_M = 1e-3
 """Shorter motions, in m or rad, are left out."""
 
 
-@dataclass(frozen=True, slots=True)
-class Leg:
+class Leg(msgspec.Struct, frozen=True):
     """One part of a drive: `profile` along the unit vector `direction` (3,) in the world, or of a rotation.
 
     sign: of the rotation about the vertical; 0 for a straight leg.

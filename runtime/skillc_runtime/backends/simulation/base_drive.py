@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import cos, sin
+
+import msgspec
 
 from skillc_runtime.motion.arrays import OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled
@@ -20,8 +21,7 @@ here on the length, speed, accelerations and rate of a `Profile`."""
 SIZE = PROFILE + 5
 
 
-@dataclass(frozen=True, slots=True)
-class DrivenLeg:
+class DrivenLeg(msgspec.Struct, frozen=True):
     """A leg of a drive, in the world.
 
     leg (SIZE,): see above. start (3,): m; turned (4,): the orientation at its start; along (3,): unit vector of a

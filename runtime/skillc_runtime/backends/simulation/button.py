@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec
@@ -18,8 +18,7 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.data_sheet import SheetError
 
 
-@dataclass(frozen=True, slots=True)
-class ButtonSensor:
+class ButtonSensor(msgspec.Struct, frozen=True):
     """force (1,): N, on a button."""
 
     force: Vector

@@ -7,11 +7,11 @@ whole loop, from a measurement to the effect of what follows from it: for the lo
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import ceil
 from typing import Final
 from zlib import crc32
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
@@ -36,8 +36,7 @@ EARLY_S: Final = 1e-9
 """How much too early a command may arrive: periods add up with rounding errors."""
 
 
-@dataclass(frozen=True, slots=True)
-class CommandLink:
+class CommandLink(msgspec.Struct, frozen=True):
     """The line of one arm.
 
     delay_s, jitter_s, lost: as above, lost being the share of lost commands; period_s: in which one is sent. queue

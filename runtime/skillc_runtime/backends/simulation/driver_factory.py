@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf
 
 from msgspec import structs
@@ -51,7 +50,7 @@ def read_setup(facts: ArmSpec, arm: ModelledArm, period_s: float) -> ArmSetup:
         chosen = read_gains(facts.controller, facts.sheet.number)
     except UnknownController as error:
         raise SheetError(f"{facts.sheet.state.vocabulary.short(facts.individual)}: {error}") from error
-    chosen = structs.replace(chosen, limits=replace(chosen.limits, jerk_m_s3=jerk_limit))
+    chosen = structs.replace(chosen, limits=structs.replace(chosen.limits, jerk_m_s3=jerk_limit))
     _switch_mode(facts, arm, chosen.law)
     virtual, limits = load_virtual_model(facts.model), read_safety_limits(facts)
     return ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.live_base, period_s, limits)

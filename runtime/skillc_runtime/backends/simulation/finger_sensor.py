@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isnan
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.backends.simulation.noise import Noise, make_no_noise
@@ -18,8 +18,7 @@ LAST, NEXT, IS_EXACT, BIAS, PERIOD = range(5)
 without errors; a constant error in m; s, how long a value is valid."""
 
 
-@dataclass(frozen=True, slots=True)
-class Opening:
+class Opening(msgspec.Struct, frozen=True):
     """What is measured of an opening.
 
     values (5,): see above; noise (n, 1): m, the next errors; used (1,): how many of them are used up.

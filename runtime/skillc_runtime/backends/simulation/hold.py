@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import mujoco
 import numpy as np
 
@@ -13,8 +13,7 @@ from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 
 
-@dataclass(frozen=True, slots=True)
-class Hold:
+class Hold(msgspec.Struct, frozen=True):
     """A grasp that does not yield: the gripper's short name, the thing in the palm, and fingers in their parents.
 
     fingers: by name of the body in the model.

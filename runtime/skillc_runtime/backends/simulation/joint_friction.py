@@ -13,10 +13,10 @@ Measurement, IROS 2008.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import exp, inf
 from typing import Final
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.backends.simulation.motors import Joints
@@ -44,8 +44,7 @@ DAMPING_S: Final = 0.001
 """Damping of the bristles, in multiples of their stiffness."""
 
 
-@dataclass(frozen=True, slots=True)
-class Friction:
+class Friction(msgspec.Struct, frozen=True):
     """The friction of an arm's joints, (nv,) in N m, rad and rad/s.
 
     applied: torques on the joints, the friction included. added: 1 if motors write them in each step, so that the

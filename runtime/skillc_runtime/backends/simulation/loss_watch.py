@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from skillc_runtime.backends.simulation.finger_sensor import LAST, Opening, measure
 from skillc_runtime.devices.gripper import CLOSED_FURTHER_M
@@ -13,8 +13,7 @@ COUNTS, HELD_AT = 0, 1
 """Entries of `LossWatch.held`: 1 while something counts as held; the measured opening in m when it began to."""
 
 
-@dataclass(frozen=True, slots=True)
-class LossWatch:
+class LossWatch(msgspec.Struct, frozen=True):
     """What tells of a loss: `sensor`; opening (1,): the true one in m; held (2,): see above.
 
     step_s: how much later than at the beginning of a step the opening is measured.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import msgspec
 
 from skillc_runtime.backends.simulation.command_link import CommandLink, send
 from skillc_runtime.motion.arrays import OutVector, Vector
@@ -33,8 +33,7 @@ def update_targets(
             control[j] = q[j]
 
 
-@dataclass(frozen=True, slots=True)
-class MotorMemory:
+class MotorMemory(msgspec.Struct, frozen=True):
     """What the motors of an arm work on in each step; (nv,) in rad, rad/s, N m.
 
     counts (2,): see above; longest: the greatest number of steps without a command. control, applied: written to the
@@ -95,8 +94,7 @@ def pursue(motors: MotorMemory, now: float) -> int:
     return 0
 
 
-@dataclass(frozen=True, slots=True)
-class Taking:
+class Taking(msgspec.Struct, frozen=True):
     """How motors take the commands of a law: its values (nv,), and where they are put; steps: that they last."""
 
     values: Vector
@@ -113,8 +111,7 @@ def take_command(taking: Taking, now: float) -> int:
     return 0
 
 
-@dataclass(frozen=True, slots=True)
-class LateTaking:
+class LateTaking(msgspec.Struct, frozen=True):
     """How motors take commands that a line brings; see `Taking`."""
 
     taking: Taking

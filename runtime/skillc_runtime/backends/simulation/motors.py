@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 from math import ceil
 from typing import ClassVar, Final
 
@@ -184,8 +183,7 @@ class TorqueMotors(Motors):
         np.clip(joints.control, -joints.effort, joints.effort, out=joints.control)
 
 
-@dataclass(frozen=True, slots=True)
-class ServoGains:
+class ServoGains(msgspec.Struct, frozen=True):
     """Of position servos, (nv,): stiffness N m/rad, damping N m s/rad."""
 
     stiffness: Vector

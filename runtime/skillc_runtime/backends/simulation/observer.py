@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import sqrt
 from typing import Any
 
@@ -48,8 +47,7 @@ def update_peak(force: Array, square: Array) -> None:
     square[0] = max(square[0], force[0] * force[0] + force[1] * force[1] + force[2] * force[2])
 
 
-@dataclass(frozen=True, slots=True)
-class ObservedTool:
+class ObservedTool(msgspec.Struct, frozen=True):
     """What is observed of a tool in each step: force (3,): N, the sum of contact forces, and the greatest square of its
     length, square (1,). steps (1,): how many there were.
     """
@@ -76,8 +74,7 @@ def is_due(steps: Array) -> bool:
     return bool((steps[0] - 1.0) % STEPS_PER_UPDATE == 0.0)
 
 
-@dataclass(frozen=True, slots=True)
-class PressedSurface:
+class PressedSurface(msgspec.Struct, frozen=True):
     """A surface that a tool may be pressed on.
 
     force (3,): N, of the tool on it; normal (3,), in the world; least_n: from where on the tool works; world: in the

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import inf, sqrt
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.backends.simulation.arm import ModelledArm
@@ -38,8 +38,7 @@ YIELDS_SINCE, THERE_SINCE, HAS_LET_GO, STEPS = range(4)
 person has let go; steps in which they guided."""
 
 
-@dataclass(frozen=True, slots=True)
-class PersonMemory:
+class PersonMemory(msgspec.Struct, frozen=True):
     """What a person feels, knows and does.
 
     stiffness (6,): N/m and N m/rad, that the arm is to have; tool: in base, and its velocity (3,) in m/s; base: in the

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import Recording
@@ -20,8 +19,7 @@ COLUMNS = 25
 normal force on a surface."""
 
 
-@dataclass(frozen=True, slots=True)
-class RecordedSteps:
+class RecordedSteps(msgspec.Struct, frozen=True):
     """rows (n, 12), of which `count` (1,) are filled; truth (11,): what is recorded, as of the last step."""
 
     rows: OutMatrix
@@ -41,8 +39,7 @@ def record(steps: RecordedSteps, time: float) -> bool:
     return True
 
 
-@dataclass(frozen=True, slots=True)
-class SampledReference:
+class SampledReference(msgspec.Struct, frozen=True):
     """A reference and where it is sampled.
 
     rows, path (8, 3): of the tool, in base, with and without overlays; base: in the world; greatest (1,): the force on

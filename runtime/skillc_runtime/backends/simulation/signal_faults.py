@@ -6,10 +6,10 @@ wrongly, the tool centre point follows from what is measured, to first order.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf
 from typing import Final, Literal, TypeAlias, get_args
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.arm import ArmState
@@ -33,8 +33,7 @@ DROPPED_S, BETWEEN_S = 0.06, 0.5
 """How long an intermittent signal stays as it is, and after which time it does so again, in s."""
 
 
-@dataclass(frozen=True, slots=True)
-class SignalFault:
+class SignalFault(msgspec.Struct, frozen=True):
     """A fault of the signals of an arm from `starts_s` on, by the clock of the cell; `joint` where it is one joint's.
 
     stays_s: for how long the signals are wrong, again and again every `BETWEEN_S` if they are intermittent.

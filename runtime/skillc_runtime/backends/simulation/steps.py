@@ -7,9 +7,9 @@ to the last bit. What else there is to be done, the function only says, in bits;
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from itertools import accumulate
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.motion.arrays import Vector
@@ -58,8 +58,7 @@ class OnMemory:
         return False
 
 
-@dataclass(frozen=True, slots=True)
-class Due:
+class Due(msgspec.Struct, frozen=True):
     """When something has to be done next: due (1,), s."""
 
     due: Vector

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -42,8 +43,7 @@ COUNT, TOUCHED = range(2)
 """Entries of `ContactWatch.last`: contacts at the last look, 1 if something counted."""
 
 
-@dataclass(frozen=True, slots=True)
-class ContactWatch:
+class ContactWatch(msgspec.Struct, frozen=True):
     """counts (1, 1): the number of contacts in the lower 32 bits; last (2,): see above.
 
     geoms (n, m): as of `find_geoms`, a row for each contact; seen (n, 2): those of the last look.

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+import msgspec
 
 from skillc_rdf.vocabulary.types import Position
 
@@ -23,8 +24,7 @@ Cause: TypeAlias = Literal[
 After `no-value` nobody knows: it depends on a value that the world model does not have yet."""
 
 
-@dataclass(frozen=True, slots=True)
-class SpaceFailure:
+class SpaceFailure(msgspec.Struct, frozen=True):
     """Why a primitive does not get what it needs, as a sentence without its subject.
 
     `depth` is how many motions went well before, `within` the calls around it, from the outermost on, which begins at

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 
 import msgspec
 
@@ -20,8 +19,7 @@ from skillc_runtime.world.state.world_state import WorldState
 _ENCODER = msgspec.msgpack.Encoder(order="deterministic")
 
 
-@dataclass(frozen=True, slots=True)
-class LookMemory:
+class LookMemory(msgspec.Struct, frozen=True):
     """Keeps looks in a store; `around` identifies what they depend on that neither library nor facts have.
 
     That are the programs, the models of devices, and the Python files of the library's own primitives.

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
+
+import msgspec
 
 from skillc_model.skills import SkillLibrary
 from skillc_model.tree import Node
@@ -39,8 +40,7 @@ Postures: TypeAlias = Mapping[str, tuple[float, ...]]
 """The joints (nv,) of arms in rad, by IRI."""
 
 
-@dataclass(frozen=True, slots=True)
-class SpaceLook:
+class SpaceLook(msgspec.Struct, frozen=True):
     """How plans are looked at: from where the arms are, None for all at home, and where is kept what was found."""
 
     postures: Postures | None = None

@@ -10,6 +10,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias, assert_never
 
+from msgspec import structs
+
 from skillc_model import tree
 from skillc_model.conditions import Condition
 from skillc_model.skills import Compound, Declared, Implementation, Primitive, SkillLibrary
@@ -276,7 +278,9 @@ class Walk:
             return None
 
     def _fail(self, failure: SpaceFailure, here: Situation, scope: Scope) -> None:
-        self.failures.append(replace(failure, depth=len(here.motions), within=scope.within, source=scope.source))
+        self.failures.append(
+            structs.replace(failure, depth=len(here.motions), within=scope.within, source=scope.source)
+        )
         if failure.in_any_posture:
             self.stuck_in = len(scope.within) - 1
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import is_dataclass
 from typing import Any
 
 from llvmlite import ir
@@ -20,7 +19,7 @@ from skillc_runtime.motion.numerics.objects import (
     define_take_array,
     raise_error,
 )
-from skillc_runtime.motion.numerics.places import ROW, count_rows, is_integral, is_on_memory, list_leaves
+from skillc_runtime.motion.numerics.places import ROW, count_rows, is_integral, is_on_memory, is_record, list_leaves
 
 BIT, BYTE, SHORT = ir.IntType(1), ir.IntType(8), ir.IntType(32)
 
@@ -111,7 +110,7 @@ class _Callers:
             return api.long_as_longlong(next(objects))
         if kind is bool:
             return builder.icmp_signed("!=", api.object_istrue(next(objects)), SHORT(0))
-        if is_dataclass(kind):
+        if is_record(kind):
             return self._make_table(builder, kind, objects)
         place, array = builder.alloca(INTEGER, ROW), type_of(kind)
         self._place(builder, kind, next(objects), place)
@@ -119,7 +118,7 @@ class _Callers:
         return view_place(self._context, builder, array, address, sizes)
 
     def _make_table(self, builder: Any, kind: Any, objects: Iterator[Any]) -> Any:
-        """Return a table of the arrays of a dataclass, which lasts as long as the call."""
+        """Return a table of the arrays of a struct, which lasts as long as the call."""
         table = builder.alloca(INTEGER, ROW * count_rows(kind))
         for number, (_, annotation) in enumerate(list_leaves("", kind)):
             row = builder.gep(table, [INTEGER(ROW * number)])

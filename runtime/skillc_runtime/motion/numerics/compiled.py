@@ -13,7 +13,6 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import is_dataclass
 from functools import cache, partial, update_wrapper
 from importlib import import_module
 from importlib.util import find_spec
@@ -24,7 +23,7 @@ from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.numerics.code_key import CALLABLE, key_of
 from skillc_runtime.motion.numerics.machine_code import MachineCode, link, load_stored, store_code
-from skillc_runtime.motion.numerics.places import find_place, list_arrays, list_leaves
+from skillc_runtime.motion.numerics.places import find_place, is_record, list_arrays, list_leaves
 
 Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
@@ -105,8 +104,8 @@ class _Compiled(partial[Any]):
 def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     """Compile a function for the types of its annotations: those of `arrays`, numbers, bool, and tuples as a result.
 
-    Arguments are passed by position. Parameters may be dataclasses whose fields have these types or are such
-    dataclasses; fields are read-only, the contents of arrays are not. If only the first parameter is one, it is memory:
+    Arguments are passed by position. Parameters may be structs, or dataclasses, whose fields have these types or
+    are such; fields are read-only, the contents of arrays are not. If only the first parameter is one, it is memory:
     all arrays there are in C order, and the function may be called as `bind` returns it, which costs less. Functions
     that it calls are `compiled` or `inlined` themselves, for the types that it passes.
     """
@@ -135,10 +134,10 @@ def inlined(function: Callable[Parameters, Result]) -> Callable[Parameters, Resu
 
 
 def bind(function: Callable[Concatenate[First, Parameters], Result], first: First) -> Bound[Parameters, Result]:
-    """Return the function with its first parameter fixed: a dataclass whose arrays keep their places in memory.
+    """Return the function with its first parameter fixed: a struct whose arrays keep their places in memory.
 
     A compiled function gets the places of all arrays in one table, so that a call costs the same with any number of
-    them. Numbers in the dataclass are read once, here.
+    them. Numbers in the struct are read once, here.
     """
     if not isinstance(function, _Compiled):
         return _BoundFunction(function, first)
@@ -214,10 +213,10 @@ def _without_collection() -> Iterator[None]:
 
 
 def _flattening(function: Callable[..., Any], call: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function that passes the fields of dataclasses one by one to machine code."""
+    """Return a function that passes the fields of structs one by one to machine code."""
     annotations = get_annotations(function, eval_str=True)
     del annotations["return"]
-    if not any(map(is_dataclass, annotations.values())):
+    if not any(map(is_record, annotations.values())):
         return call
     leaves = [path for name, annotation in annotations.items() for path, _ in list_leaves(name, annotation)]
     names: dict[str, Any] = {"call": call}

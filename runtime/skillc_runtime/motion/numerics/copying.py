@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass
 from typing import Final
+
+import msgspec
 
 from skillc_runtime.motion.arrays import Matrix
 from skillc_runtime.motion.numerics.compiled import inlined
@@ -14,8 +15,7 @@ MEMMOVE: Final = float(ctypes.cast(ctypes.memmove, ctypes.c_void_p).value or 0)
 """The address of C's function in this process."""
 
 
-@dataclass(frozen=True, slots=True)
-class Copies:
+class Copies(msgspec.Struct, frozen=True):
     """Pieces of memory, one a row: address to copy to, address to copy from, and how many bytes; all are exact."""
 
     pieces: Matrix

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
+
+import msgspec
 
 from skillc_dsl.cache import cache_folder, delete_oldest, load, store
 from skillc_runtime.motion.arrays import np
@@ -34,8 +35,7 @@ class _Method(ctypes.Structure):
     )  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class MachineCode:
+class MachineCode(msgspec.Struct, frozen=True):
     """What is loaded of a function: built-in functions of Python, of which `bound` needs memory, and the address of the
     C function; None without one."""
 

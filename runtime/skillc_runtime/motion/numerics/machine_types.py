@@ -1,11 +1,10 @@
-"""Types of machine code: a dataclass is one pointer into the table of its places; its fields are found while compiling.
+"""Types of machine code: a struct is one pointer into the table of its places; its fields are found while compiling.
 
 Numba is needed here.
 """
 
 from __future__ import annotations
 
-from dataclasses import is_dataclass
 from itertools import takewhile
 from typing import Any, get_args, get_origin
 
@@ -15,14 +14,14 @@ from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, inf
 from numba.extending import lower_builtin, lower_getattr_generic, models, register_model
 from numba.np.arrayobj import make_array, populate_array
 
-from skillc_runtime.motion.numerics.places import ROW, call_entry, count_rows, fields_of, is_integral
+from skillc_runtime.motion.numerics.places import ROW, call_entry, count_rows, fields_of, is_integral, is_record
 
 INTEGER, NUMBER = ir.IntType(64), ir.DoubleType()
 TABLE = INTEGER.as_pointer()
 
 
 class Memory(types.Type):  # type: ignore[misc]
-    """A dataclass as a table of the places of its arrays, which are all in C order unless it is strided."""
+    """A struct as a table of the places of its arrays, which are all in C order unless it is strided."""
 
     def __init__(self, kind: type, is_strided: bool) -> None:
         self.kind, self.is_strided = kind, is_strided
@@ -36,9 +35,8 @@ class _MemoryModel(models.PrimitiveModel):  # type: ignore[misc]
 
 
 def type_of(annotation: Any, is_strided: bool = False) -> Any:
-    """Return numba's type for an annotation of a parameter or a result; a dataclass may be strided."""
-    if is_dataclass(annotation):
-        assert isinstance(annotation, type)
+    """Return numba's type for an annotation of a parameter or a result; a struct may be strided."""
+    if is_record(annotation):
         return Memory(annotation, is_strided)
     if annotation in (float, int, bool, None):
         return {float: types.float64, int: types.int64, bool: types.boolean, None: types.void}[annotation]

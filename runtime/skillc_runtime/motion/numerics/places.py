@@ -4,35 +4,40 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from ctypes import CFUNCTYPE, c_bool, c_double, c_int64
-from dataclasses import fields, is_dataclass
+from dataclasses import is_dataclass
 from functools import cache
 from typing import Any, get_type_hints
+
+from msgspec import Struct
 
 from skillc_runtime.motion.arrays import Array, np
 
 
+def is_record(annotation: Any) -> bool:
+    """Tell whether an annotation is a struct or a dataclass: its fields are passed, one by one."""
+    return isinstance(annotation, type) and (issubclass(annotation, Struct) or is_dataclass(annotation))
+
+
 @cache
-def fields_of(kind: type) -> dict[str, Any]:
-    """Return the annotations of the fields of a dataclass, in their order."""
+def fields_of(kind: Any) -> dict[str, Any]:
+    """Return the annotations of the fields of a struct or a dataclass, in their order."""
     hints = get_type_hints(kind, include_extras=True)
-    return {field.name: hints[field.name] for field in fields(kind)}
+    return {name: hints[name] for name in kind.__match_args__}
 
 
 @cache
 def count_rows(annotation: Any) -> int:
     """Return how many rows of a table a parameter takes: one for each array or number."""
-    if not is_dataclass(annotation):
+    if not is_record(annotation):
         return 1
-    assert isinstance(annotation, type)
     return sum(count_rows(each) for each in fields_of(annotation).values())
 
 
 def list_leaves(path: str, annotation: Any) -> Iterator[tuple[str, Any]]:
     """Yield the expressions of all arrays and numbers of a parameter with their annotations, in the order of rows."""
-    if not is_dataclass(annotation):
+    if not is_record(annotation):
         yield path, annotation
         return
-    assert isinstance(annotation, type)
     for name, each in fields_of(annotation).items():
         yield from list_leaves(f"{path}.{name}", each)
 
@@ -53,13 +58,13 @@ def find_place(array: Array) -> tuple[int, int, int, int, int]:
 
 
 def is_on_memory(annotations: Iterable[Any]) -> bool:
-    """Tell whether a function works on memory: only its first parameter is a dataclass."""
-    are_memory = [is_dataclass(each) for each in annotations]
+    """Tell whether a function works on memory: only its first parameter is a struct."""
+    are_memory = [is_record(each) for each in annotations]
     return are_memory[:1] == [True] and not any(are_memory[1:])
 
 
 def list_arrays(memory: Any) -> list[Array]:
-    """Return the arrays (n,) or (n, m) in any unit of a dataclass, and of those in it, in the order of rows.
+    """Return the arrays (n,) or (n, m) in any unit of a struct, and of those in it, in the order of rows.
 
     Numbers are copied into new ones.
 
@@ -69,7 +74,7 @@ def list_arrays(memory: Any) -> list[Array]:
     kind: type = type(memory)
     for name, annotation in fields_of(kind).items():
         value = getattr(memory, name)
-        if is_dataclass(annotation):
+        if is_record(annotation):
             found.extend(list_arrays(value))
             continue
         array = value if isinstance(value, np.ndarray) else np.asarray(value, np.float64)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Protocol, TypeAlias
+
+import msgspec
 
 from skillc_runtime.motion.arrays import Integers, OutVector
 from skillc_runtime.motion.numerics.compiled import Bound, compiled
@@ -55,8 +56,7 @@ def join(*found: Rows | None) -> Rows | None:
     return sum(known, IDLE) if len(known) == len(found) else None
 
 
-@dataclass(frozen=True, slots=True)
-class Program:
+class Program(msgspec.Struct, frozen=True):
     """C functions (n, 3), a row each, that all run in each step: the address of a function and two arguments.
 
     With one argument, the address of its memory, it is called with the time in s as well, and returns what has happened

@@ -6,9 +6,9 @@ The loop of the cell only copies memory. What the copies mean is worked out in t
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from skillc_runtime.devices.live import LiveArm, LiveSignals, Places
@@ -29,8 +29,7 @@ POSES_S = 0.04
 """The time between two samples of the poses of all bodies, in s of the cell: that of the pictures of a film."""
 
 
-@dataclass(frozen=True, slots=True)
-class SampledBlock:
+class SampledBlock(msgspec.Struct, frozen=True):
     """Copies of memory: `rows` samples from `first_s` on, in s of the cell; the base of each arm at their end.
 
     `poses` are the positions (n, 3) in m and quaternions (n, 4) of all bodies at times in s.
@@ -50,8 +49,7 @@ ROW, DUE = 0, 1
 """Entries of `TapMemory.counts`: rows that are filled; rows until the poses of bodies are sampled."""
 
 
-@dataclass(frozen=True, slots=True)
-class TapMemory:
+class TapMemory(msgspec.Struct, frozen=True):
     """What a tap copies in machine code: places (n, 2), address and size of arrays, to the next of `rows`.
 
     copying (1, 2): the addresses of C's `memmove`, and of `rows`.
@@ -199,8 +197,7 @@ class SignalTap:
         self._poses.append((now, bodies.positions(), bodies.quaternions()))
 
 
-@dataclass(frozen=True, slots=True)
-class RecordedCell:
+class RecordedCell(msgspec.Struct, frozen=True):
     """What of a cell is recorded: the `signals` of a tap, and what it looks like: an `mujoco.MjModel`, or None."""
 
     tap: SignalTap

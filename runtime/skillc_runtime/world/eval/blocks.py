@@ -8,7 +8,6 @@ by the values that it depends on. So the time grows with the variables that are 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Mapping
-from dataclasses import dataclass
 
 import msgspec
 
@@ -36,8 +35,7 @@ def compile_block(block: Block, compile_condition: Callable[[Condition], Conditi
     return test
 
 
-@dataclass(frozen=True, slots=True)
-class _Part:
+class _Part(msgspec.Struct, frozen=True):
     """The test of a part, and the variables that have to be bound before."""
 
     test: ConditionTest
