@@ -152,7 +152,12 @@ def measurements(count: int) -> list[list[float]]:
         link, base = exp(chance.uniform(-3, 3, 3)), exp(chance.uniform(-3, 3, 3))
         axes, (centre, position, origin, weight) = chance.uniform(-1, 1, (7, 6)), chance.uniform(-1, 1, (4, 3))
         raw, noise, mean = chance.uniform(-20, 20, (3, 9))
-        filter_wrist(WristFilter(readings, mean, raw, noise[None], np.zeros(1), 0.3, 0.01, np.ones(1)), 0.0)
+        grain = chance.uniform(-0.1, 0.2, 9)
+        wrist = WristFilter(
+            readings, readings.copy(), mean, raw, noise[None], np.zeros(1), 0.3, 0.01, np.ones(1), grain, 0.002,
+            np.zeros(1),
+        )  # fmt: skip
+        filter_wrist(wrist, 0.0)
         q, dq, bias, noise = chance.uniform(-1, 1, (4, 7))
         velocity = np.zeros(3)
         sensing = ArmSensing(

@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 from cells import ARM, LAB, SCENES, world
+from hypothesis import given
+from hypothesis import strategies as st
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.mujoco.wrist import make_coupling
+from skillc_runtime.backends.mujoco.wrist import WristFilter, filter_wrist, make_coupling
 from skillc_runtime.backends.simulation.noise import BLOCK, Noise
 from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
 from skillc_runtime.backends.simulation.variation import LEAST_MASS_SHARE, Variation, draw_variation
@@ -107,6 +109,28 @@ def test_drift_goes_on_from_block_to_block() -> None:
         noise.draw()
         samples += noise.rows.tolist()
     np.testing.assert_allclose(samples, [(1.0, 0.5 * number) for number in range(2 * BLOCK)])
+
+
+@given(st.floats(0.01, 2.0), st.floats(0.001, 0.01))
+def test_a_wrist_measures_in_steps_and_only_so_often(grain: float, period_s: float) -> None:
+    """What it measures is a multiple of its resolution, next to what it was when it was measured last."""
+    raw, readings, grains = np.zeros(9), np.zeros(9), np.concatenate([np.full(6, grain), np.zeros(3)])
+    quiet, first = np.zeros((500, 9)), np.zeros(1)
+    wrist = WristFilter(
+        readings, np.zeros(9), np.zeros(9), raw, quiet, np.zeros(1), 1.0, 0.1, first, grains, period_s, np.zeros(1)
+    )
+    measured_s, seen = 0.0, 0
+    for step in range(400):
+        now, before = 0.001 * step, readings.copy()
+        raw[:] = 3.0 * np.sin(20.0 * now + np.arange(9))
+        assert filter_wrist(wrist, now) == 0
+        if not np.array_equal(before, readings):
+            assert step == 0 or now - measured_s >= period_s - 1e-6
+            np.testing.assert_allclose(readings[:6] / grain, np.round(readings[:6] / grain), atol=1e-9)
+            assert np.abs(readings - raw)[:6].max() <= grain / 2 + 1e-9
+            np.testing.assert_allclose(readings[6:], raw[6:], atol=1e-12)
+            measured_s, seen = now, seen + 1
+    assert seen > 0.3 / (period_s + 0.001)
 
 
 def test_coupling_mixes_forces_with_forces_and_torques_with_torques() -> None:

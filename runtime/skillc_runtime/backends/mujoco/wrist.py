@@ -14,7 +14,7 @@ from skillc_runtime.backends.simulation.noise import Noise, make_no_noise
 from skillc_runtime.backends.simulation.steps import OnMemory
 from skillc_runtime.devices.reality import NO_SIZES, Sizes
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
-from skillc_runtime.motion.numerics.compiled import bind, compiled
+from skillc_runtime.motion.numerics.compiled import bind, compiled, inlined
 from skillc_runtime.motion.pose import Array, Pose, skew
 
 MEAN_S = 0.3
@@ -24,12 +24,14 @@ MEAN_S = 0.3
 class WristFilter(msgspec.Struct, frozen=True):
     """The low-pass filter of a sensor.
 
-    readings (9,) move by `share` of the difference to the noisy raw ones (9,) in each step, and mean (9,) by
-    `slow_share` of that to the readings; noise (n, 9), of which `used` (1,) rows are used up; started (1,): 0 before
-    the first sample, which both begin with.
+    filtered (9,) moves by `share` of the difference to the noisy raw ones (9,) in each step, and mean (9,) by
+    `slow_share` of that to the filtered ones; noise (n, 9), of which `used` (1,) rows are used up; started (1,): 0
+    before the first sample, which both begin with. readings (9,) are what it measures of them: anew each `period_s`, in
+    multiples of grain (9,), if that is not 0; due (1,): s, when it does next.
     """
 
     readings: OutVector
+    filtered: OutVector
     mean: OutVector
     raw: Vector
     noise: Matrix
@@ -37,6 +39,20 @@ class WristFilter(msgspec.Struct, frozen=True):
     share: float
     slow_share: float
     started: OutVector
+    grain: Vector
+    period_s: float
+    due: OutVector
+
+
+@inlined
+def _measure(wrist: WristFilter, now: float) -> None:
+    """Measure what is filtered, if it is time for that."""
+    if now < wrist.due[0]:
+        return
+    wrist.due[0] = now + wrist.period_s - 1e-9
+    for i in range(wrist.filtered.size):
+        grain = wrist.grain[i]
+        wrist.readings[i] = grain * round(wrist.filtered[i] / grain) if grain > 0.0 else wrist.filtered[i]
 
 
 @compiled
@@ -44,16 +60,18 @@ def filter_wrist(wrist: WristFilter, now: float) -> int:
     """Filter the readings of one step; return 1, and do nothing, if all noise is used up."""
     if wrist.started[0] == 0.0:
         for i in range(wrist.raw.size):
-            wrist.readings[i] = wrist.mean[i] = wrist.raw[i]
+            wrist.filtered[i] = wrist.mean[i] = wrist.raw[i]
         wrist.started[0] = 1.0
+        _measure(wrist, now)
         return 0
     row = int(wrist.used[0])
     if row == wrist.noise.shape[0]:
         return 1
     wrist.used[0] += 1.0
     for i in range(wrist.raw.size):
-        wrist.readings[i] += wrist.share * (wrist.raw[i] + wrist.noise[row, i] - wrist.readings[i])
-        wrist.mean[i] += wrist.slow_share * (wrist.readings[i] - wrist.mean[i])
+        wrist.filtered[i] += wrist.share * (wrist.raw[i] + wrist.noise[row, i] - wrist.filtered[i])
+        wrist.mean[i] += wrist.slow_share * (wrist.filtered[i] - wrist.mean[i])
+    _measure(wrist, now)
     return 0
 
 
@@ -89,9 +107,13 @@ class Wrist(OnMemory):
         slow_share = 1.0 - math.exp(-model.opt.timestep / MEAN_S)
         self.gain, self.readings, self._noise, self.mean = gain, readings, noise or make_no_noise(9), np.zeros(9)
         raw, rows, used = data.sensordata[first : first + 9], self._noise.rows, self._noise.used
-        super().__init__(
-            bind(filter_wrist, WristFilter(readings, self.mean, raw, rows, used, share, slow_share, np.zeros(1)))
-        )
+        grain, period_s = np.zeros(9), float(sizes.get("forceTorquePeriod", (0.0,))[0])
+        grain[:3], grain[3:6] = sizes.get("forceResolution", 0.0), sizes.get("torqueResolution", 0.0)
+        memory = WristFilter(
+            readings, np.zeros(9), self.mean, raw, rows, used, share, slow_share, np.zeros(1), grain, period_s,
+            np.zeros(1),
+        )  # fmt: skip
+        super().__init__(bind(filter_wrist, memory))
         self._coupling = make_coupling(sizes)
         self._hand_mass, self._hand_centre = _hand(model, part_name(gripper, "palm"))
 
