@@ -12,8 +12,11 @@ from skillc_rdf.vocabulary.types import ClassTerm, Vocabulary
 from skillc_runtime.store.literals import LiteralError, read_literal
 from skillc_runtime.store.triples import CLASS, PREFIX, SUBCLASS, TYPE
 from skillc_runtime.world.state.axiom_violations import axiom_violations
+from skillc_runtime.world.state.bulk import FactTables, build_world_state
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.representatives import satisfies_axioms
 from skillc_runtime.world.state.transactions import StoreError
+from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
 MAX_REPORTED = 5
@@ -36,6 +39,9 @@ def build_world(triples: Iterable[ox.Triple], library: Vocabulary, store: str) -
     own = {iri: ClassTerm(iri=iri, parents=tuple(sorted(parents))) for iri, parents in contents.classes.items()}
     prefixes, classes = {**contents.prefixes, **library.prefixes}, {**own, **library.classes}
     vocabulary = msgspec.structs.replace(library, prefixes=prefixes, classes=classes)
+    state = _build_in_bulk(contents, vocabulary)
+    if state is not None:
+        return state
     problems: list[str] = []
     changes = tuple(_changes(contents, vocabulary, problems))
     state = WorldState.empty(vocabulary).with_changes(changes)
@@ -48,6 +54,33 @@ def build_world(triples: Iterable[ox.Triple], library: Vocabulary, store: str) -
             "Use the library it was filled with, or fill it again with --reset"
         )
     return state
+
+
+def _build_in_bulk(contents: _Contents, vocabulary: Vocabulary) -> WorldState | None:
+    """Return the world of all facts at once; None if something does not fit, which changes one by one say what.
+
+    It is that of the changes, in a quarter of their time.
+    """
+    types, classes = contents.types, vocabulary.ancestors.keys()
+    related: dict[str, list[tuple[str, str]]] = defaultdict(list)
+    valued: dict[str, dict[str, Value | None]] = defaultdict(dict)
+    for subject, relation, object_ in contents.related:
+        if relation not in vocabulary.relations or subject not in types or object_ not in types:
+            return None
+        related[relation].append((subject, object_))
+    for (individual, property_), literals in contents.valued.items():
+        term = vocabulary.properties.get(property_)
+        if term is None or individual not in types:
+            return None
+        try:
+            values = tuple(read_literal(each, term) for each in sorted(literals, key=str))
+        except LiteralError:
+            return None
+        valued[property_][individual] = values[0] if term.functional and len(values) == 1 else values
+    if not all(cls in classes for of in types.values() for cls in of):
+        return None
+    state = build_world_state(vocabulary, FactTables(types, related, valued))
+    return state if satisfies_axioms(state) else None
 
 
 def _sort_triples(triples: Iterable[ox.Triple]) -> _Contents:
