@@ -19,15 +19,19 @@ import pyoxigraph as ox
 from skillc.services import libraries
 from skillc_model.conditions import Condition, HasProperty, Holds, IsA, Variable
 from skillc_model.skills import Parameter, Requirement
-from skillc_rdf.vocabulary.types import ClassType, Position
+from skillc_rdf.vocabulary.types import ClassType, Position, Vocabulary
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_scene, load_sheets, read_documents, sheet_documents
 from skillc_runtime.scene.saving import save_scene
+from skillc_runtime.store.disk import DiskStore
+from skillc_runtime.store.world_from_triples import build_world
+from skillc_runtime.store.world_index import LEAST, read_index, write_index
 from skillc_runtime.world.eval.conditions import compile_condition
 from skillc_runtime.world.eval.inference import Inferred, infer
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.state.elements import find_element
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.transactions import ChangeEvent
 from skillc_runtime.world.state.world_state import WorldState
 
 Result = TypeVar("Result")
@@ -80,11 +84,28 @@ def measured(objects: int) -> dict[str, float]:
         load, state = timed(lambda: load_scene(path, vocabulary))
         found |= {"load s": load, "memory of the world MB": resident() - before}
         found |= reading(state) | writing(WorldModel(state))
+        found |= storing(state, vocabulary, Path(folder))
         found["save s"], _ = timed(lambda: save_scene(state, Path(folder, "saved.ttl"), load_sheets(vocabulary)))
         if objects <= CAREFUL_AT_MOST:
             documents = [Document.read(path), *sheet_documents()]
             found["load, all problems reported s"], _ = timed(lambda: read_documents(documents, vocabulary))
     found["most memory of the process MB"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    return found
+
+
+def storing(state: WorldState, vocabulary: Vocabulary, folder: Path) -> dict[str, float]:
+    """Measure how a store on disk is opened again, from its facts and, if it is large, from its index."""
+    store = DiskStore(folder / "store")
+    store.append(ChangeEvent((), "benchmark", WorldState.empty(vocabulary), state), 0)
+    place = store.find_index()
+    assert place is not None
+    found: dict[str, float] = {}
+    found["open a store from its facts s"], _ = timed(lambda: build_world(store.read().triples, vocabulary, "it"))
+    if len(state.individuals) >= LEAST:
+        found["write the index s"], _ = timed(lambda: write_index(place, vocabulary, state))
+        found["open a store from its index s"], again = timed(lambda: read_index(place, vocabulary))
+        assert again is not None and again.individuals == state.individuals
+    store.close()
     return found
 
 

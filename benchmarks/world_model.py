@@ -22,6 +22,7 @@ Measured: TypeAlias = dict[str, float]
 BOUNDS = (
     ("condition `a contain b` us", 140_000, 5.0),
     ("load s", 140_000, 10.0),
+    ("open a store from its index s", 140_000, 3.0),
     ("most memory of the process MB", 10_000, 1024.0),
 )
 """What must hold, at which size."""

@@ -20,6 +20,7 @@ from skillc_runtime.store.address import without_credentials
 from skillc_runtime.store.opening import OpenStore, open_store
 from skillc_runtime.store.store import StoredWorld
 from skillc_runtime.store.world_from_triples import build_world
+from skillc_runtime.store.world_index import Indexed, IndexPlace, read_index, write_index
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
 from skillc_runtime.world.state.world_state import WorldState
@@ -119,21 +120,41 @@ def _unusable(choice: StoreChoice, error: OSError) -> ServiceError:
 
 
 def _world(store: OpenStore, scene: Path | None, vocabulary: Vocabulary, reporter: Reporter) -> tuple[WorldState, int]:
-    stored = store.read()
-    if not stored.triples:
-        if scene is None:
-            raise ServiceError(f"{store} is empty; name the scene to fill it with")
-        state = load_world(scene, vocabulary, reporter)
-        event = ChangeEvent((), identify_scene(scene), WorldState.empty(vocabulary), state)
-        if store.append(event, stored.sequence):
-            reporter.say(f"{store}: filled with {scene.name}")
-            return state, stored.sequence + 1
+    place = _find_index(store)
+    state = None
+    if place is not None:
+        stored = StoredWorld(place.sequence, place.beginning, ())
+        _compare(stored, scene, store, reporter)
+        state = read_index(place, vocabulary)
+    if place is None or state is None:
         stored = store.read()
-    _compare(stored, scene, store, reporter)
-    state = build_world(stored.triples, vocabulary, str(store))
+        if not stored.triples:
+            if scene is None:
+                raise ServiceError(f"{store} is empty; name the scene to fill it with")
+            state = load_world(scene, vocabulary, reporter)
+            event = ChangeEvent((), identify_scene(scene), WorldState.empty(vocabulary), state)
+            if store.append(event, stored.sequence):
+                _keep_index(_find_index(store), stored.sequence + 1, vocabulary, state)
+                reporter.say(f"{store}: filled with {scene.name}")
+                return state, stored.sequence + 1
+            stored = store.read()
+        if place is None:
+            _compare(stored, scene, store, reporter)
+        state = build_world(stored.triples, vocabulary, str(store))
+        _keep_index(place, stored.sequence, vocabulary, state)
     count = format_count(stored.sequence, "transaction")
     reporter.say(f"{store}: the world after {count}, filled with {_name(stored)}")
     return state, stored.sequence
+
+
+def _find_index(store: OpenStore) -> IndexPlace | None:
+    return store.find_index() if isinstance(store, Indexed) else None
+
+
+def _keep_index(place: IndexPlace | None, sequence: int, vocabulary: Vocabulary, state: WorldState) -> None:
+    """Write the index of a world after a transaction, unless there have been others meanwhile."""
+    if place is not None and place.sequence == sequence:
+        write_index(place, vocabulary, state)
 
 
 def _compare(stored: StoredWorld, scene: Path | None, store: OpenStore, reporter: Reporter) -> None:

@@ -21,10 +21,11 @@ from skillc_runtime.store.owner import StoreOwnership
 from skillc_runtime.store.store import StoredWorld
 from skillc_runtime.store.store_lock import StoreLock
 from skillc_runtime.store.triples import triple_difference
+from skillc_runtime.store.world_index import IndexPlace
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError, Transaction
 
 FORMAT = "skillc store, format 1\n"
-MARK, LOCK, OWNER, JOURNAL, FACTS = "skillc-store", "lock", "owner", "journal", "facts"
+MARK, LOCK, OWNER, JOURNAL, FACTS, INDEX = "skillc-store", "lock", "owner", "journal", "facts", "index"
 
 
 class DiskStore:
@@ -77,6 +78,16 @@ class DiskStore:
             else:
                 triples.pop(triple, None)
         return StoredWorld(entries[-1].sequence, stored.beginning, tuple(triples))
+
+    def find_index(self) -> IndexPlace | None:
+        """Return where the index of the present facts is; None if there are no facts, or later transactions."""
+        if not self._facts.exists():
+            return None
+        head = facts_folder.read_head(self._facts)
+        self._journal.start_after(head.sequence)
+        if self._journal.since(head.sequence):
+            return None
+        return IndexPlace(self._folder / INDEX, head.identity, head.sequence, head.beginning)
 
     def require_writable(self) -> None:
         """Raise StoreError if only somebody else may write to the store."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from collections.abc import Iterable
 from pathlib import Path
+from typing import NamedTuple
 
 import pyoxigraph as ox
 
@@ -42,6 +43,24 @@ def read(folder: Path) -> StoredWorld:
         sequence, beginning = _read_text(store, SEQUENCE), _read_text(store, BEGINNING)
         quads = store.quads_for_pattern(None, None, None, ox.DefaultGraph())
         return StoredWorld(int(sequence), beginning, tuple(quad.triple for quad in quads))
+    except (OSError, RuntimeError, ValueError) as error:
+        raise _damaged(folder, error) from error
+
+
+class FactsHead(NamedTuple):
+    """What identifies a folder with facts among all that were ever made, its last transaction, and its beginning."""
+
+    identity: str
+    sequence: int
+    beginning: str
+
+
+def read_head(folder: Path) -> FactsHead:
+    """Return what identifies the contents of a folder; StoreError when it is damaged."""
+    try:
+        identity = (folder / "IDENTITY").read_text("utf-8").strip()
+        store = ox.Store.read_only(str(folder))
+        return FactsHead(identity, int(_read_text(store, SEQUENCE)), _read_text(store, BEGINNING))
     except (OSError, RuntimeError, ValueError) as error:
         raise _damaged(folder, error) from error
 
