@@ -68,7 +68,7 @@ def _measured(size: int) -> Measured:
 
 def _print_sizes(sizes: dict[int, Measured]) -> None:
     """Print a line for each measurement; the last column is how it grew from the second size to the largest."""
-    names = list(sizes[SIZES[0]])
+    names = list(dict.fromkeys(name for size in SIZES for name in sizes[size]))
     print(f"{'objects':44}" + "".join(f"{size:>10}" for size in SIZES) + f"{'growth':>8}")
     for name in names:
         values = [sizes[size].get(name) for size in SIZES]
