@@ -103,7 +103,7 @@ def test_each_template_is_tested_and_tried_as_its_ci_file_does(template: str, tm
     shell = ["sh", "-ec", life.replace("skillc ", f"{command} ")]
     lived = subprocess.run(shell, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert lived.returncode == 0, lived.stdout + lived.stderr
-    assert "2 of 2 trials passed" in lived.stdout and "3 passed" in lived.stdout
+    assert "2 of 2 trials passed" in lived.stdout and "5 passed" in lived.stdout
     steps = re.findall(r"- run: (.*)", (tmp_path / "my_cell/.github/workflows/check.yml").read_text("utf-8"))
     assert [step for step in steps if step.startswith(("skillc", "pytest"))] == [
         "skillc check --format github",
