@@ -245,7 +245,7 @@ def _build_body(
         case Declared():
             claim = partial(DeclaredRun, context, skill, implementation, frame)
             undo = scope.undo if skill.scoped else None
-            return PrimitiveNode(context, implementation.source, DeclaredRun.__name__, claim, undo)
+            return PrimitiveNode(context, implementation.source, skill.name, claim, undo)
         case _:
             assert_never(implementation.body)
 
