@@ -5,10 +5,12 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from skillc_runtime.motion.numerics import code_key
 from skillc_runtime.motion.numerics.code_key import CALLABLE, key_of
 from skillc_runtime.motion.numerics.compiled import COMPILES
 
@@ -76,7 +78,12 @@ def test_names_depend_on_all_that_is_called(monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setitem(CALLABLE, scaled, None)
     monkeypatch.setitem(CALLABLE, twice, None)
     monkeypatch.setattr(sys.modules[__name__], "FACTOR", 2.0)
-    name = key_of.__wrapped__
+
+    def name(function: Callable[[float], float]) -> str:
+        """Return the name in another process, in which nothing was read before."""
+        code_key._describe.cache_clear()
+        return key_of.__wrapped__(function)
+
     before, other = name(twice), name(scaled)
     assert before == name(twice) != other
     monkeypatch.setattr(sys.modules[__name__], "FACTOR", 3.0)

@@ -26,44 +26,57 @@ def key_of(function: Callable[..., Any]) -> str:
     digest = sha256(_environment())
     for name, annotation in get_annotations(function, eval_str=True).items():
         digest.update(repr(list(list_leaves(name, annotation))).encode())
+    assert isinstance(function, FunctionType)
     _add(digest, function, set())
     return f"{function.__name__}_{digest.hexdigest()[:24]}"
 
 
 @cache
 def _environment() -> bytes:
-    """Return what machine code depends on beside the function: versions, the processor, and how it is made."""
+    """Return a digest of what machine code depends on beside the function: versions, the processor, how it is made."""
     llvm: Any = import_module("llvmlite.binding")
     numba = find_spec("numba")
     assert numba is not None and numba.origin is not None
-    return repr(
+    found = repr(
         (
             sys.version, np.__version__, llvm.llvm_version_info, llvm.get_process_triple(), llvm.get_host_cpu_name(),
             llvm.get_host_cpu_features().flatten(), Path(numba.origin).with_name("_version.py").read_bytes(),
             *(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py"))),
         )
-    ).encode()  # fmt: skip
+    )  # fmt: skip
+    return sha256(found.encode()).digest()
 
 
-def _add(digest: Any, value: Any, seen: set[object]) -> None:
-    """Add to a digest a function with all that it refers to by name, or the name or value of anything else."""
-    function = getattr(value, "__wrapped__", value)
-    if not isinstance(function, FunctionType) or function not in CALLABLE:
-        digest.update(getattr(value, "__qualname__", repr(value)).encode())
-        return
+def _add(digest: Any, function: FunctionType, seen: set[FunctionType]) -> None:
+    """Add to a digest a function with all that it refers to."""
     if function in seen:
         return
     seen.add(function)
+    own, called = _describe(function)
+    digest.update(own)
+    for each in called:
+        _add(digest, each, seen)
+
+
+@cache
+def _describe(function: FunctionType) -> tuple[bytes, tuple[FunctionType, ...]]:
+    """Return the code of a function with the names or values of what it refers to, and the functions that it calls."""
     cells = {name: cell.cell_contents for name, cell in zip(
         function.__code__.co_freevars, function.__closure__ or (), strict=True
     )}  # fmt: skip
-    names = {**function.__globals__, **cells}
+    names, called = {**function.__globals__, **cells}, list[FunctionType]()
+    own = sha256()
     for code in _parts(function.__code__):
-        digest.update(code.co_code + repr((code.co_names, code.co_varnames, code.co_freevars)).encode())
-        digest.update(repr([each for each in code.co_consts if not isinstance(each, CodeType)]).encode())
+        own.update(code.co_code + repr((code.co_names, code.co_varnames, code.co_freevars)).encode())
+        own.update(repr([each for each in code.co_consts if not isinstance(each, CodeType)]).encode())
         for name in code.co_names + code.co_freevars:
             if name in names:
-                _add(digest, names[name], seen)
+                value = getattr(names[name], "__wrapped__", names[name])
+                if isinstance(value, FunctionType) and value in CALLABLE:
+                    called.append(value)
+                else:
+                    own.update(getattr(names[name], "__qualname__", repr(names[name])).encode())
+    return own.digest(), tuple(called)
 
 
 def _parts(code: CodeType) -> Iterator[CodeType]:
