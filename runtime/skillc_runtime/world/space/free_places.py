@@ -14,11 +14,12 @@ from skillc_runtime.world.space.no_place import NEAR_BASE_M, REACH_SHARE, Lack, 
 from skillc_runtime.world.space.occupants import Occupant, read_occupants
 from skillc_runtime.world.space.overhead import HAND_ABOVE_M, roof_problem
 from skillc_runtime.world.space.place_sampling import PITCH_M, choose_pitch_m, interleave, spread_out
+from skillc_runtime.world.space.reach import hand_length_m
 from skillc_runtime.world.space.supports import Support, face_away, find_supports, name_support, tilt_problem
 from skillc_runtime.world.state.data_sheet import sheet_of
 from skillc_runtime.world.state.world_state import WorldState
 
-OF_ROOM: tuple[Lack, ...] = ("room", "free room", "clearance")
+OF_ROOM: tuple[Lack, ...] = ("room", "free room", "clearance", "reach")
 """Of what there may be enough if the hand takes less room."""
 
 GAP_M = 0.01
@@ -121,9 +122,13 @@ def _list_free(
         return roof
     sheet, base = sheet_of(state, arm), pose(state, arm)
     reach_m, shoulder = sheet.number("reach"), base.apply(np.array([0.0, 0.0, sheet.number("shoulderHeight")]))
+    flange = np.array([0.0, 0.0, -hand_length_m(state, arm)])
+
+    def distance_m(hand: Pose) -> float:
+        return float(min(np.linalg.norm(hand.position - shoulder), np.linalg.norm(hand.apply(flange) - shoulder)))
 
     def is_in_reach(hand: Pose, share: float = REACH_SHARE) -> bool:
-        far_m = float(np.linalg.norm(hand.position - shoulder))
+        far_m = distance_m(hand) if share == 1.0 else float(np.linalg.norm(hand.position - shoulder))
         return far_m < share * reach_m and np.hypot(*(hand.position - base.position)[:2]) > NEAR_BASE_M
 
     def list_from(first: Pose, share: float) -> Iterator[Pose]:
@@ -144,7 +149,7 @@ def _list_free(
             return list_from(first, REACH_SHARE)
         if farther is None and is_in_reach(first, 1.0):
             farther = first
-        distances_m.append(float(np.linalg.norm(first.position - shoulder)))
+        distances_m.append(distance_m(first))
     if farther is not None:
         return list_from(farther, 1.0)
     room = WantedRoom(state, support, np.ptp(load.corners, axis=0)[:2], _needed(support, load))

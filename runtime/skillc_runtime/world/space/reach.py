@@ -42,10 +42,10 @@ def read_reach(state: WorldState, arm: str, base: Pose) -> Reach:
         reach_m, height_m = sheet.number("reach"), sheet.number("shoulderHeight")
     except SheetError as error:
         raise InsufficientFacts(str(error)) from error
-    return Reach(arm, reach_m + _hand_length_m(state, arm), base.apply(np.array([0.0, 0.0, height_m])))
+    return Reach(arm, reach_m + hand_length_m(state, arm), base.apply(np.array([0.0, 0.0, height_m])))
 
 
-def _hand_length_m(state: WorldState, arm: str) -> float:
+def hand_length_m(state: WorldState, arm: str) -> float:
     """Return how far the tool centre point of the longest hand of an arm is from the flange, in m; 0 if unknown."""
     sheets = (sheet for hand in state.objects(arm, HAS_GRIPPER) for sheet in state.objects(hand, HAS_SHEET))
     return max((number_of(state, each, HAND_LENGTH, default=0.0) for each in sheets), default=0.0)
