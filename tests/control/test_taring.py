@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from skillc_runtime.backends.mujoco.wrist import MEAN_S
 from skillc_runtime.control.taring import (
     CAUTION,
     GREATEST_ERROR_N,
@@ -17,6 +18,7 @@ from skillc_runtime.control.taring import (
     LEAST_N,
     LEAST_N_M,
     PATIENCE_S,
+    REST_AFTER_CONTACT_S,
     REST_S,
     Taring,
 )
@@ -76,6 +78,16 @@ def test_it_is_tared_once_it_has_rested(hand: Hand) -> None:
 def test_a_contact_and_noise_are_not_subtracted(hand: Hand) -> None:
     assert wait(Taring(hand), hand) == pytest.approx(REST_S, abs=2 * TICK_S)
     assert hand.tared == []
+
+
+def test_a_wrist_that_has_felt_a_contact_rests_longer() -> None:
+    """Its mean forgets the greatest force that an arm may push with down to what is subtracted."""
+    hand = feel(3.0)
+    taring, waited = Taring(hand), 0
+    while not taring.tare(waited * TICK_S, has_touched=True):
+        waited += 1
+    assert waited * TICK_S == pytest.approx(REST_AFTER_CONTACT_S, abs=2 * TICK_S)
+    assert 50.0 * np.exp(-REST_AFTER_CONTACT_S / MEAN_S) < LEAST_N
 
 
 def test_an_arm_that_never_rests_is_not_waited_for_for_ever() -> None:

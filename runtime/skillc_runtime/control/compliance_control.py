@@ -96,7 +96,7 @@ class ComplianceControl:
                 for each in pressing:
                     self._lift(each.push, RETARE_M)
         elif tool.compliance.held:
-            if not tool.lifting(now) and taring.tare(now):
+            if not tool.lifting(now) and taring.tare(now, has_touched=True):
                 self._approach_again()
         else:
             self._retares = any((each.pressed_s or 0.0) < SETTLED_S for each in self.active_pushes)

@@ -23,6 +23,9 @@ from skillc_runtime.motion.pose import Array
 REST_S = 0.9
 """How long an arm rests before it is tared, three time constants of the mean, in s."""
 
+REST_AFTER_CONTACT_S = 1.8
+"""The same where its wrist has felt a contact, six time constants: 50 N in the mean become 0.12 N."""
+
 PATIENCE_S = 3.0
 """After this time without rest, in s, it is not tared."""
 
@@ -64,8 +67,11 @@ class Taring:
         """Whether the arm feels forces that can be 0."""
         return self._arm.mean_wrench is not None or self.impulse is not None
 
-    def tare(self, now: float) -> bool:
-        """Tare at `now` s if the arm feels forces and has rested; return whether nothing is left to be waited for."""
+    def tare(self, now: float, has_touched: bool = False) -> bool:
+        """Tare at `now` s if the arm feels forces and has rested; return whether nothing is left to be waited for.
+
+        has_touched: whether the tool was taken off something just before.
+        """
         if not self.is_possible:
             return True
         if self._begun is None:
@@ -74,7 +80,8 @@ class Taring:
             self._rested, self._count = now, 0
         elif self.impulse is not None:
             self._correct(self.impulse)
-        has_rested = now - self._rested >= REST_S
+        forgets = has_touched and self._arm.mean_wrench is not None
+        has_rested = now - self._rested >= (REST_AFTER_CONTACT_S if forgets else REST_S)
         if not has_rested and now - self._begun < PATIENCE_S:
             return False
         if has_rested:
