@@ -24,6 +24,16 @@ def test_a_board_is_wiped_as_well_as_by_an_ideal_arm(reality: str) -> None:
     assert try_task("clean_whiteboard", reality, 2)["passed"] == 2
 
 
+@pytest.mark.parametrize("task", ["clean_table", "clean_desk"])
+def test_arms_that_take_torques_wipe_with_typical_imperfections(task: str) -> None:
+    """Friction of several N m, 2 % of their weight and a delay of 6 ms; the mean force is off by less than 5 %."""
+    for trial in try_task(task, "typical", 2)["trials"]:
+        assert trial["status"] == "succeeded", trial
+        (work,) = (each["wiping"] for each in trial["works"])
+        assert work["force_mean_n"] == pytest.approx(work["force_command_n"], rel=0.05)
+        assert work["tilt_rms_deg"] < 3.0
+
+
 def test_no_imperfection_costs_honesty() -> None:
     """With all of them together an arm may fail; it says so, and what is said to be clean is clean."""
     for trial in try_task("clean_whiteboard", "typical", 2)["trials"]:

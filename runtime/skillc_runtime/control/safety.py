@@ -66,14 +66,15 @@ class SafetyLimits(msgspec.Struct, frozen=True):
 FORCE, TORQUE, SPEED, TAKES_TORQUES, MEASURES_EFFORT, OBSERVES, FEELS_FORCE, IN_SPACE = range(8)
 """Entries of `SafetyMemory.limits`: the limits in N, N m and m/s, and what the arm is like, 0 or 1."""
 
-AGE, VIOLATED = 0, 1
-"""Entries of `SafetyMemory.clock`: s since the last check, and 1 if a limit was violated then."""
+AGE, VIOLATED, BEGUN = 0, 1, 2
+"""Entries of `SafetyMemory.clock`: s since the last check, 1 if a limit was violated then, and 1 from the second period
+on: the effort that is measured first is of no period."""
 
 
 class SafetyMemory(msgspec.Struct, frozen=True):
     """The limits of one arm, and what is kept between control periods.
 
-    limits (8,), clock (2,): see above; middle (3,), axes (3, 3), size (3,): of the workspace, in m, in base.
+    limits (8,), clock (3,): see above; middle (3,), axes (3, 3), size (3,): of the workspace, in m, in base.
     """
 
     limits: OutVector
@@ -89,10 +90,13 @@ class SafetyMemory(msgspec.Struct, frozen=True):
 def check_limits(memory: SafetyMemory, state: ArmState, period: float) -> bool:
     """Observe momentum; tell once per violation that a limit is violated. To be called every `period` s."""
     limits, clock = memory.limits, memory.clock
-    if limits[OBSERVES] != 0.0:
+    if limits[MEASURES_EFFORT] != 0.0 and clock[BEGUN] == 0.0:
+        copy_vector(state.dq, memory.observer.dq)
+    elif limits[OBSERVES] != 0.0:
         if limits[MEASURES_EFFORT] != 0.0:
             add_impulse(memory.observer.impulse, state.effort, state.bias, period)
         observe_momentum(memory.observer, state, period)
+    clock[BEGUN] = 1.0
     clock[AGE] += period
     if clock[AGE] < CHECK_PERIOD_S:
         return False
@@ -142,7 +146,7 @@ class SafetyMonitor:
         signals.facts[COMMANDED] = self._takes_torques
         signals.facts[COMPARES] = able.feels_force and self._measures_effort
         self.memory = SafetyMemory(
-            np.zeros(8), np.zeros(3), np.eye(3), np.zeros(3), np.zeros(2), observer.memory, signals
+            np.zeros(8), np.zeros(3), np.eye(3), np.zeros(3), np.zeros(3), observer.memory, signals
         )
         self.limits = limits
 
