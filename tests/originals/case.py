@@ -128,10 +128,10 @@ def _try_scene(original: Path, ontology: Path, work: Path, row: Row) -> None:
         row.failures.append(f"{original.name}: {_errors(loaded)}")
         return
     row.loaded += 1
-    subject = next(iter(Graph().parse(scene, format="turtle", publicID="file:///scene").subjects(unique=True)))
-    if isinstance(subject, URIRef):
-        edit = f'<{subject}> <{RDFS.label}> "{NOTE}" .'
-        _edit(scene, edit, (subject, RDFS.label, NOTE), work, row)
+    graph = Graph().parse(scene, format="turtle", publicID="file:///scene")
+    subject = min(each for each in graph.subjects(unique=True) if isinstance(each, URIRef))
+    edit = f'<{subject}> <{RDFS.label}> "{NOTE}" .'
+    _edit(scene, edit, (subject, RDFS.label, NOTE), work, row)
 
 
 def _edit(scene: Path, edit: str, added: tuple[Any, Any, Any], work: Path, row: Row) -> None:
