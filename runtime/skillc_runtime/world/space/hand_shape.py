@@ -59,10 +59,13 @@ class HandShape(msgspec.Struct, frozen=True):
         return max(self.finger_width_m, self.palm_thickness_m) / 2
 
     def boxes(self, tool: Pose, opening_m: float, before_m: float) -> Iterator[OrientedBox]:
-        """Yield the room of palm and open fingers that come to a pose in the world from `before_m` before it."""
-        palm, finger = np.array([self.palm_thickness_m, self.palm_width_m]) / 2, self.finger_width_m / 2
+        """Yield the room of palm and open fingers that come to a pose in the world from `before_m` before it.
+
+        Of the fingers it is wider by what things may overlap: beside them nothing is known to touch.
+        """
+        palm, finger = np.array([self.palm_thickness_m, self.palm_width_m]) / 2, self.finger_width_m / 2 + SLACK_M
         yield _box(tool, (-palm[0], -palm[1], -self.depth_m - before_m), (palm[0], palm[1], -self.depth_m))
-        near, far = opening_m / 2, opening_m / 2 + self.finger_thickness_m
+        near, far = opening_m / 2, opening_m / 2 + self.finger_thickness_m + SLACK_M
         for low, high in ((-far, -near), (near, far)):
             yield _box(tool, (-finger, low, -self.depth_m - before_m), (finger, high, self.tip_m))
 
