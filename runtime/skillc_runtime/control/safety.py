@@ -92,6 +92,7 @@ def check_limits(memory: SafetyMemory, state: ArmState, period: float) -> bool:
     limits, clock = memory.limits, memory.clock
     if limits[MEASURES_EFFORT] != 0.0 and clock[BEGUN] == 0.0:
         copy_vector(state.dq, memory.observer.dq)
+        memory.observer.elapsed[0] += period  # windows end when limits are checked
     elif limits[OBSERVES] != 0.0:
         if limits[MEASURES_EFFORT] != 0.0:
             add_impulse(memory.observer.impulse, state.effort, state.bias, period)
