@@ -187,7 +187,8 @@ clean:           ## remove the environment and all output
 
 # Compile what the tests import, and the control laws, once, on all cores; otherwise each test process does it. Some
 # files need another Python; a quarter of all are tests of the packages, which nobody imports.
-LAWS := import skillc_runtime.backends.kinematic.cell, skillc_runtime.backends.mujoco.cell; \
+LAWS := import skillc_runtime.backends.kinematic.cell, skillc_runtime.backends.mujoco.cell, \
+    skillc_runtime.kinematics.sweep, skillc_runtime.recording.mcap.signal_tap; \
     from skillc_runtime.motion.numerics.compiled import compile_imported; compile_imported()
 .venv/.dev: .venv/.runtime
 	$(INSTALL) -e '.[all,docs,dev]'
