@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import ExitStack
-from dataclasses import fields
 from typing import Any, get_args
 
 import numpy as np
@@ -70,7 +69,7 @@ def press(backend: Backend, force_n: float) -> Array:
 @pytest.mark.slow
 def test_nobody_can_change_what_was_measured(backend: Backend) -> None:
     state = backend.arm.state()
-    arrays = [state.tool.position, state.tool.rotation, *(getattr(state, f.name) for f in fields(state))]
+    arrays = [state.tool.position, state.tool.rotation, *(getattr(state, name) for name in state.__struct_fields__)]
     assert not any(array.flags.writeable for array in arrays if isinstance(array, np.ndarray))
     q = backend.driver.measured.q
     q += 1.0

@@ -79,7 +79,7 @@ WAYS = {
     "box far away": Way(
         BOX_PLACE,
         "skillc:on lab:Cell ; skillc:atX 0.5 ; skillc:atY 1.5 .",
-        "no free place on lab:Box-1 is within the 0.82 m that lab:Arm-1 reaches: the nearest is 1.79 m",
+        "no free place on lab:Box-1 is within the 0.82 m that lab:Arm-1 reaches: the nearest is 1.71 m",
     ),
     "full box": Way(
         "lab:Part-2 a", BRICK, "lab:Box-1 is full: no place of 50 x 40 mm is free beside lab:Brick", "failed"

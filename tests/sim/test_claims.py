@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from math import inf
 
 import pytest
 from msgspec.structs import replace
@@ -75,7 +76,8 @@ def stiff(facts: SceneSpec, seed: int) -> Variation:
     return replace(drawn, pad_share=dict.fromkeys(drawn.pad_share, 7.0))
 
 
-def test_a_pad_that_bounces_is_felt_and_the_wipe_fails() -> None:
+def test_a_pad_that_bounces_is_felt_and_the_wipe_fails(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("skillc_runtime.control.forward_dynamics.stiffest_contact", lambda *_: inf)  # nothing softens
     execution = wiped("clean_whiteboard", stiff)
     assert execution.status == "failed" and execution.failure is not None
     assert "contact with lab:Whiteboard-1 was lost for" in execution.failure.message

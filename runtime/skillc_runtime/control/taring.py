@@ -6,7 +6,8 @@ be a contact, and stays.
 
 An arm with torque sensors in its joints feels by these: what its momentum observer finds at rest, r, is what its model
 of the weight of arm and tool, and its sensors, get wrong in this posture. The bias b that carries the arm is corrected
-by the mean of n such measurements, step by step, so that nothing jumps: b' = b - r / (n + k).
+by the mean of n such measurements, step by step, so that nothing jumps: b' = b - r / (n + k). A correction that is no
+more than the noise of this mean is taken back: a tool that nobody leads would creep.
 """
 
 from __future__ import annotations
@@ -56,6 +57,8 @@ class Taring:
         self._begun: float | None = None
         self.impulse: Array | None = None
         self._before, self._count = np.zeros(0), 0
+        self._corrected: Array = np.zeros(0)
+        """By how much the bias (nv,) was corrected in this rest, in N m."""
 
     def tare_first(self, dq: Array) -> None:
         """Tare an arm with joint speeds dq (nv,) in rad/s, if it rests and never was: its tool is controlled now."""
@@ -86,6 +89,7 @@ class Taring:
             return False
         if has_rested:
             self._take(1.0)
+            self._take_back_noise()
         self._begun, self._count = None, 0
         return True
 
@@ -95,8 +99,21 @@ class Taring:
             external, felt = (impulse[1:] - self._before[1:]) / passed_s, np.empty(6)
             estimate_wrench(felt, external, self._arm.state().jacobian, MEASURING)
             if hypot(*felt[:3]) < GREATEST_ERROR_N:
-                self._arm.correct_bias(external / -(self._count + CAUTION))
+                correction = external / -(self._count + CAUTION)
+                self._arm.correct_bias(correction)
+                self._corrected += correction
+        elif self._count == 0:
+            self._corrected = np.zeros(len(impulse) - 1)
         self._before, self._count = impulse.copy(), self._count + 1
+
+    def _take_back_noise(self) -> None:
+        """Undo a correction that would be felt as less than the noise of the mean."""
+        if self._count == 0 or self.impulse is None:
+            return
+        felt = np.empty(6)
+        estimate_wrench(felt, self._corrected, self._arm.state().jacobian, MEASURING)
+        if hypot(*felt[:3]) < LEAST_N and hypot(*felt[3:]) < LEAST_N_M:
+            self._arm.correct_bias(-self._corrected)
 
     def _take(self, doubt: float) -> None:
         mean = self._arm.mean_wrench

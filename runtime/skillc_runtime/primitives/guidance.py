@@ -22,7 +22,7 @@ GUIDED_DISTANCE_M = 0.005
 """A tool that moved this far was guided, not pushed by accident."""
 
 STANDSTILL_M_S = 0.005
-"""A tool that is slower than this stands still."""
+"""A tool that is slower than this stands still; one that never was faster has crept, and nobody has guided it."""
 
 
 class AwaitGuidance(Primitive):
@@ -34,20 +34,23 @@ class AwaitGuidance(Primitive):
     def __init__(self, cell: Cell, *, arm: str, pose: str, still: float, patience: float) -> None:
         super().__init__(cell)
         self.arm, self._pose, self._still, self._patience = cell.arm(arm), pose, still, patience
-        self._name, self._began, self._moved_at = arm, 0.0, 0.0
+        self._name, self._began, self._moved_at, self._was_led = arm, 0.0, 0.0, False
         self._from = np.zeros(3)
 
     def start(self) -> None:
         """Start waiting."""
         raise_fault(self.arm)
         self._began = self._moved_at = self.cell.now
+        self._was_led = False
         self._from = self.arm.measured.pose.position
 
     def tick(self) -> Status:
         """Return SUCCESS when the tool was guided to a pose and stands still."""
         raise_fault(self.arm)
         now, away = self.cell.now, float(np.linalg.norm(self.arm.measured.pose.position - self._from))
-        if away < GUIDED_DISTANCE_M or float(np.linalg.norm(self.arm.measured.velocity[:3])) > STANDSTILL_M_S:
+        moves = float(np.linalg.norm(self.arm.measured.velocity[:3])) > STANDSTILL_M_S
+        self._was_led = self._was_led or moves
+        if away < GUIDED_DISTANCE_M or moves or not self._was_led:
             self._moved_at = now
         if now - self._moved_at >= self._still:
             placed = relocation_changes(self.cell.world.snapshot(), self._pose, self.arm.measured.pose)
