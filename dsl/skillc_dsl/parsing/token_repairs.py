@@ -22,8 +22,12 @@ MEANT: Mapping[str, tuple[str, str]] = MappingProxyType(
 """Comparisons of other languages, with the terminal and text to use instead."""
 
 
+NAMELESS = "a name of a vocabulary has a prefix before its `:`"
+"""Said once: who writes one such name writes all of them so."""
 _COUNTED = frozenset(("RETRY", "REPEAT", "MAX"))
 """What a number without a unit follows."""
+_BEFORE_RELATIONS = frozenset(("NAME", "QNAME", "STRING"))
+"""What stands before the name of a relation, and of no parameter."""
 _NO_VALUES = frozenset(("COLON", "COMMA", "RPAR", "RBRACE", "RSQB"))
 
 
@@ -35,7 +39,8 @@ def repair_tokens(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, 
     while index < len(tokens):
         count, token, problem = _repaired(tokens, index, path)
         repaired.append(token)
-        problems += [problem] if problem else []
+        if problem and not (problem.message == NAMELESS and any(each.message == NAMELESS for each in problems)):
+            problems.append(problem)
         index += count
     return Outcome(tuple(repaired), tuple(problems))
 
@@ -60,6 +65,8 @@ def _repaired(tokens: tuple[Token, ...], index: int, path: str) -> tuple[int, To
         return 2, *_assigned_argument(tokens[index], tokens[index + 1], tokens[index + 2], path)
     if count := count_prefix_mistake(tokens, index):
         return count, *repair_prefix(tokens, index, count, path)
+    if _is_nameless_prefix(tokens, index):
+        return 2, *_nameless_prefix(tokens[index], tokens[index + 1], path)
     if _is_split_label(tokens, index):
         return 2, *_label(tokens[index], tokens[index + 1], tokens[index + 2], path)
     return 1, tokens[index], None
@@ -174,8 +181,28 @@ def _is_split_label(tokens: tuple[Token, ...], index: int) -> bool:
         return False
     if tokens[index + 2].type == "EQUAL":
         return False
-    is_nameless_prefix = tokens[index].type == "PREFIX" and tokens[index + 2].type == "IRI"
-    return tokens[index].isidentifier() and tokens[index].line == tokens[index + 1].line and not is_nameless_prefix
+    declares_nameless = tokens[index].type == "PREFIX" and tokens[index + 2].type == "IRI"
+    is_nameless = declares_nameless or _is_nameless_prefix(tokens, index + 1)
+    return tokens[index].isidentifier() and tokens[index].line == tokens[index + 1].line and not is_nameless
+
+
+def _is_nameless_prefix(tokens: tuple[Token, ...], index: int) -> bool:
+    """Whether a `:` at `index` begins a name as in Turtle, as in `goal :Part-1 restsOn :Table`.
+
+    After the name of a parameter or condition, as in `in arm :Arm` and `Pick(arm :Arm-1)`, it is that of a label.
+    """
+    if tokens[index].type != "COLON" or not 0 < index < len(tokens) - 1:
+        return False
+    before, after = tokens[index - 1], tokens[index + 1]
+    if _touch(before, tokens[index]) or not _touch(tokens[index], after) or after.type not in ("NAME", "QNAME"):
+        return False
+    return before.type != "NAME" or tokens[index - 2].type in _BEFORE_RELATIONS
+
+
+def _nameless_prefix(colon: Token, name: Token, path: str) -> tuple[Token, Diagnostic]:
+    span = token_span(colon, path).to(token_span(name, path))
+    help_ = f"declare `prefix lab: <..>` with what stands before the names of the scene, and write `lab:{name}`"
+    return join_tokens("QNAME", colon, name, f"lab:{name}"), Diagnostic("syntax", span, NAMELESS, help_)
 
 
 def _label(word: Token, colon: Token, value: Token, path: str) -> tuple[Token, Diagnostic | None]:
