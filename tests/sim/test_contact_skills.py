@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from contact_runs import LAB, at_rest, displace, run, strongest, tell, vanish
@@ -150,3 +152,19 @@ def test_an_arm_that_nobody_leads_says_so_and_stays() -> None:
     assert "nobody guided the tool of lab:Iiwa-1 to a pose within 30 s: it is 0 mm from its start" in done.why
     assert done.value("Taught-1", "isTaught") is False
     assert at_rest(done.cell)
+
+
+def test_a_tool_that_creeps_is_led_by_nobody() -> None:
+    """A tenth of a newton, as what an arm gets wrong of its own weight: the tool moves some centimetres in 30 s."""
+
+    def alone(cell: SimulatedCell) -> None:
+        cell.people = ()
+
+    def pull(cell: SimulatedCell) -> None:
+        if cell.now > 4.0:
+            cell.data.body("lab:Robotiq-1/palm").xfrc_applied[0] = 0.1
+
+    done = run("teach_pose", change=alone, watch=pull, once=True)
+    assert not done.succeeded
+    assert re.search(r"nobody guided the tool of lab:Iiwa-1 to a pose within 30 s: it is \d\d mm from", done.why)
+    assert done.value("Taught-1", "isTaught") is False
