@@ -12,7 +12,7 @@ from skillc.services.learning.expressions import read_expressions
 from skillc.services.learning.figures import Figures
 from skillc.services.learning.parameters import Learnable
 from skillc.services.learning.racing import Aim
-from skillc.services.learning.study import Basis, Heading, Study
+from skillc.services.learning.study import Basis, Study, StudySetup
 from skillc_runtime.evaluation.trials.settings import Setting
 from skillc_runtime.evaluation.trials.trial import Trial
 from trials.runners import good, wiping
@@ -45,7 +45,7 @@ def aim(minimise: str, subject_to: str = "") -> Aim:
 
 def open_study(folder: Path, objectives: int, minimise: str = "time", seed: int = 0) -> Study:
     """Return the study of a folder, which is begun if it is not there."""
-    heading = Heading(
+    heading = StudySetup(
         task="wipe",
         skillc="1",
         library="a",

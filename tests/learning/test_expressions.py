@@ -57,14 +57,14 @@ def test_an_objective_is_computed(text: str, value: float | None) -> None:
     ],
 )
 def test_a_constraint_is_missed_by_a_share(text: str, violation: float | None) -> None:
-    _, (bound,) = read_expressions("time", text, TASK)
-    assert bound.violation(VALUES) == pytest.approx(violation)
+    _, (constraint,) = read_expressions("time", text, TASK)
+    assert constraint.violation(VALUES) == pytest.approx(violation)
 
 
 def test_commas_are_between_expressions_and_within_parentheses() -> None:
-    objectives, bounds = read_expressions("time,max(rmse, 2), ", "coverage == 100 %, max(impact, 1) <= 2", TASK)
+    objectives, constraints = read_expressions("time,max(rmse, 2), ", "coverage == 100 %, max(impact, 1) <= 2", TASK)
     assert [each.text for each in objectives] == ["time", "max(rmse, 2)"]
-    assert [each.text for each in bounds] == ["coverage == 100 %", "max(impact, 1) <= 2"]
+    assert [each.text for each in constraints] == ["coverage == 100 %", "max(impact, 1) <= 2"]
 
 
 @pytest.mark.parametrize(

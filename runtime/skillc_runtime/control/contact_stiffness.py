@@ -51,5 +51,5 @@ def identify_stiffness(memory: OutVector, speed: float, force: float, approach: 
 
 @inlined
 def forget_stiffness(memory: OutVector, force: float) -> None:
-    """Let a memory (4,) begin anew, with the present force in N along the axis of the push, in any frame."""
+    """Reset a memory (4,), given the present force in N along the axis of the push, in any frame."""
     memory[SQUARES], memory[PRODUCTS], memory[FORCE], memory[STIFFNESS] = 0.0, 0.0, force, 0.0

@@ -23,7 +23,7 @@ skillc test --coverage --junit tests.xml
 
 
 class TestOptions(msgspec.Struct, frozen=True, kw_only=True):
-    """Which tests are run, and what is told of them."""
+    """Which tests are run, and how their results are reported."""
 
     wanted: tuple[str, ...]
     coverage: bool

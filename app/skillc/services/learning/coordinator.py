@@ -1,4 +1,4 @@
-"""Learns parameters of a task: runs it with the defaults, searches, tries the best anew, and writes its text."""
+"""Learns parameters of a task: runs it with the defaults, searches, confirms the best one, and writes its text."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from skillc.services.learning.result import DEFAULTS, Learned
 from skillc.services.learning.samplers import require_sampler
 from skillc.services.learning.search import Search, list_settings, try_fresh
 from skillc.services.learning.spec import LearnSpec
-from skillc.services.learning.study import Basis, Candidate, Heading, Study
+from skillc.services.learning.study import Basis, Candidate, Study, StudySetup
 from skillc.services.learning.text import LearnedValue, change_texts, require_own
 from skillc.services.library_files import LibraryFiles
 from skillc.services.real_devices import require_reality
@@ -92,7 +92,7 @@ def learn(request: LearnRequest, watch: StartMonitor, reporter: Reporter) -> Lea
     RequestError, DiagnosticsError or ServiceError if the task, the expressions, the parameters or the folder cannot be
     used, if the executor cannot run trials, or if what was learned cannot be written.
     """
-    check_expressions((request.spec.minimise or ""), (request.spec.subject_to or ""))
+    check_expressions(*request.spec.expressions)
     require_sampler(request.spec.sampler)
     subject = _find_subject(request, reporter)
     with closing(Study(request.out, _make_heading(request, subject))) as study:
@@ -100,7 +100,7 @@ def learn(request: LearnRequest, watch: StartMonitor, reporter: Reporter) -> Lea
             _begin(request, subject, study, reporter)
         assert study.basis is not None
         figures = Figures({name: frozenset(units) for name, units in study.basis.units.items()})
-        aim = Aim(*read_expressions((request.spec.minimise or ""), (request.spec.subject_to or ""), figures))
+        aim = Aim(*read_expressions(*request.spec.expressions, figures))
         study.use_sampler(request.spec.sampler, request.spec.candidates, request.spec.seed)
         is_whole = _search(request, subject, study, aim, watch, reporter)
         learned, changes = _conclude(request, subject, study, aim, is_whole)
@@ -122,15 +122,15 @@ def _find_subject(request: LearnRequest, reporter: Reporter) -> _Subject:
     return _Subject(files, library, experiment, scene, f"{scene.name}{reality}")
 
 
-def _make_heading(request: LearnRequest, subject: _Subject) -> Heading:
-    experiment = subject.experiment
-    return Heading(
+def _make_heading(request: LearnRequest, subject: _Subject) -> StudySetup:
+    experiment, (minimise, subject_to) = subject.experiment, request.spec.expressions
+    return StudySetup(
         task=experiment.task,
         skillc=identity.identify_skillc(),
         library=f"{subject.library.name} of {experiment.library_digest}",
         scene=f"{subject.context} of {experiment.scene_digest}",
-        minimise=(request.spec.minimise or ""),
-        subject_to=(request.spec.subject_to or ""),
+        minimise=minimise,
+        subject_to=subject_to,
         parameters=", ".join(request.spec.names),
         trials=request.spec.trials,
         seed=request.spec.seed,
@@ -145,7 +145,7 @@ def _begin(request: LearnRequest, subject: _Subject, study: Study, reporter: Rep
     found = find_learnable(subject.library, subject.files, events)
     learnable = choose_learnable(found, request.spec.names, subject.files)
     figures = measured_figures(trial)
-    objectives, _ = read_expressions((request.spec.minimise or ""), (request.spec.subject_to or ""), figures)
+    objectives, _ = read_expressions(*request.spec.expressions, figures)
     units = {name: tuple(sorted(units)) for name, units in figures.units.items()}
     study.create(Basis(learnable=learnable, units=units), len(objectives))
 
@@ -200,7 +200,7 @@ def _conclude(
         task=subject.experiment.task,
         scene=subject.context,
         minimise=tuple(each.text for each in aim.objectives),
-        subject_to=tuple(each.text for each in aim.bounds),
+        subject_to=tuple(each.text for each in aim.constraints),
         parameters=study.basis.learnable,
         seeds=tuple(range(request.spec.seed, request.spec.seed + request.spec.trials)),
         wanted=request.spec.candidates,

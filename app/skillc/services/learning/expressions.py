@@ -50,7 +50,7 @@ class Measure:
 
 
 @dataclass(frozen=True, slots=True)
-class Bound:
+class Constraint:
     """A comparison that every trial has to meet: two measures, and the operator between them."""
 
     text: str
@@ -91,7 +91,9 @@ def check_expressions(minimise: str, subject_to: str) -> None:
         _Reader(all_figures(), all_figures().require).read(minimise, subject_to)
 
 
-def read_expressions(minimise: str, subject_to: str, figures: Figures) -> tuple[tuple[Measure, ...], tuple[Bound, ...]]:
+def read_expressions(
+    minimise: str, subject_to: str, figures: Figures
+) -> tuple[tuple[Measure, ...], tuple[Constraint, ...]]:
     """Read objectives, expressions between commas, and constraints, comparisons between commas.
 
     RequestError for what is none, or is not of these figures.
@@ -119,21 +121,21 @@ class _Reader:
     figures: Figures
     find: Names
 
-    def read(self, minimise: str, subject_to: str) -> tuple[tuple[Measure, ...], tuple[Bound, ...]]:
+    def read(self, minimise: str, subject_to: str) -> tuple[tuple[Measure, ...], tuple[Constraint, ...]]:
         objectives = tuple(self._require_figures(self.measure(part, part)) for part in split(minimise))
         if not objectives:
             raise RequestError(f"nothing is to be minimised; the figures are {self.figures.listed}")
-        return objectives, tuple(map(self.bound, split(subject_to)))
+        return objectives, tuple(map(self.read_constraint, split(subject_to)))
 
-    def bound(self, text: str) -> Bound:
+    def read_constraint(self, text: str) -> Constraint:
         parts = _COMPARISON.split(text)
         if len(parts) != 3:
             raise RequestError(f"`{text}` is no constraint: compare two expressions, as in `impact <= 2`")
         left, how, right = parts
-        bound = Bound(text, self.measure(left, text), how, self.measure(right, text))
-        if not bound.figures:
+        constraint = Constraint(text, self.measure(left, text), how, self.measure(right, text))
+        if not constraint.figures:
             raise RequestError(f"`{text}` has no figure; the figures are {self.figures.listed}")
-        return bound
+        return constraint
 
     def measure(self, text: str, whole: str) -> Measure:
         """Read an expression that is part of a text; its units are those of the figures in the whole."""

@@ -33,7 +33,7 @@ class Dot:
 
 
 @dataclass(frozen=True, slots=True)
-class Drawing:
+class CandidatePlot:
     """Candidates by two objectives, with their ranges, and the corners of the front's line in px."""
 
     across: str
@@ -74,7 +74,7 @@ def render_page(learned: Learned, out: Path) -> str:
     )
 
 
-def draw_candidates(learned: Learned) -> Iterator[Drawing]:
+def draw_candidates(learned: Learned) -> Iterator[CandidatePlot]:
     """Yield a drawing of each pair of objectives; of a single one, over the numbers of the candidates."""
     if len(learned.minimise) == 1:
         yield _draw(learned, -1, 0)
@@ -82,7 +82,7 @@ def draw_candidates(learned: Learned) -> Iterator[Drawing]:
         yield _draw(learned, across, up)
 
 
-def _draw(learned: Learned, across: int, up: int) -> Drawing:
+def _draw(learned: Learned, across: int, up: int) -> CandidatePlot:
     """Return the candidates by two objectives; the index -1 stands for the number of a candidate."""
 
     def place(each: Tried) -> tuple[float, float]:
@@ -113,7 +113,7 @@ def _draw(learned: Learned, across: int, up: int) -> Drawing:
     )
     front = sorted(place(learned.candidate(number)) for number in learned.front) if across >= 0 else []
     names = ["candidate" if across < 0 else learned.minimise[across], learned.minimise[up]]
-    return Drawing(names[0], names[1], low, high, dots, tuple(map(scale, front)))
+    return CandidatePlot(names[0], names[1], low, high, dots, tuple(map(scale, front)))
 
 
 def _describe(learned: Learned, each: Tried) -> str:

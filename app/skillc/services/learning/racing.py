@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from statistics import fmean
 from typing import Literal, TypeAlias
 
-from skillc.services.learning.expressions import Bound, Measure
+from skillc.services.learning.expressions import Constraint, Measure
 from skillc.services.learning.figures import World
 from skillc_runtime.evaluation.trials.confidence import compute_mean_interval
 
@@ -26,7 +26,7 @@ class Aim:
     """What is minimised, in the mean of the trials, and what every trial has to meet besides its success."""
 
     objectives: tuple[Measure, ...]
-    bounds: tuple[Bound, ...] = ()
+    constraints: tuple[Constraint, ...] = ()
 
     def values_in(self, world: World) -> tuple[float, ...] | None:
         """Return the objectives (n,) of a trial; None if one was not measured."""
@@ -42,9 +42,9 @@ class Aim:
         found = {SUCCEEDS: 1.0 if world.failures else 0.0}
         if not world.failures and self.values_in(world) is None:
             found[SUCCEEDS] = 1.0
-        for bound in self.bounds:
-            missed = bound.violation(world.figures)
-            found[bound.text] = 1.0 if missed is None else missed
+        for constraint in self.constraints:
+            missed = constraint.violation(world.figures)
+            found[constraint.text] = 1.0 if missed is None else missed
         return found
 
     def mean(self, worlds: Iterable[World]) -> tuple[float, ...] | None:
@@ -54,7 +54,7 @@ class Aim:
 
     def violations(self, worlds: Iterable[World]) -> dict[str, float]:
         """Return the greatest violation of each constraint over trials."""
-        worst: dict[str, float] = {SUCCEEDS: 0.0, **{bound.text: 0.0 for bound in self.bounds}}
+        worst: dict[str, float] = {SUCCEEDS: 0.0, **{constraint.text: 0.0 for constraint in self.constraints}}
         for world in worlds:
             worst = {name: max(worst[name], missed) for name, missed in self.violations_in(world).items()}
         return worst

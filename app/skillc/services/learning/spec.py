@@ -76,6 +76,11 @@ class LearnSpec(msgspec.Struct, frozen=True, kw_only=True):
     ] = TRIAL_LIMIT_S
 
     @property
+    def expressions(self) -> tuple[str, str]:
+        """The texts of objectives and of constraints."""
+        return self.minimise or "", self.subject_to or ""
+
+    @property
     def names(self) -> tuple[str, ...]:
         """The names of the parameters that are asked for; empty for all."""
         return tuple(name.strip() for name in (self.parameters or "").split(",") if name.strip())

@@ -36,10 +36,10 @@ LEAST_KNOWN = 10
 """From how many candidates on it is said which parameters are important."""
 
 
-class Heading(msgspec.Struct, frozen=True, kw_only=True):
+class StudySetup(msgspec.Struct, frozen=True, kw_only=True):
     """What all candidates of a study have in common; with another heading they cannot be compared.
 
-    `parameters` are those that were asked for, in words; `units` are those of the figures that the task measures.
+    `parameters` are the names in the request, between commas; empty for all.
     """
 
     format: int = FORMAT
@@ -73,7 +73,7 @@ class Candidate(msgspec.Struct, kw_only=True):
 class Study:
     """A study on disk; `candidates` are in the order in which they were asked for. Close it at the end."""
 
-    def __init__(self, folder: Path, heading: Heading) -> None:
+    def __init__(self, folder: Path, heading: StudySetup) -> None:
         """Open or create the study of a folder.
 
         ServiceError if another process uses the folder, or its study has another heading; MissingExtraError without
@@ -92,7 +92,7 @@ class Study:
             self._lock.close()
             raise
 
-    def _open(self, heading: Heading) -> None:
+    def _open(self, heading: StudySetup) -> None:
         self._optuna = _import_optuna()
         with _reporting(self.folder):
             self._storage = self._optuna.storages.RDBStorage(f"sqlite:///{(self.folder / FILE).resolve().as_posix()}")
@@ -105,13 +105,13 @@ class Study:
             self._load(heading)
         self._heading = heading
 
-    def _load(self, heading: Heading) -> None:
+    def _load(self, heading: StudySetup) -> None:
         study = self._optuna.load_study(study_name=NAME, storage=self._storage)
         kept = study.user_attrs
         if "basis" not in kept:  # it was killed while it was made
             self._optuna.delete_study(study_name=NAME, storage=self._storage)
             return
-        self._compare(msgspec.json.decode(kept["heading"], type=Heading), heading)
+        self._compare(msgspec.json.decode(kept["heading"], type=StudySetup), heading)
         self.basis, self._study = msgspec.json.decode(kept["basis"], type=Basis), study
         for trial in study.get_trials(deepcopy=False):
             self._keep_candidate(trial, kept)
@@ -195,7 +195,7 @@ class Study:
         candidate.verdict = verdict
 
     def worst_told(self) -> tuple[float, ...] | None:
-        """Return the greatest value of each objective (n,) that was told; None if none was."""
+        """Return the greatest value of each objective (n,) over all finished candidates; None if there is none."""
         told = [each.values for each in self._study.get_trials(deepcopy=False) if each.values is not None]
         return tuple(map(max, zip(*told, strict=True))) if told else None
 
@@ -230,8 +230,8 @@ class Study:
         assert self.basis is not None
         return tuple(each.round(params[each.name]) for each in self.basis.learnable)
 
-    def _compare(self, existing: Heading, expected: Heading) -> None:
-        for field in Heading.__struct_fields__:
+    def _compare(self, existing: StudySetup, expected: StudySetup) -> None:
+        for field in StudySetup.__struct_fields__:
             before, now = getattr(existing, field), getattr(expected, field)
             if before != now:
                 what = field.replace("_", "-")

@@ -83,7 +83,7 @@ def find_suites(wanted: Sequence[str]) -> list[TestSuite]:
 def run_suite(
     suite: TestSuite, coverage: Coverage, tell: Callable[[TestResult], None] = lambda result: None
 ) -> list[TestResult]:
-    """Run the tests of a suite one after the other; each is told when it has ended, and its coverage added."""
+    """Run the tests of a suite one after the other; report each at its end, and add its coverage."""
     results, runner = [], SuiteRunner(suite, coverage)
     for test in suite.tests:
         results.append(runner.run(test))
