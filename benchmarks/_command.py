@@ -82,7 +82,7 @@ def main(task: str) -> None:
     def note_report(running: Any) -> None:
         running.report_run = partial(noted.report, running.report_run)
 
-    after = {"skillc_runtime.backends.mujoco.cell": note_advance, "skillc.services.running": note_report}
+    after = {"skillc_runtime.backends.mujoco.cell": note_advance, "skillc.services.run.running": note_report}
     sys.meta_path.insert(0, AfterImport(after))
     with TemporaryDirectory() as folder, redirect_stdout(sys.stderr), suppress(SystemExit):
         entry.skillc(["run", task, "--out", folder, "--no-film"])

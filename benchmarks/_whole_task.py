@@ -15,9 +15,9 @@ from time import process_time
 
 from _calibration import calibration_step_us
 
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
-from skillc.services.run_recordings import make_recorded_cell
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
+from skillc.services.run.recordings import make_recorded_cell
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task

@@ -16,7 +16,7 @@ from typing import TypeVar
 
 import pyoxigraph as ox
 
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_model.conditions import Condition, HasProperty, Holds, IsA, Variable
 from skillc_model.skills import Parameter, Requirement
 from skillc_rdf.vocabulary.types import ClassType, Position, Vocabulary

@@ -22,8 +22,8 @@ from typing import TypeVar
 
 from lark import Lark
 
-from skillc.services.libraries import load_vocabulary
-from skillc.services.library_files import SHIPPED
+from skillc.services.library.files import SHIPPED
+from skillc.services.library.libraries import load_vocabulary
 from skillc_compiler.analysis.proof import prove
 from skillc_compiler.checks import load_checks
 from skillc_compiler.lower.library import lower_program

@@ -21,16 +21,16 @@ import numpy as np
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.load import load
-from skillc_runtime.backends.control_process.controlled_arm import ControlledArm
 from skillc_runtime.backends.control_process.handshake import ControlTask, Patience
-from skillc_runtime.backends.control_process.host import ControlProcess
 from skillc_runtime.backends.control_process.link import (
     LinkAbilities,
     make_state,
 )
 from skillc_runtime.backends.control_process.memory_plan import TIME, MemoryPlan
-from skillc_runtime.backends.control_process.pacing import CycleClock
-from skillc_runtime.backends.control_process.publisher import Publisher
+from skillc_runtime.backends.control_process.periods.controlled_arm import ControlledArm
+from skillc_runtime.backends.control_process.periods.pacing import CycleClock
+from skillc_runtime.backends.control_process.periods.publisher import Publisher
+from skillc_runtime.backends.control_process.remote.host import ControlProcess
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
 from skillc_runtime.devices.guarded_push import GuardedPush, Travel
 from skillc_runtime.motion.pose import Array
@@ -46,7 +46,7 @@ EMPTY = """
 import sys
 from time import monotonic
 import numpy as np
-from skillc_runtime.backends.control_process.pacing import Pacer
+from skillc_runtime.backends.control_process.periods.pacing import Pacer
 from skillc_runtime.platforms.real_time import run_in_real_time
 times = np.ones(int(sys.argv[1]))
 run_in_real_time()

@@ -15,7 +15,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 
 from safety.fault_trials import PHASES, WIPES, Outcome, try_fault
-from skillc_runtime.backends.simulation.signal_faults import KINDS, WRENCH_KINDS
+from skillc_runtime.backends.simulation.arms.signal_faults import KINDS, WRENCH_KINDS
 
 
 def describe(found: Outcome) -> str:

@@ -12,9 +12,9 @@ from tempfile import TemporaryDirectory
 from time import process_time
 from typing import Any
 
-from skillc.services.planning import plan_goal, prepare_planners
-from skillc.services.reporting import Reporter
-from skillc.services.task_loading import LoadedTask, load_task
+from skillc.services.planning.planning import plan_goal, prepare_planners
+from skillc.services.reporting.reporter import Reporter
+from skillc.services.tasks.loading import LoadedTask, load_task
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.refinement.plan_refinement import refine_plan
 from skillc_runtime.execution.refinement.replanning import plan_in_space

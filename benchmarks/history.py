@@ -16,8 +16,8 @@ from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.settings import CellSettings
 from skillc.contract.operation import OperationRequest, OperationStatus
-from skillc.services.library_files import find_scene
-from skillc.services.reporting import SilentReporter
+from skillc.services.library.files import find_scene
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import Note
 from skillc_runtime.world.state.changes import SetProperty

@@ -24,7 +24,7 @@ from scipy.stats import mannwhitneyu
 from skillc.services.learning.coordinator import LearnRequest, Progress, learn
 from skillc.services.learning.result import DEFAULTS, Learned
 from skillc.services.learning.spec import LearnSpec, SamplerName
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 
 TASK, MINIMISE = "contact:press_button", "simulated_time, greatest_force"
 SUBJECT = "held_force >= 95 %, greatest_force <= 120 %"

@@ -17,9 +17,9 @@ from typing import Any
 
 from geometry import LIMIT_S, PART_B, Silent, pile
 
-from skillc.services.new_library import create_library
-from skillc.services.planning import plan_goal, prepare_planners
-from skillc.services.task_loading import LoadedTask, load_task
+from skillc.services.planning.planning import plan_goal, prepare_planners
+from skillc.services.scaffolding.new_library import create_library
+from skillc.services.tasks.loading import LoadedTask, load_task
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.refinement.plan_refinement import refine_plan
 from skillc_runtime.execution.refinement.replanning import plan_in_space

@@ -8,8 +8,8 @@ from tempfile import TemporaryDirectory
 from time import perf_counter, thread_time
 
 import skillc
-from skillc.services import libraries
-from skillc.services.run_recordings import make_recorded_cell
+from skillc.services.library import libraries
+from skillc.services.run.recordings import make_recorded_cell
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.attempt import TICK_S

@@ -14,11 +14,11 @@ from resource import RUSAGE_CHILDREN, getrusage
 from statistics import median
 from tempfile import TemporaryDirectory
 
-from skillc.services import running
-from skillc.services.picture_making import PictureOrder, Pictures
-from skillc.services.reporting import SilentReporter
-from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import load_task
+from skillc.services.recording.picture_making import PictureOrder, Pictures
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.run import running
+from skillc.services.run.running import RunOptions, run_task
+from skillc.services.tasks.loading import load_task
 from skillc.workers.rehearsing import _Unattended
 from skillc_runtime.evaluation.report.figure_files import render_figure
 from skillc_runtime.evaluation.report.write import write_figures
@@ -39,7 +39,7 @@ from skillc_runtime.platforms.python_modules import defer_import
 
 defer_import("glfw")
 with importing():
-    import skillc.cli.run_output, skillc.services.running
+    import skillc.cli.progress.run_output, skillc.services.run.running
 """
 
 

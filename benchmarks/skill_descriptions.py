@@ -16,11 +16,11 @@ from statistics import median
 from skillc.cells.host import open_cell
 from skillc.cells.settings import CellSettings
 from skillc.cells.snapshot import CellSnapshot
-from skillc.services import skill_descriptions
-from skillc.services.library_files import SHIPPED, find_scene
-from skillc.services.reporting import SilentReporter
-from skillc.services.scenes import describe_state, query_document
-from skillc.services.skill_descriptions import with_library_prefix
+from skillc.services.library import skill_descriptions
+from skillc.services.library.files import SHIPPED, find_scene
+from skillc.services.library.skill_descriptions import with_library_prefix
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.views.scenes import describe_state, query_document
 from skillc_runtime.execution.selection.robot_skills import match_robots
 from skillc_runtime.scene.load import sheet_documents
 from skillc_runtime.scene.query import run_query

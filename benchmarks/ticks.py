@@ -16,7 +16,7 @@ from time import thread_time
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 
 from backends.kinematic_runs import library, prepare
-from skillc.services.library_files import SHIPPED
+from skillc.services.library.files import SHIPPED
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.cell_loop import CellLoop

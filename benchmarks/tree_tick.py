@@ -16,7 +16,7 @@ import py_trees
 from skillc_model import tree
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Primitive, Status
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history.node_outcome import NodeOutcome
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 from tree.library import FLAGS, Library, act, call, par, seq, world

@@ -14,8 +14,8 @@ from functools import partial
 from statistics import median
 from time import perf_counter
 
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_model import codec
 from skillc_ontology import catalogue
 from skillc_runtime.evaluation.trials.content import Experiment, prepare_runner

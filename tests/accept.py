@@ -14,7 +14,7 @@ from pathlib import Path
 
 import skillc
 from docs.manual import MANUAL, manual
-from skillc.services.schemas import SCHEMAS, format_schema, make_schema
+from skillc.services.library.schemas import SCHEMAS, format_schema, make_schema
 from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.emit.write import write
 from skillc_compiler.pipeline import compile

@@ -1,7 +1,6 @@
 """The events of runs and what they consist of, for programs that listen to them."""
 
 from skillc_runtime.devices.prompts import Prompt
-from skillc_runtime.recording.account import CallOutput, MeasuredProperty
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import (
     Disturbed,
@@ -23,6 +22,7 @@ from skillc_runtime.recording.events import (
     WorldChanged,
 )
 from skillc_runtime.recording.failure import Failure, Rejection
+from skillc_runtime.recording.history.account import CallOutput, MeasuredProperty
 
 __all__ = [
     "CallOutput",

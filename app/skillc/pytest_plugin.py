@@ -64,7 +64,7 @@ class SkillTest(pytest.Item):
         """Return what is wrong, with the calls that led there."""
         if not isinstance(excinfo.value, SkillTestFailed):
             return super().repr_failure(excinfo, style)
-        from skillc.services.reporting import find_texts
+        from skillc.services.reporting.reporter import find_texts
         from skillc_dsl.rendering.full import render
 
         problems = excinfo.value.result.problems

@@ -1,7 +1,7 @@
 """The world model and scenes: facts, versions, writes, individuals, conditions, vocabularies."""
 
 from skillc.services.cell_checks.report import cell_diagnostics
-from skillc.services.libraries import load_vocabulary
+from skillc.services.library.libraries import load_vocabulary
 from skillc_dsl.source import Source
 from skillc_model.conditions import Holds, Individual
 from skillc_ontology import catalogue

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import TypeAlias
 
-from skillc.services.libraries import load_vocabulary
+from skillc.services.library.libraries import load_vocabulary
 from skillc_model.format_type import format_type
 from skillc_rdf.vocabulary.types import ClassTerm, PropertyTerm, RelationTerm, Vocabulary, local_name
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from random import Random
 
 from skillc_rdf.vocabulary.types import Vocabulary
-from skillc_runtime.control.watchdog import HeartbeatWatchdog
+from skillc_runtime.control.supervision.watchdog import HeartbeatWatchdog
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.model import WorldModel

@@ -22,9 +22,9 @@ from skillc_compiler.analysis.findings import (
     ViolatedProperty,
 )
 from skillc_compiler.analysis.initial_state import can_start, initial_state, requirements_of
+from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.paths import EndStates
 from skillc_compiler.analysis.proof import Prover
-from skillc_compiler.analysis.state import State
 from skillc_compiler.checks import CheckMemo, find_all, load_checks
 from skillc_compiler.lower.library import lower_program
 from skillc_compiler.program.marks import Marks, Need

@@ -2,7 +2,7 @@
 
 import pytest
 
-from skillc.services.libraries import load_vocabulary
+from skillc.services.library.libraries import load_vocabulary
 from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.pipeline import compile
 from skillc_dsl.parsing.nesting import DEEPEST

@@ -19,7 +19,7 @@ from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.real_time.cell import RealTimeCell
 from skillc_runtime.backends.real_time.locked import DRIVER_PARTS, CellLock, locked
-from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.arms.arm import ModelledArm
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.control.driver import CompliantArmDriver

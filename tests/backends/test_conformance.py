@@ -11,9 +11,9 @@ import pytest
 
 from backends.backend import BACKENDS, Backend, MakeBackend
 from skillc_runtime.devices.arm import ArmLoad, JointPosition, JointVelocity, Mode, ModeRefused, NotOffered, Torque
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.segments import MotionLimits
 
 LIMITS = MotionLimits(speed=0.2, acceleration=0.5)
 SLOW = MotionLimits(speed=0.03, acceleration=0.5)

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from simulation.cells import ARM, LAB, world
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.driver_factory import make_driver
+from skillc_runtime.backends.simulation.arms.driver_factory import make_driver
 from skillc_runtime.world.state.changes import Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel

@@ -7,9 +7,9 @@ import pytest
 
 from simulation.cells import ARM, ERASER, GRIPPER, LAB, PLACE, SURFACE, reach_for_eraser, run, world
 from skillc_runtime.backends.kinematic.cell import KinematicCell
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.primitives.grasp import Grasp
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import AddRelation, SetProperty

@@ -8,8 +8,8 @@ import pytest
 
 from backends.kinematic_runs import library, run_shipped, run_task, shipped_tasks
 from simulation.cells import GRIPPER, LAB
-from skillc.services import libraries
-from skillc.services.library_files import find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import find_library
 from skillc_ontology import catalogue
 from skillc_runtime.recording.known_facts import format_unverified, unverified_facts
 

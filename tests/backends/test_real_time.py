@@ -18,13 +18,13 @@ from skillc_ontology import catalogue
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.real_time.cell import RealTimeCell
 from skillc_runtime.control.controller import ControlError
-from skillc_runtime.control.watchdog import HEARTBEAT_TIMEOUT_S
+from skillc_runtime.control.supervision.watchdog import HEARTBEAT_TIMEOUT_S
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.execution.execute import execute_task
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import DEVICE_STATE
 

@@ -10,9 +10,9 @@ import pytest
 from backends.backend import ModelBackend, mujoco
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.devices.arm import Command, JointVelocity
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.segments import MotionLimits
 
 LIMITS = MotionLimits(speed=0.2, acceleration=0.5)
 

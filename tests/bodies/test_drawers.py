@@ -11,7 +11,7 @@ from simulation.cells import ARM, move_fingers, run
 from simulation.cells import world as scene
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.claims import find_false_claims
+from skillc_runtime.backends.simulation.truth.claims import find_false_claims
 from skillc_runtime.motion.pose import Pose, rotation_from_angles
 from skillc_runtime.primitives.move import MoveJoints, MoveLinear
 from skillc_runtime.world.space.frames import move_changes, pose, relocation_changes

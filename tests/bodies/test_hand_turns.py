@@ -14,7 +14,7 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.handling import above_place, approach_pose, grasp_pose
 from skillc_runtime.world.space.frames import placement_changes, pose, relocation_changes
-from skillc_runtime.world.space.free_places import free_hand_pose
+from skillc_runtime.world.space.placing.free_places import free_hand_pose
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.data_sheet import sheet_of
 from skillc_runtime.world.state.model import WorldModel

@@ -17,8 +17,8 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.recording.events import Event, NodeEnded
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frames import placement_changes
-from skillc_runtime.world.space.grasps import find_grasp, grasp_problem
-from skillc_runtime.world.space.grip_force import GraspError
+from skillc_runtime.world.space.grasping.grasps import find_grasp, grasp_problem
+from skillc_runtime.world.space.grasping.grip_force import GraspError
 from skillc_runtime.world.state.model import WorldModel
 
 PART, HAND, BLOCKS = LAB + "Part-A", LAB + "Hand-1", [f"Block-{n}" for n in range(1, 5)]

@@ -8,8 +8,8 @@ import pytest
 
 from backends.kinematic_runs import prepare
 from bodies.test_sorting import FOLDER, LAB
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, prepare_task

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from backends.kinematic_runs import library, prepare
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library
 from skillc_ontology import catalogue
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.evaluation.report.placements import measure_placements

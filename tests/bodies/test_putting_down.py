@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from bodies.test_own_cells import BACKENDS, CELLS, FOLDER, LAB, PICK_A, failure_of, place, written
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library
 from skillc_compiler.goals.parsing import parse_call
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.kinematic.cell import KinematicCell

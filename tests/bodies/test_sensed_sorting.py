@@ -10,8 +10,8 @@ import pytest
 
 from backends.kinematic_runs import prepare
 from bodies.test_sorting import FOLDER, LAB
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.execute import Execution, execute_task
@@ -21,7 +21,7 @@ from skillc_runtime.recording.failure_text import list_details
 from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.facts import RelationFact
-from skillc_runtime.world.state.labelled_text import format_fact
+from skillc_runtime.world.state.labels.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import (
     CAMERA,

@@ -9,10 +9,10 @@ import pytest
 from bodies.test_trays import FOLDER, PART, library
 from skillc_runtime.scene.load import load_scene, read_scene
 from skillc_runtime.world.space.frames import pose, relocation_changes
-from skillc_runtime.world.space.free_places import free_hand_pose
-from skillc_runtime.world.space.grasps import find_grasp
-from skillc_runtime.world.space.grip_force import GraspError
-from skillc_runtime.world.space.no_place import PlaceError
+from skillc_runtime.world.space.grasping.grasps import find_grasp
+from skillc_runtime.world.space.grasping.grip_force import GraspError
+from skillc_runtime.world.space.placing.free_places import free_hand_pose
+from skillc_runtime.world.space.placing.no_place import PlaceError
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.terms import (
     BOARD,

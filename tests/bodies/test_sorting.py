@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from backends.kinematic_runs import prepare
-from skillc.services import libraries
-from skillc.services.library_files import find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import find_library
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.execute import execute_task

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from backends.kinematic_runs import prepare
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.claims import find_false_claims
+from skillc_runtime.backends.simulation.truth.claims import find_false_claims
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.world.space.frames import pose, put_down_changes
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty

@@ -11,8 +11,8 @@ from random_cells.spoiling import draw_case
 from random_cells.writing import TASK, write_cell
 from skillc.services.cell_checks.checks import check_cell
 from skillc.services.cell_checks.postures import read_hand_reaches
-from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import load_task
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.tasks.loading import load_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.scene.load import load_scene

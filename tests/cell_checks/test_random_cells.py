@@ -9,8 +9,8 @@ from random import Random
 import pytest
 
 from cell_checks.random_cells import SPOILED, random_cell
-from skillc.services import libraries
 from skillc.services.cell_checks.report import cell_diagnostics
+from skillc.services.library import libraries
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_runtime.scene.load import read_scene
 

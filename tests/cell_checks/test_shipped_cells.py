@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services import compiled_libraries, libraries
 from skillc.services.cell_checks.checks import check_cell
-from skillc.services.library_files import find_library
-from skillc.services.new_library import create_library
+from skillc.services.library import compiled_libraries, libraries
+from skillc.services.library.files import find_library
+from skillc.services.scaffolding.new_library import create_library
 from skillc_ontology import catalogue
 from skillc_runtime.scene.load import load_scene
 

@@ -10,11 +10,11 @@ from pathlib import Path
 from msgspec import structs
 
 from own_backend import OwnBackend
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library
 from skillc_compiler.goals.parsing import parse_call, parse_goal
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.control.watchdog import HeartbeatWatchdog
+from skillc_runtime.control.supervision.watchdog import HeartbeatWatchdog
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
 from skillc_runtime.motion.pose import Pose

@@ -7,7 +7,7 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.recording.events import Event, TaskEnded, WorldChanged
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.world.state.changes import AddRelation
-from skillc_runtime.world.state.labelled_text import format_fact
+from skillc_runtime.world.state.labels.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import CONTAIN, IS_CLEAN
 

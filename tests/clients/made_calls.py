@@ -12,10 +12,10 @@ from typing import Any, Literal, TypeAlias, Union, get_args, get_origin, get_typ
 from msgspec import structs
 
 from clients.formatting import CLIENT, format_module
-from skillc.contract.endpoint import Empty, Endpoint
-from skillc.contract.endpoints import ENDPOINTS
+from skillc.contract.api.endpoint import Empty, Endpoint
+from skillc.contract.api.endpoints import ENDPOINTS
 
-TABLE = "skillc.contract.endpoints"
+TABLE = "skillc.contract.api.endpoints"
 FILE = CLIENT / "calls.py"
 Owner: TypeAlias = Literal["Server", "Cell", "Operation"]
 CLASSES: dict[Owner, str] = {
@@ -108,7 +108,7 @@ def _document(endpoint: Endpoint[Any], structures: Iterable[type]) -> str:
 
 def _imports(endpoint: Endpoint[Any]) -> Iterator[str]:
     """Yield the import of each name that the method of an endpoint has."""
-    yield f"from skillc.contract.endpoints import {endpoint.name.upper()}\n"
+    yield f"from skillc.contract.api.endpoints import {endpoint.name.upper()}\n"
     for kind in (endpoint.query, endpoint.body, endpoint.answer):
         for each in _find_classes(kind):
             if each not in (Empty, NoneType) and each.__module__ != "builtins":

@@ -11,9 +11,9 @@ from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 import msgspec
 
 from docs.pages import ROOT
-from skillc.contract.endpoint import JSON, Endpoint
-from skillc.contract.endpoints import ENDPOINTS
-from skillc.server.portable_schemas import name_type
+from skillc.contract.api.endpoint import JSON, Endpoint
+from skillc.contract.api.endpoints import ENDPOINTS
+from skillc.server.http.portable_schemas import name_type
 
 FILE = ROOT / "studio/src/api/requests.ts"
 HEAD = """// Made from the endpoints of the contract by `python tests/accept.py`; do not edit.

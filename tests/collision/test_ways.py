@@ -16,7 +16,7 @@ from simulation.cells import SCENES
 from skillc_runtime.collision import path_planning as ways
 from skillc_runtime.collision.collision_checker import SLACK_M, CollisionChecker
 from skillc_runtime.collision.path_planning import NoPath, find_motion_collision, plan_joint_path
-from skillc_runtime.motion.joint_path import joint_path
+from skillc_runtime.motion.paths.joint_path import joint_path
 from skillc_runtime.motion.pose import Array
 
 EXAMPLES = int(os.environ.get("SKILLC_WAYS", "6"))

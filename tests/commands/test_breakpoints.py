@@ -7,9 +7,9 @@ from functools import cache
 import pytest
 
 from skillc.errors import RequestError
-from skillc.services.breakpoints import parse_breakpoints
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import SHIPPED, find_library
+from skillc.services.tasks.breakpoints import parse_breakpoints
 from skillc_model.skills import Compound, SkillLibrary
 from skillc_model.traversal import find_calls
 from skillc_rdf.vocabulary.types import Position

@@ -12,7 +12,8 @@ import pytest
 from click.testing import CliRunner
 
 from skillc.cli.main import skillc
-from skillc.services import check_cache, library_checks
+from skillc.services.check import library_checks
+from skillc.services.library import check_cache
 from skillc_dsl.cache import load, store
 from skillc_ontology import catalogue
 
@@ -196,7 +197,9 @@ import sys
 opened = set()
 sys.addaudithook(lambda event, arguments: opened.add(str(arguments[0])) if event == "open" else None)
 from pathlib import Path
-from skillc.services import check_cache, library_checks, library_files
+from skillc.services.check import library_checks
+from skillc.services.library import check_cache
+from skillc.services.library import files as library_files
 library = library_files.find_library(Path({str(library)!r}))
 opened.clear()
 check_cache.compute_digest(library, None)

@@ -172,7 +172,7 @@ def test_a_file_that_is_not_utf_8_is_left_alone(library: Path) -> None:
 
 
 def test_a_file_that_was_changed_meanwhile_is_left_alone(library: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from skillc.services import fixing
+    from skillc.services.check import fixing
 
     write: Callable[[fixing.Fixes], int] = fixing.write_fixes
 

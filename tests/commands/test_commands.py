@@ -236,7 +236,7 @@ def test_a_query_that_is_not_sparql_is_explained(scene: Path) -> None:
 
 @pytest.mark.slow
 def test_a_query_that_takes_too_long_is_ended(scene: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("skillc.services.scenes.QUERY_LIMIT_S", 0.2)
+    monkeypatch.setattr("skillc.services.views.scenes.QUERY_LIMIT_S", 0.2)
     pairs = " . ".join(f"?a{n} ?b{n} ?c{n}" for n in range(12))
     result = run("world", scene, "--query", f"SELECT (COUNT(*) AS ?n) {{ {pairs} }}")
     assert (result.exit_code, result.stdout) == (1, "")

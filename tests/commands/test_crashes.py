@@ -13,7 +13,8 @@ from pathlib import Path
 import pytest
 
 from skillc.cli.main import main
-from skillc.services import formatting, libraries
+from skillc.services.check import formatting
+from skillc.services.library import libraries
 
 SKILL = 'skill Rest { noplan }\nimpl waiting of Rest { run python "skillc.primitives:StandIn" }\n'
 COMMANDS = {

@@ -11,12 +11,13 @@ from shipped import SKILLS
 from single_edits import apply_edits, single_edit
 from test_libraries import LIBRARIES, text_of
 
-from skillc.services import check_cache, parse_cache, snapshots
-from skillc.services.check_cache import CheckCacheEntry
-from skillc.services.edit_checks import check_edits
-from skillc.services.known_checks import check_and_store
-from skillc.services.library_checks import check_library
-from skillc.services.library_files import LibraryFiles, find_library
+from skillc.services.check import snapshots
+from skillc.services.check.edit_checks import check_edits
+from skillc.services.check.known_checks import check_and_store
+from skillc.services.check.library_checks import check_library
+from skillc.services.library import check_cache, parse_cache
+from skillc.services.library.check_cache import CheckCacheEntry
+from skillc.services.library.files import LibraryFiles, find_library
 from skillc_dsl.cache import store
 from skillc_dsl.diagnostics import Diagnostic
 

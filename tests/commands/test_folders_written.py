@@ -10,7 +10,8 @@ from click.testing import CliRunner
 
 from commands.test_output import lab, skillc_in
 from skillc.cli.main import skillc
-from skillc.services import run_report, task_loading
+from skillc.services.run import report as run_report
+from skillc.services.tasks import loading as task_loading
 
 GOAL = "lab:b contain lab:crate"
 __all__ = ["lab"]

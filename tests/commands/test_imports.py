@@ -5,7 +5,7 @@ from pathlib import Path
 from click.testing import CliRunner
 
 from skillc.cli.main import skillc
-from skillc.services.library_files import SHIPPED
+from skillc.services.library.files import SHIPPED
 
 WORK = """
 use skillc, contact

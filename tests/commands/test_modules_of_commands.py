@@ -33,6 +33,6 @@ def test_what_needs_no_simulator_imports_none(command: tuple[str, ...], tmp_path
 
 @pytest.mark.slow
 def test_a_run_imports_what_draws_for_its_report_at_most_in_another_process() -> None:
-    program = "import skillc.services.run_report, sys; print(*sys.modules)"
+    program = "import skillc.services.run.report, sys; print(*sys.modules)"
     run = subprocess.run((sys.executable, "-c", program), capture_output=True, text=True, check=True)
     assert "numpy" in run.stdout and "matplotlib" not in run.stdout.split()

@@ -12,11 +12,11 @@ from rich.spinner import Spinner
 from rich.text import Text
 
 from skillc.cli.main import skillc
-from skillc.cli.run_output import print_results
-from skillc.cli.run_progress import RunProgress
-from skillc.cli.trial_progress import TrialProgress
+from skillc.cli.progress.run_output import print_results
+from skillc.cli.progress.run_progress import RunProgress
+from skillc.cli.progress.trials import TrialProgress
 from skillc_runtime.evaluation.report.result import StepResult, TaskResult
-from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelled import LabelledIri
 
 LIBRARY = """use skiros
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from shipped_sources import TEXTS
 
-from skillc.services import cache_entries, parse_cache
+from skillc.services.library import cache_entries, parse_cache
 from skillc_dsl import cache
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source

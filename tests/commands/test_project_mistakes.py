@@ -7,7 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from skillc.cli.main import skillc
-from skillc.services.libraries import load_vocabulary
+from skillc.services.library.libraries import load_vocabulary
 from skillc_dsl.source import Span
 from skillc_runtime.scene.suggestions import suggest
 

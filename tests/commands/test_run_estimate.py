@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from skillc.cli.run_display import format_estimate
-from skillc.cli.run_estimate import PlanProgress
+from skillc.cli.progress.run_display import format_estimate
+from skillc.cli.progress.run_estimate import PlanProgress
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.events import NodeEnded, NodeStarted, PlanMade, PlanStep, Replanned
 

@@ -12,8 +12,8 @@ from commands.test_output import lab
 
 __all__ = ["lab"]
 
-REPORT, DRAWING = "skillc.services.run_report", {"matplotlib"}
-UNUSED = {"glfw", "skillc.services.dry_runs", "skillc_compiler.checks", "skillc_dsl.parsing.parser"}
+REPORT, DRAWING = "skillc.services.run.report", {"matplotlib"}
+UNUSED = {"glfw", "skillc.services.run.dry_runs", "skillc_compiler.checks", "skillc_dsl.parsing.parser"}
 TASK = """
 task fill {
     scene "scene.ttl"

@@ -12,9 +12,9 @@ from unittest.mock import patch
 import pytest
 from shipped import shelf, vocabulary
 
-from skillc.services.checking import CheckRequest, check_paths
-from skillc.services.known_checks import check_uncached
-from skillc.services.library_files import find_library
+from skillc.services.check.checking import CheckRequest, check_paths
+from skillc.services.check.known_checks import check_uncached
+from skillc.services.library.files import find_library
 from skillc.services.testing.suite import find_suites, run_suite
 from skillc_compiler.goals.parsing import parse_goal
 from skillc_compiler.manual import Page, load_pages, page_names, parse_page
@@ -56,7 +56,7 @@ def problems(page: Page, text: str) -> list[str]:
     """Return the names of the diagnostics of an example."""
     match page.found_by:
         case "check" if page.name == "unchecked-space":
-            with patch("skillc.services.task_checks.missing_extras", lambda *extras: extras):
+            with patch("skillc.services.check.task_checks.missing_extras", lambda *extras: extras):
                 return in_library(text)
         case "check":
             return beside_scene(text) if page.language == "turtle" else in_library(text)

@@ -10,25 +10,25 @@ from msgspec.structs import replace
 from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
 
 from skillc_runtime.backends.mujoco.wrist import WristFilter, filter_wrist
-from skillc_runtime.backends.simulation.arm_sensing import ArmSensing, LastLink, MassMemory, measure, take_mass
-from skillc_runtime.backends.simulation.motor_memory import MotorMemory, pursue
-from skillc_runtime.control.command_validator import update_holding
-from skillc_runtime.control.controllers import make_controllers
+from skillc_runtime.backends.simulation.arms.motor_memory import MotorMemory, pursue
+from skillc_runtime.backends.simulation.arms.sensing import ArmSensing, LastLink, MassMemory, measure, take_mass
+from skillc_runtime.control.laws.controllers import make_controllers
+from skillc_runtime.control.laws.virtual_arm import load_virtual_model
 from skillc_runtime.control.limits import EXPECTED, SpeedLimit
 from skillc_runtime.control.momentum_observer import MomentumObserver
 from skillc_runtime.control.period import ArmMemory, copy_state, make_state, watch_arm
-from skillc_runtime.control.safety import SafetyLimits, SafetyMonitor, distance_outside, tool_speed
-from skillc_runtime.control.signal_memory import find_speeds
-from skillc_runtime.control.virtual_arm import load_virtual_model
+from skillc_runtime.control.supervision.command_validator import update_holding
+from skillc_runtime.control.supervision.safety import SafetyLimits, SafetyMonitor, distance_outside, tool_speed
+from skillc_runtime.control.supervision.signal_memory import find_speeds
 from skillc_runtime.devices.arm import Capabilities, command_values
-from skillc_runtime.motion.arc import arc_through
 from skillc_runtime.motion.coverage import add_dose
 from skillc_runtime.motion.overlays import Circle, Lissajous
-from skillc_runtime.motion.path import join_segments, path_through
+from skillc_runtime.motion.paths.arc import arc_through
+from skillc_runtime.motion.paths.path import join_segments, path_through
+from skillc_runtime.motion.paths.segments import MotionLimits, segment_between
 from skillc_runtime.motion.pose import Pose, exp
 from skillc_runtime.motion.reference import Compliance, Reference
 from skillc_runtime.motion.reference_generator import ReferenceGenerator
-from skillc_runtime.motion.segments import MotionLimits, segment_between
 
 
 def laws(robot: str, count: int) -> list[list[float]]:

@@ -10,8 +10,8 @@ import numpy as np
 import skillc_ontology
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.gains import read_gains
+from skillc_runtime.control.laws.virtual_arm import load_virtual_model
 from skillc_runtime.control.setup import ArmSetup
-from skillc_runtime.control.virtual_arm import load_virtual_model
 from skillc_runtime.devices.arm import ArmLimits, ArmState, Capabilities, JointPosition, Torque
 from skillc_runtime.motion.pose import Pose, exp, quaternion_from_rotation, skew
 

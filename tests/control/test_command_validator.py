@@ -5,8 +5,8 @@ import pytest
 from msgspec.structs import replace
 from rig import HOMES, LAWS, Bench
 
-from skillc_runtime.control.command_validator import CommandValidator
 from skillc_runtime.control.controller import ControlError
+from skillc_runtime.control.supervision.command_validator import CommandValidator
 from skillc_runtime.devices.arm import JointPosition, Torque
 
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from rig import HOMES, Bench, moved_by
 
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose, exp
-from skillc_runtime.motion.segments import MotionLimits
 
 LIMITS = MotionLimits(speed=0.1, acceleration=0.4)
 

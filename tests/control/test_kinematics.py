@@ -6,8 +6,8 @@ import pytest
 from rig import HOMES, ROBOTS, Bench, moved_by
 
 from skillc_runtime.control.inverse_kinematics import solve_inverse_kinematics
+from skillc_runtime.control.laws.virtual_arm import VirtualArm, load_virtual_model
 from skillc_runtime.control.limits import range_margin
-from skillc_runtime.control.virtual_arm import VirtualArm, load_virtual_model
 from skillc_runtime.motion.pose import Pose, exp, log
 
 

@@ -8,11 +8,11 @@ from msgspec.structs import replace
 from rig import GAINS, ROBOTS, Bench, moved_by
 
 from skillc_runtime.control.controller import ControlError
-from skillc_runtime.control.controllers import make_controllers
-from skillc_runtime.control.damping import damping_rate
 from skillc_runtime.control.gains import CONTROLLERS, LawGains, OwnGains, UnknownController, read_gains
-from skillc_runtime.control.nullspace import REGULARISATION, Nullspace, regularisation
-from skillc_runtime.control.virtual_arm import load_virtual_model
+from skillc_runtime.control.laws.controllers import make_controllers
+from skillc_runtime.control.laws.damping import damping_rate
+from skillc_runtime.control.laws.nullspace import REGULARISATION, Nullspace, regularisation
+from skillc_runtime.control.laws.virtual_arm import load_virtual_model
 from skillc_runtime.motion.pose import Pose, exp, log
 from skillc_runtime.motion.reference import Compliance, Reference, resting_reference
 

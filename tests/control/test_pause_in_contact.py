@@ -6,9 +6,9 @@ from rig import GAINS, Bench
 
 from skillc_runtime.control.compliance_control import LIFT_M, RETARE_M
 from skillc_runtime.devices.guarded_push import GuardedPush, Travel
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.motion.segments import MotionLimits
 
 FORCE_N = {"iiwa14": 18.0, "ur5e": 8.0}
 APPROACH_M_S = 0.05

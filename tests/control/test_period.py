@@ -20,14 +20,14 @@ from skillc_runtime.control.period import (
     copy_state,
 )
 from skillc_runtime.control.push_memory import MOST_PUSHES, PHASE, PRESSING
-from skillc_runtime.control.safety import FORCE
+from skillc_runtime.control.supervision.safety import FORCE
 from skillc_runtime.devices.guarded_push import GuardedPush, Travel
 from skillc_runtime.motion.numerics.compiled import COMPILES, bind
 from skillc_runtime.motion.numerics.places import fields_of, is_record
 from skillc_runtime.motion.overlays import Circle, Lissajous
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import exp
-from skillc_runtime.motion.segments import MotionLimits
 
 LAWS = {"iiwa14": control_by_impedance, "ur5e": control_by_forward_dynamics}
 PERIODS = 900

@@ -6,9 +6,9 @@ from rig import GAINS, HOMES, Bench
 
 from skillc_runtime.devices.arm import Torque
 from skillc_runtime.motion.overlays import Circle
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose, exp
-from skillc_runtime.motion.segments import MotionLimits
 
 LIMITS = MotionLimits(speed=0.1, acceleration=0.4)
 FORCE_N = {"iiwa14": 18.0, "ur5e": 8.0}

@@ -6,14 +6,14 @@ from msgspec.structs import replace
 from rig import GAINS, HOMES, LAWS, ROBOTS, Bench, moved_by
 
 from skillc_runtime.control.controller import ControlError
-from skillc_runtime.control.controllers import make_controllers
+from skillc_runtime.control.laws.controllers import make_controllers
+from skillc_runtime.control.laws.task_error import EXERTED
+from skillc_runtime.control.laws.virtual_arm import load_virtual_model
 from skillc_runtime.control.limits import EFFORT
-from skillc_runtime.control.task_error import EXERTED
-from skillc_runtime.control.virtual_arm import load_virtual_model
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import exp
 from skillc_runtime.motion.reference import Compliance, Reference
-from skillc_runtime.motion.segments import MotionLimits
 
 LIMITS = MotionLimits(speed=0.2, acceleration=0.4)
 

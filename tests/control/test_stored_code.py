@@ -21,7 +21,7 @@ import sys
 import numpy as np
 from skillc_runtime.control.filters import step_lag
 from skillc_runtime.control.momentum_observer import find_unexplained_torque
-from skillc_runtime.motion.profile import trapezoid_at
+from skillc_runtime.motion.paths.profile import trapezoid_at
 
 value = np.zeros(2)
 print(step_lag(value, np.ones(2), 0.5, 1e-9), value, trapezoid_at(1.0, 1.0, 2.0, 2.0, 1.0, 0.25))

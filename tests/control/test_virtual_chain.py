@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from rig import ROBOTS, moved_by
 
-from skillc_runtime.control.virtual_arm import VirtualArm, load_virtual_model
-from skillc_runtime.control.virtual_chain import compute_virtual
+from skillc_runtime.control.laws.virtual_arm import VirtualArm, load_virtual_model
+from skillc_runtime.control.laws.virtual_chain import compute_virtual
 
 SLIDING = """<mujoco><worldbody><body pos=".1 .2 .3" quat=".9 .1 .3 0">
   <joint type="slide" axis="1 0 1"/><body pos="0 .1 .2"><joint axis="0 1 1" pos=".02 0 .1" ref=".3"/>

@@ -14,7 +14,7 @@ from skillc_runtime.backends.control_process.link import (
     PointMass,
     StateView,
 )
-from skillc_runtime.backends.control_process.pacing import Pacer
+from skillc_runtime.backends.control_process.periods.pacing import Pacer
 
 PERIOD_S = 0.001
 

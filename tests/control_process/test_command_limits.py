@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skillc_runtime.backends.control_process.command_limits import CommandLimits, RateLimits
+from skillc_runtime.backends.control_process.periods.command_limits import CommandLimits, RateLimits
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.devices.arm import ArmLimits
 from skillc_runtime.motion.pose import Array

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from simulation.cells import cell
-from skillc_runtime.backends.control_process.device_arm import DeviceArm, build_arm
 from skillc_runtime.backends.control_process.fingers import find_fingers
 from skillc_runtime.backends.control_process.link import LinkAbilities, StateView, make_state
+from skillc_runtime.backends.control_process.periods.device_arm import DeviceArm, build_arm
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.devices.arm import ArmLoad
 from skillc_runtime.motion.pose import Array, Pose

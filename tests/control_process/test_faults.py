@@ -16,13 +16,13 @@ import pytest
 
 from control_process.toy_link import Toy, toy_cell
 from simulation.cells import ARM
-from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable, StopPersists
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.recording.mcap.signal_tap import SampledBlock, SignalTap
 
 pytestmark = pytest.mark.robot

@@ -16,7 +16,7 @@ from click.testing import CliRunner, Result
 from control_process import toy_backend
 from control_process.toy_link import Toy
 from skillc.cli.main import skillc
-from skillc.services import backends
+from skillc.services.project import backends
 from skillc_ontology import catalogue
 
 pytestmark = pytest.mark.robot

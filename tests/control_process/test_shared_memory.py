@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 
-from skillc_runtime.backends.control_process.pacing import CycleClock
+from skillc_runtime.backends.control_process.periods.pacing import CycleClock
 from skillc_runtime.backends.control_process.shared_memory import SharedRecord, SharedRing, make_memory, map_memory
 
 WRITER = """

@@ -12,7 +12,7 @@ from control_process.still_link import StillDescription
 from simulation.cells import LAB, world
 from skillc_runtime.backends.control_process.link import LinkAbilities
 from skillc_runtime.backends.control_process.opening import open_cell
-from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.devices.backend import BackendBroken

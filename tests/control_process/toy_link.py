@@ -32,7 +32,7 @@ from skillc_runtime.backends.control_process.link import (
     StateView,
 )
 from skillc_runtime.backends.control_process.opening import open_cell
-from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable, StopPersists

@@ -18,7 +18,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
 PACKAGES = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"]["build"]["targets"]["wheel"]
 BIN = Path(sys.executable).parent
 WORKFLOW = ROOT / ".github/workflows/ci.yml"
-TEMPLATE = ROOT / "app/skillc/services/templates/common/check.yml.j2"
+TEMPLATE = ROOT / "app/skillc/services/scaffolding/templates/common/check.yml.j2"
 
 
 def call(*command: str | Path, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:

@@ -18,9 +18,9 @@ from PIL import Image
 
 from docs.pages import ROOT
 from operating.monitors import Monitor
-from skillc.services.reporting import SilentReporter
-from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import load_task
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.run.running import RunOptions, run_task
+from skillc.services.tasks.loading import load_task
 from skillc_runtime.film.footage import FILM
 from skillc_runtime.film.picture_files import LOOP_EVERY, LoopPictures
 from skillc_runtime.film.rendering import Picture

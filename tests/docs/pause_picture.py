@@ -12,11 +12,11 @@ from rich.text import Text
 
 from docs.pages import ROOT
 from operating.monitors import Monitor
-from skillc.cli.run_display import compose_display
-from skillc.cli.run_view import view_run
-from skillc.services.reporting import SilentReporter
-from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import load_task
+from skillc.cli.progress.run_display import compose_display
+from skillc.cli.progress.run_view import view_run
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.run.running import RunOptions, run_task
+from skillc.services.tasks.loading import load_task
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.commands import Command, Pause, Stop

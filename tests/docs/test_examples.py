@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_compiler import pipeline
 from skillc_dsl.formatting.formatter import check_layout
 from skillc_dsl.rendering.concise import render

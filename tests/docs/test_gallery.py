@@ -9,7 +9,7 @@ from PIL import Image
 
 from docs.gallery_pictures import ALL_BYTES, PICTURES, README_BYTES, README_FILM, SIZE, TASKS, find_task_picture
 from docs.pages import ROOT
-from skillc.services.task_list import list_tasks
+from skillc.services.tasks.listing import list_tasks
 
 PAGE = (ROOT / "docs/gallery.md").read_text("utf-8")
 SHOWN = re.compile(r"!\[([^\]]*)\]\(pictures/([^)]+)\)")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 
 from docs.pages import ROOT
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED
 from skillc_runtime.world.state.terms import SKILLC
 
 PAGE = (ROOT / "docs/motion.md").read_text(encoding="utf-8")

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 from docs.pages import ROOT, blocks
 from skillc.cli.main import skillc
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_runtime.scene.documents import Document

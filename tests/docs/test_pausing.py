@@ -9,7 +9,7 @@ import pytest
 from docs.pages import ROOT
 from docs.pause_picture import PICTURE, draw, read_text
 from skillc.cli.commands.run import command
-from skillc.cli.run_keys import FASTER, KEYS, SLOWER
+from skillc.cli.progress.run_keys import FASTER, KEYS, SLOWER
 from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE
 
 PAGE = (ROOT / "docs/pausing.md").read_text(encoding="utf-8")

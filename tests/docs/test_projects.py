@@ -9,7 +9,7 @@ import msgspec
 from docs.pages import ROOT, blocks
 from skillc.cli.main import skillc
 from skillc.services.project.manifest import Manifest, ToolSettings, read_manifest
-from skillc.services.project_templates import TEMPLATES
+from skillc.services.scaffolding.project_templates import TEMPLATES
 from skillc_dsl.source import Source
 
 PAGE = ROOT / "docs/projects.md"

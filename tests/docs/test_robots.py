@@ -10,7 +10,7 @@ import mujoco
 import pytest
 
 from docs.pages import ROOT, Reader
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_ontology import catalogue
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.data_sheet import DataSheet

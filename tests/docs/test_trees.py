@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from docs.pages import ROOT
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_compiler import pipeline
 from skillc_dsl.source import Source
 from skillc_model.conditions import Expression, Individual

@@ -6,7 +6,7 @@ import re
 from typing import get_args
 
 from docs.pages import ROOT
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_runtime.evaluation.trials.targets import METRICS
 from skillc_runtime.evaluation.trials.trial import Disturbance
 from skillc_runtime.world.state.terms import CONTACT, SKILLC

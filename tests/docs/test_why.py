@@ -9,7 +9,7 @@ import pytest
 from docs.pages import ROOT, Reader, blocks
 from skillc_runtime.recording.events import ImplementationChosen, TaskStarted
 from skillc_runtime.recording.reader import TraceReader
-from skillc_runtime.world.state.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import Quantity
 
 PAGE = ROOT / "docs/why.md"
 

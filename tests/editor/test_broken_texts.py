@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services.libraries import load_vocabulary
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library.files import SHIPPED, find_library
+from skillc.services.library.libraries import load_vocabulary
 from skillc_compiler.ide import highlighting, outline
 from skillc_compiler.ide.analysis import Analysis, AnalysisInput, analyse
 from skillc_compiler.ide.calls import find_signature

@@ -10,8 +10,8 @@ from lsprotocol import types
 
 from skillc.lsp.diagnostics import diagnostics_by_uri
 from skillc.lsp.libraries import Libraries
-from skillc.services import library_checks
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.check import library_checks
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_ontology import catalogue
 
 CASES = Path(__file__).parents[1] / "cases" / "errors"

@@ -8,8 +8,8 @@ from types import ModuleType
 
 import pytest
 
-from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import LoadedTask, load_task
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.tasks.loading import LoadedTask, load_task
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import Plan, Solved
 from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem

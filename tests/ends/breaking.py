@@ -12,9 +12,9 @@ import time
 import numpy as np
 
 from skillc_runtime.devices.cell import Cell
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.primitives.primitive import Primitive, Status
 
 FOR_EVER_S = 10**9

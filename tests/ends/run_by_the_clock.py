@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from ends.breaking import FOR_EVER_S, Swinging
-from skillc.services.recorded_run import RecordedRun, RecordingOptions, recorded_run
-from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import LoadedTask, load_task
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.run.recorded_run import RecordedRun, RecordingOptions, recorded_run
+from skillc.services.tasks.loading import LoadedTask, load_task
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.real_time.cell import RealTimeCell
 from skillc_runtime.backends.simulation.steps import InPython

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from skillc.services.recorded_run import RecordedRun, RecordingOptions, recorded_run
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.run.recorded_run import RecordedRun, RecordingOptions, recorded_run
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.motion.arrays import OutVector

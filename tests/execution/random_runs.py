@@ -25,7 +25,7 @@ from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import Event, NodeEnded, Requested, StateChanged, TaskEnded, WorldChanged
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_spec import RunSpec
-from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledProperty
 from tree.library import FLAGS, ON
 from tree.strategies import Play, plays
 

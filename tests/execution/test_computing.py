@@ -21,7 +21,7 @@ from skillc_runtime.primitives.compute_here import compute_here
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import Event, Note
-from skillc_runtime.world.state.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import Quantity
 from tree.library import Library, act, call, par, seq, world
 from tree.stage import Script, Scripted, Stage
 

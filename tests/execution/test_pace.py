@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skillc.cli.run_keys import format_help
-from skillc.cli.run_view import RunView
+from skillc.cli.progress.run_keys import format_help
+from skillc.cli.progress.run_view import RunView
 from skillc_runtime.execution.pace import FAST, MAX_LAG_S, PACES, REAL, Pace, format_pace, parse_pace
 
 TICK_S = 0.01

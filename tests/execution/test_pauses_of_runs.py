@@ -8,7 +8,7 @@ import pytest
 
 from execution.loops import StagedCell, Watched, staged
 from execution.ways import LONG, SHORT, check_nothing_left, paused, pausing
-from skillc.cli.event_lines import EventLines
+from skillc.cli.output.event_lines import EventLines
 from skillc_model import tree
 from skillc_model.skills import Compound, PausePolicy, Skill
 from skillc_runtime.execution.tree.gate import AtSkill, Gate

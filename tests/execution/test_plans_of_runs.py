@@ -12,7 +12,7 @@ from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import PlanArrived, Replanned, WorldChanged
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.changes import RemoveRelation
-from skillc_runtime.world.state.labelling import label_change
+from skillc_runtime.world.state.labels.labelling import label_change
 
 ASKING = RunSpec(ask_after_failure=True)
 

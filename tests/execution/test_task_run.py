@@ -27,7 +27,7 @@ from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import Note, Requested, TaskEnded, WorldChanged
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty, LabelledRelation
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledProperty, LabelledRelation
 from tree.library import FLAGS, ON, Library, act, call, here, is_on, seq, with_
 from tree.stage import Script
 

@@ -11,7 +11,7 @@ from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import TaskEnded
 from skillc_runtime.recording.run_spec import RunSpec
-from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledProperty
 from tree.library import ON, Library, act, call, here
 from tree.stage import Script
 

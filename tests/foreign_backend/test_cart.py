@@ -19,7 +19,7 @@ from server.running import RunningServer, serving, wait_until
 from skillc.client.connecting import connect
 from skillc.client.errors import RefusedError
 from skillc.errors import RequestError
-from skillc.services.backends import list_backends, make_backend, require_backend
+from skillc.services.project.backends import list_backends, make_backend, require_backend
 from skillc.world import WorldModel, load_scene, load_vocabulary
 
 pytestmark = pytest.mark.slow

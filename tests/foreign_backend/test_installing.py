@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services import backends
+from skillc.services.project import backends
 
 
 def install(site: Path, package: str, entries: str) -> Path:

@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_dsl import encoding
 from skillc_ontology import catalogue
 from skillc_runtime.scene.documents import SceneError

@@ -14,8 +14,8 @@ from rdflib import Graph
 from rdflib.compare import isomorphic
 
 from skillc.cli.main import skillc
-from skillc.services import libraries
-from skillc.services.scene_export import world_graph
+from skillc.services.library import libraries
+from skillc.services.views.scene_export import world_graph
 from skillc_ontology import catalogue
 from skillc_rdf.formats.write import UnwritableError, format_as
 from skillc_runtime.scene.documents import Document

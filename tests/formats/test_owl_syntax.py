@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from skillc.cli.main import skillc
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_dsl.source import Source
 from skillc_rdf.formats.read import UnreadableError, read_content
 from skillc_rdf.vocabulary.load import load

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from rdflib import Dataset, Graph, URIRef
 
 from skillc.cli.main import skillc
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_rdf.formats.detect import UnsupportedFormat, detect_format
@@ -151,7 +151,8 @@ def test_braces_in_texts_and_comments_are_no_graphs() -> None:
 def test_json_is_read_without_rdflib(tmp_path: Path) -> None:
     path = write("json-ld", tmp_path, SCENE.read_text())
     program = (
-        "import sys, pathlib\nfrom skillc.services import libraries\nfrom skillc_runtime.scene.load import load_scene\n"
+        "import sys, pathlib\nfrom skillc.services.library import libraries\n"
+        "from skillc_runtime.scene.load import load_scene\n"
         f"load_scene(pathlib.Path({str(path)!r}), libraries.load_vocabulary())\nassert 'rdflib' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", program], check=True, timeout=60)

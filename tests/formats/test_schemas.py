@@ -15,7 +15,7 @@ from jsonschema import Draft202012Validator
 
 from skillc.cli.commands.schema import NAMES
 from skillc.cli.main import skillc
-from skillc.services.schemas import SCHEMAS, format_schema, make_schema, read_schema
+from skillc.services.library.schemas import SCHEMAS, format_schema, make_schema, read_schema
 
 IRI = re.compile(r"https?://\S+#\S+")
 PREFIXED = re.compile(r"(lab|skiros|skillc|wiping|std):[\w-]+")

@@ -16,7 +16,7 @@ from click.testing import CliRunner
 from simulation.cells import ARM, GRIPPER, world
 from skillc.cli.main import skillc
 from skillc.errors import RequestError
-from skillc.services.signal_files import SignalFormat, check_signals, recorded_signals
+from skillc.services.run.signal_files import SignalFormat, check_signals, recorded_signals
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.devices.backend import Backend

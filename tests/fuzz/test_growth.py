@@ -9,7 +9,7 @@ import pytest
 from fuzz.kinds._doors import DOORS, HEAD
 from fuzz.kinds._growth import MOST_EXPONENT, measure_growth
 from fuzz.kinds.growth import Shape, check_growth
-from skillc_compiler.analysis.axioms import build_axioms
+from skillc_compiler.analysis.knowledge.axioms import build_axioms
 from skillc_dsl.encoding import MOST_CHARACTERS
 from skillc_dsl.source import Source
 from skillc_rdf.vocabulary.load import load

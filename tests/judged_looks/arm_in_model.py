@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.simulation.contact_bits import CARRIES, PAD
+from skillc_runtime.backends.simulation.model.contact_bits import CARRIES, PAD
 from skillc_runtime.motion.pose import Array, log
 
 DEEP_M = 0.001

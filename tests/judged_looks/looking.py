@@ -6,11 +6,11 @@ from collections.abc import Callable
 
 from judged_looks.verdict import Said, Verdict
 from skillc.services.cell_checks.starting import find_start_problem
-from skillc.services.planning import plan_goal, prepare_planners
-from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import LoadedTask
+from skillc.services.planning.planning import plan_goal, prepare_planners
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.tasks.loading import LoadedTask
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.variation import exact_variation
+from skillc_runtime.backends.simulation.variation.variation import exact_variation
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import NotStarted, prepare_task
 from skillc_runtime.execution.execute import execute_task

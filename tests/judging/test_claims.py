@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from backends.kinematic_runs import prepare
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.simulation.names import part_name

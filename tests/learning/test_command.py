@@ -14,7 +14,7 @@ from click.testing import CliRunner, Result
 
 from skillc import extras
 from skillc.cli.main import skillc
-from skillc.services.library_files import SHIPPED
+from skillc.services.library.files import SHIPPED
 
 
 def run(*arguments: str | Path) -> Result:

@@ -8,10 +8,10 @@ import pytest
 
 from learning.runners import RADIUS, SPEED, parameter
 from skillc.errors import RequestError
-from skillc.services.compiled_libraries import compile_valid
 from skillc.services.learning.parameters import Learnable, choose_learnable, find_learnable
 from skillc.services.learning.text import MARK, LearnedValue, change_texts
-from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import SHIPPED, LibraryFiles, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.trials.settings import Setting, apply_settings
 from skillc_runtime.recording.events import ImplementationChosen

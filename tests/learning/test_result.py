@@ -9,7 +9,7 @@ import pytest
 
 from learning.runners import BASIS, aim
 from skillc.cli.layout import TerminalPage
-from skillc.cli.learning_output import format_learned
+from skillc.cli.output.learning import format_learned
 from skillc.errors import RequestError
 from skillc.services.learning.evidence import write_evidence
 from skillc.services.learning.figures import World

@@ -10,10 +10,10 @@ from msgspec import structs
 
 from learning.runners import RADIUS, SPEED
 from skillc.errors import RequestError, ServiceError
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.fixing import FileChange
+from skillc.services.check.fixing import FileChange
 from skillc.services.learning.text import MARK, LearnedValue, change_texts, require_own
-from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import SHIPPED, LibraryFiles, find_library
 from skillc_model.skills import SkillLibrary
 
 EVIDENCE = (f"{MARK}for clean_table: least time.", "# It was tried.")

@@ -11,12 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from skillc_runtime.motion.arc import arc_around, arc_through
-from skillc_runtime.motion.path import join_segments, path_through
+from skillc_runtime.motion.paths.arc import arc_around, arc_through
+from skillc_runtime.motion.paths.path import join_segments, path_through
+from skillc_runtime.motion.paths.profile import trapezoidal_profile
+from skillc_runtime.motion.paths.segments import MotionLimits, segment_between
+from skillc_runtime.motion.paths.smooth import SmoothProfile, window_for
 from skillc_runtime.motion.pose import Pose, exp, log
-from skillc_runtime.motion.profile import trapezoidal_profile
-from skillc_runtime.motion.segments import MotionLimits, segment_between
-from skillc_runtime.motion.smooth import SmoothProfile, window_for
 
 EXAMPLES = int(os.environ.get("SKILLC_MOTIONS", "15"))
 """Of each property; more, once, by the environment."""

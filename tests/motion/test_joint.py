@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skillc_runtime.motion.joint import joint_motion
+from skillc_runtime.motion.paths.joint import joint_motion
 
 joints = st.lists(st.floats(-3.0, 3.0), min_size=6, max_size=6).map(np.array)
 

@@ -4,9 +4,9 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from skillc_runtime.motion.joint import joint_motion
-from skillc_runtime.motion.joint_path import joint_path
 from skillc_runtime.motion.joint_reference_generator import JointReferenceGenerator
+from skillc_runtime.motion.paths.joint import joint_motion
+from skillc_runtime.motion.paths.joint_path import joint_path
 
 SPEED, ACCELERATION = np.linspace(0.5, 2.0, 6), np.linspace(1.0, 6.0, 6)
 

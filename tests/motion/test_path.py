@@ -7,9 +7,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose, exp, log
-from skillc_runtime.motion.segments import MotionLimits
 
 LIMITS = MotionLimits(speed=0.2, acceleration=0.5)
 coordinate = st.floats(-0.4, 0.4)

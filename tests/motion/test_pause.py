@@ -5,13 +5,13 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from skillc_runtime.motion.joint import joint_motion
 from skillc_runtime.motion.joint_reference_generator import JointReferenceGenerator
 from skillc_runtime.motion.overlays import Circle
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.joint import joint_motion
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.reference_generator import ReferenceGenerator
-from skillc_runtime.motion.segments import MotionLimits
 
 DECELERATION = 0.5
 START, CORNER, GOAL = Pose.of((0.0, 0.0, 0.0)), Pose.of((1.0, 0.0, 0.0)), Pose.of((1.0, 0.4, 0.0))

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skillc_runtime.motion.profile import trapezoidal_profile
+from skillc_runtime.motion.paths.profile import trapezoidal_profile
 
 positive = st.floats(0.01, 5.0)
 

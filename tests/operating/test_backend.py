@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from operating.monitors import Monitor
-from skillc.services.backends import BackendName
-from skillc.services.reporting import SilentReporter
-from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import load_task
+from skillc.services.project.backends import BackendName
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.run.running import RunOptions, run_task
+from skillc.services.tasks.loading import load_task
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import TaskStarted
 from skillc_runtime.recording.run_spec import RunSpec

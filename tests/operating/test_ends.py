@@ -13,9 +13,9 @@ from msgspec.structs import replace
 
 from operating.depot import write_depot
 from operating.monitors import Monitor, Script
-from skillc.services.reporting import SilentReporter
-from skillc.services.running import RunOptions, RunResult, run_task
-from skillc.services.task_loading import load_task
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.run.running import RunOptions, RunResult, run_task
+from skillc.services.tasks.loading import load_task
 from skillc_ontology import catalogue
 from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.evaluation.report.result import TaskResult

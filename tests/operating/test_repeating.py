@@ -10,10 +10,10 @@ from msgspec.structs import replace
 
 from operating.depot import write_depot
 from operating.monitors import Monitor
-from skillc.services.backends import BackendName, make_backend
-from skillc.services.reporting import SilentReporter
-from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import load_task
+from skillc.services.project.backends import BackendName, make_backend
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.run.running import RunOptions, run_task
+from skillc.services.tasks.loading import load_task
 from skillc_runtime.execution.repeat import repeat_run
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.commands import Command, Pause, Resume, StepOver

@@ -16,7 +16,7 @@ from rdflib.compare import isomorphic
 from rdflib.plugins.parsers.notation3 import BadSyntax
 
 from skillc.cli.main import skillc
-from skillc.services.ontologies import OpenOntologies, open_ontologies
+from skillc.services.library.ontologies import OpenOntologies, open_ontologies
 from skillc_rdf.formats.read import read_content
 from skillc_rdf.vocabulary.types import Vocabulary
 

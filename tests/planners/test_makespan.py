@@ -14,8 +14,8 @@ from planners.test_schedule_simulation import BOTH, GOOD, WORLD, carry, in_order
 from planning.samples import LAB, library, post, skill
 from plans import depot
 from skillc.errors import RequestError
-from skillc.services.planning import with_minimal_makespan
-from skillc.services.task_loading import LoadedTask
+from skillc.services.planning.planning import with_minimal_makespan
+from skillc.services.tasks.loading import LoadedTask
 from skillc_model.conditions import Condition, Holds, Individual
 from skillc_model.pddl.problem import Problem
 from skillc_model.tree import Sequence

@@ -12,8 +12,8 @@ import pytest
 from msgspec.structs import replace
 
 from plans import depot
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.makespan.scheduling import schedule_plan

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from skillc.services.libraries import load_vocabulary
+from skillc.services.library.libraries import load_vocabulary
 from skillc_compiler.pipeline import compile as compile_sources
 from skillc_dsl.source import Source
 from skillc_model.conditions import And, Compare, Condition, Holds, Individual, Literal, Not, PropertyOf

@@ -9,8 +9,8 @@ import pytest
 
 from planning.breaking import break_one
 from planning.test_why_no_plan import CLEAN, FOLDER, PUT
-from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import load_task
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.tasks.loading import load_task
 from skillc_ontology import catalogue
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.recording.run_spec import RunSpec

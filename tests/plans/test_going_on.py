@@ -9,7 +9,7 @@ from skillc_runtime.execution.assignment import AchieveGoal, Assignment, Prepare
 from skillc_runtime.execution.conclusion import continue_plan
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.space_claim import ChosenPosture, SpaceClaim
-from skillc_runtime.world.state.labelled import LabelledIri, LabelledPose
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledPose
 from skillc_runtime.world.state.model import WorldModel
 
 POSTURE = ChosenPosture(

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from skillc.errors import DiagnosticsError
-from skillc.services import libraries
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
+from skillc.services.library import libraries
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import SHIPPED, LibraryFiles, find_library
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
 from skillc_model.skills import SkillLibrary

@@ -14,8 +14,8 @@ from random_cells.spoiling import AWAY_M, SERIES, Case
 from random_cells.writing import TASK, format_scene, write_cell
 from skillc.errors import DiagnosticsError
 from skillc.services.cell_checks.starting import find_start_problem
-from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import LoadedTask, load_task
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.tasks.loading import LoadedTask, load_task
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.names import part_name

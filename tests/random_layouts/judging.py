@@ -12,8 +12,8 @@ from random_layouts.drawing import Layout, draw_layout, format_layout
 from random_layouts.exhaustive import find_way
 from random_surfaces.drawing import draw_crowded_surface
 from random_surfaces.judging import judge_surface
-from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import load_task
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.tasks.loading import load_task
 from skillc_runtime.recording.run_spec import RunSpec
 
 TILTED: Final = "tilted"

@@ -11,8 +11,8 @@ from judged_looks.verdict import Verdict, share_solved
 from random_layouts.drawing import KINDS, draw_layout, format_layout
 from random_layouts.exhaustive import find_way
 from random_layouts.judging import judge, write_layout
-from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import load_task
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.tasks.loading import load_task
 from skillc_runtime.execution.assignment import PreparedTask, prepare_task
 from skillc_runtime.execution.refinement.run_planning import SpaceLook
 from skillc_runtime.execution.refinement.scope import call_of

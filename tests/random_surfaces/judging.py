@@ -10,9 +10,9 @@ from judged_looks.verdict import Verdict
 from random_cells.drawing import ArmName
 from random_surfaces.dense_search import DenseSearch
 from random_surfaces.drawing import Surface, draw_surface, format_scene
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
-from skillc.services.task_loading import LoadedTask
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
+from skillc.services.tasks.loading import LoadedTask
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment

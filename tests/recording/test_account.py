@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from recording.runs import publish
 from skillc_rdf.vocabulary.types import Position
-from skillc_runtime.recording.account import MAX_LISTED, CallOutput, RunAccount
 from skillc_runtime.recording.events import Event, NodeEnded, NodeStarted, StateChanged, TaskEnded, WorldChanged
 from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.history.account import MAX_LISTED, CallOutput, RunAccount
 from skillc_runtime.world.state.facts import Evidence
-from skillc_runtime.world.state.labelled import LabelledIri, LabelledProperty, LabelledValue, Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledProperty, LabelledValue, Quantity
 
 HERE = Position("play.skill", 1, 1)
 DROPPED = Failure(kind="body", message="it fell", values={"force": Quantity(0.2, "N")})

@@ -12,8 +12,8 @@ import numpy as np
 from mcap.reader import make_reader
 
 from recording.runs import CONTENTS
-from skillc.services import libraries
-from skillc.services.run_recordings import make_recorded_cell
+from skillc.services.library import libraries
+from skillc.services.run.recordings import make_recorded_cell
 from skillc_ontology import catalogue
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.motion.pose import Array

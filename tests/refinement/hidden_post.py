@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from refinement.two_arms import PREFIXES
-from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import load_task
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.tasks.loading import load_task
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.assignment import Assignment, PreparedTask, replan_task

@@ -1,8 +1,8 @@
 """Plans of shipped tasks and how the arms carry them out."""
 
-from skillc.services.planning import plan_goal, prepare_planners
-from skillc.services.reporting import Reporter
-from skillc.services.task_loading import load_task
+from skillc.services.planning.planning import plan_goal, prepare_planners
+from skillc.services.reporting.reporter import Reporter
+from skillc.services.tasks.loading import load_task
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement, refine_plan
 from skillc_runtime.planning.plan import Solved

@@ -11,8 +11,9 @@ import skillc_skills
 from refinement.scenes import DESK, tilt_desk
 from refinement.test_measured_values import PROBING
 from skillc.cli.main import skillc
-from skillc.services import cache_entries, check_cache, known_checks
-from skillc.services.space_checks import cure, look, verdicts
+from skillc.services.check import known_checks
+from skillc.services.library import cache_entries, check_cache
+from skillc.services.space import cure, look, verdicts
 
 CLEAN = """
 use wiping

@@ -16,7 +16,7 @@ from skillc.cells.snapshot import decode_snapshot
 from skillc.contract.jobs import PreviewPlan, Rehearse
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.contract.rehearsal import RehearsalRequest
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 from skillc.workers.planning import preview_plan
 from skillc.workers.rehearsing import rehearse
 from skillc_ontology import catalogue
@@ -97,7 +97,7 @@ def test_a_preview_says_why_the_arm_cannot_carry_it_out_unless_nobody_looks(tmp_
 def test_a_rehearsal_of_a_plan_that_was_previewed_does_not_look_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("skillc.services.run_looks.cache", SimpleNamespace(cache_folder=lambda: tmp_path))
+    monkeypatch.setattr("skillc.services.space.run_looks.cache", SimpleNamespace(cache_folder=lambda: tmp_path))
     looks = tmp_path / "looks"
     with open_cell(settings_of(tmp_path, write_door(tmp_path, 0.5, -20.0, 0.75)), SilentReporter()) as host:
         known = decode_snapshot(host.take_snapshot(with_arms=True))

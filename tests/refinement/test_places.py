@@ -11,8 +11,8 @@ from bodies.test_shelves import held, shelf_on_table
 from bodies.test_trays import PART
 from refinement.mat_cell import write_mat
 from skillc.cli.main import skillc
-from skillc_runtime.world.space.free_places import FreePlace, list_free_places
-from skillc_runtime.world.space.place_sampling import APART_M
+from skillc_runtime.world.space.placing.free_places import FreePlace, list_free_places
+from skillc_runtime.world.space.placing.place_sampling import APART_M
 from space.rooms import lab
 
 ON_MAT = "lab:Mat contain lab:Part-A"

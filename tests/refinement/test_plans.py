@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 from refinement.scenes import write_door
 from skillc.cli.main import skillc
-from skillc.services import space_claims
+from skillc.services.space import claims as space_claims
 
 
 def plan(*arguments):

@@ -8,9 +8,9 @@ import pytest
 from msgspec import structs
 from msgspec.structs import replace
 
-from skillc.services.planning import FolderPlanCache, plan_goal, prepare_planners
-from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import LoadedTask, load_task
+from skillc.services.planning.planning import FolderPlanCache, plan_goal, prepare_planners
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.tasks.loading import LoadedTask, load_task
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import PreparedTask, prepare_task
 from skillc_runtime.execution.refinement import run_planning

@@ -9,8 +9,8 @@ import pytest
 from msgspec import structs
 
 from refinement.scenes import write_door
-from skillc.services.reporting import SilentReporter
-from skillc.services.task_loading import load_task
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.tasks.loading import load_task
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.assignment import PreparedTask, prepare_task

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from backends.kinematic_runs import library
-from skillc.services.library_files import SHIPPED
+from skillc.services.library.files import SHIPPED
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.film.annotations import SceneAnnotator
 from skillc_runtime.film.camera import CameraView

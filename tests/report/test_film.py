@@ -13,10 +13,10 @@ from PIL import Image
 
 from simulation.cells import vocabulary
 from skillc_ontology import catalogue
-from skillc_runtime.backends.simulation.drawing import ModelDrawing
-from skillc_runtime.backends.simulation.model_builder import build_model
+from skillc_runtime.backends.simulation.model.drawing import ModelDrawing
+from skillc_runtime.backends.simulation.model.model_builder import build_model
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
-from skillc_runtime.backends.simulation.variation import Variation, exact_variation
+from skillc_runtime.backends.simulation.variation.variation import Variation, exact_variation
 from skillc_runtime.film.annotations import Annotations
 from skillc_runtime.film.camera import CameraView, Projection, frame_points
 from skillc_runtime.film.captions import STRIP_PIXELS, Caption, StripText, caption_at, draw_strip, shorten

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from backends.kinematic_runs import library, prepare
-from skillc.services.library_files import SHIPPED
+from skillc.services.library.files import SHIPPED
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.evaluation.report.figure_files import render_figure
 from skillc_runtime.evaluation.report.grip_figure import draw_grips
@@ -20,7 +20,7 @@ from skillc_runtime.evaluation.report.placements import measure_placements
 from skillc_runtime.evaluation.report.result import PlacementResult
 from skillc_runtime.evaluation.report.table import format_placement, split_placement
 from skillc_runtime.execution.execute import execute_task
-from skillc_runtime.recording.history_builder import HistoryBuilder
+from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.world.state.model import WorldModel
 
 LAB = "http://example.org/lab#"

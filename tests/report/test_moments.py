@@ -10,9 +10,9 @@ from msgspec import structs
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.moments import find_moments
 from skillc_runtime.film.footage import Moment
-from skillc_runtime.recording.history import Attempt, RecordedCall, RunHistory
+from skillc_runtime.recording.history.history import Attempt, RecordedCall, RunHistory
 from skillc_runtime.recording.reasons import Highlight
-from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelled import LabelledIri
 
 HERE = Position(path="press.skill", line=1, column=1)
 STATE: Any = SimpleNamespace(instances=lambda _: {"http://lab#Arm"})

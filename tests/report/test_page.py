@@ -16,7 +16,7 @@ from skillc_runtime.evaluation.report.result import PlacementResult, StepResult,
 from skillc_runtime.evaluation.report.table import list_table_rows
 from skillc_runtime.evaluation.report.work_figure import DrawnFigure, WorkFigure, number_files
 from skillc_runtime.evaluation.report.work_result import GraspResult
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history.node_outcome import NodeOutcome
 
 HERE = Position(path="sort.skill", line=1, column=1)
 STEP = StepResult(

@@ -25,7 +25,7 @@ from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.evaluation.report.wiping_figure import draw_figure
 from skillc_runtime.motion.time_scaling import RAMP_S
 from skillc_runtime.recording.events import FORMAT, Paused, Resumed, TaskStarted
-from skillc_runtime.recording.history_builder import HistoryBuilder
+from skillc_runtime.recording.history.history_builder import HistoryBuilder
 
 INTERVALS = st.lists(st.tuples(st.integers(0, 20), st.integers(0, 20)).filter(lambda each: each[0] < each[1]))
 

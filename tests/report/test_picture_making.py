@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from operating.monitors import Monitor
-from skillc.services import picture_making
-from skillc.services.picture_making import PictureOrder, Pictures, making_pictures
-from skillc.services.reporting import SilentReporter
-from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import load_task
+from skillc.services.recording import picture_making
+from skillc.services.recording.picture_making import PictureOrder, Pictures, making_pictures
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.run.running import RunOptions, run_task
+from skillc.services.tasks.loading import load_task
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.work_figure import DrawnFigure, WorkFigure
 from skillc_runtime.evaluation.report.write import ReportPages, write_page

@@ -9,7 +9,7 @@ from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, Ta
 from skillc_runtime.evaluation.report.summary import summarise_recording
 from skillc_runtime.evaluation.report.table import format_choice_reason
 from skillc_runtime.recording.failure import Rejection
-from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.history.history_builder import read_history
 from tree.library import Library, act, world
 from tree.stage import Script, Stage
 from why.stories import events_of, known

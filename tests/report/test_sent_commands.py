@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from skillc.services.dry_runs import write_commands
+from skillc.services.run.dry_runs import write_commands
 from skillc_runtime.devices.arm import ArmLimits, Mode
 from skillc_runtime.devices.command_record import ArmCommands
 

@@ -13,8 +13,8 @@ import skillc_skills
 from skillc_model.format_type import SI_UNITS
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
-from skillc_runtime.recording.history import Attempt, RecordedCall, RunHistory
-from skillc_runtime.world.state.labelled import LabelledIri, LabelledValue, Quantity
+from skillc_runtime.recording.history.history import Attempt, RecordedCall, RunHistory
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledValue, Quantity
 from skillc_runtime.world.state.terms import ARM_DEVICE, SURFACE, TOOL
 
 HERE = Position("wash.skill", 1, 1)

@@ -11,8 +11,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from skillc.services import libraries
-from skillc.services.library_files import find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import find_library
 from skillc_ontology import catalogue
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.evaluation.report.result import TaskResult
@@ -26,7 +26,7 @@ from skillc_runtime.evaluation.report.work_result import PushResult
 from skillc_runtime.evaluation.report.write import write_report, write_result
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import execute_task
-from skillc_runtime.recording.history_builder import HistoryBuilder
+from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 

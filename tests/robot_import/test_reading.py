@@ -18,7 +18,7 @@ from skillc.services.robot_import.reader import read_robot
 from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc_ontology import catalogue
 from skillc_runtime.control.inverse_kinematics import solve_inverse_kinematics
-from skillc_runtime.control.virtual_arm import VirtualArm, load_virtual_model
+from skillc_runtime.control.laws.virtual_arm import VirtualArm, load_virtual_model
 
 LAST = '  <link name="tool0"/>'
 FINGERS = "".join(

@@ -20,18 +20,18 @@ from typing import Any, Final, Literal, Protocol, TypeAlias, get_args
 
 from robots.figures import Figures, measure
 from robots.truth import RemoteTruth
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
-from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import execute_task
-from skillc_runtime.recording.history_builder import HistoryBuilder
+from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.model import WorldModel

@@ -11,7 +11,7 @@ from skillc_runtime.evaluation.report.handlings import find_handlings, find_targ
 from skillc_runtime.evaluation.report.placements import measure_placements
 from skillc_runtime.evaluation.report.wiping import find_wipings, wiping_setup
 from skillc_runtime.recording.failure_text import describe_failure
-from skillc_runtime.recording.history import RunHistory
+from skillc_runtime.recording.history.history import RunHistory
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import BUTTON
 

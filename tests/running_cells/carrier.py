@@ -15,7 +15,7 @@ from pathlib import Path
 from running_cells.yard import find_settings
 from skillc.cells.host import open_cell
 from skillc.contract.operation import OperationRequest
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.execution.attempt import TICK_S
 
 

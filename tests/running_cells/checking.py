@@ -8,7 +8,7 @@ from contextlib import closing
 from skillc.cells.host import open_cell
 from skillc.cells.journal.reading import LATEST_NS, JournalReader
 from skillc.cells.settings import CellSettings
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.recording.events import TaskEnded, WorldChanged
 from skillc_runtime.store.disk import DiskStore
 from skillc_runtime.world.state.changes import AddRelation

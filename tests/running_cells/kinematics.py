@@ -20,7 +20,7 @@ from skillc.cells.host import open_cell
 from skillc.cells.samples import list_numbers
 from skillc.contract.geometry import CellModel
 from skillc.contract.sample import ArmSample, PoseNumbers, Sample
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.motion.pose import Pose
 
 FILE = Path(__file__).parents[2] / "studio" / "test" / "scene3d" / "kinematics.json"

@@ -13,10 +13,10 @@ from running_cells.test_operations import run_all
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
 from skillc.contract.operation import OperationRequest, OperationStatus
-from skillc.services.backends import make_backend
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import find_library
-from skillc.services.reporting import SilentReporter
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library
+from skillc.services.project.backends import make_backend
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.execution.consistency import check_events
 from skillc_runtime.execution.repeat import repeat_run
 from skillc_runtime.recording.commands import Answer

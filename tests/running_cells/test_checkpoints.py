@@ -19,7 +19,7 @@ from skillc.cells.settings import CellSettings
 from skillc.contract.messages import CheckpointCommand, Edit, Forget, Reset, Restore, Save
 from skillc.contract.operation import OperationRequest
 from skillc.errors import RequestError
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.difference import changes_between
 from skillc_runtime.world.state.world_state import WorldState

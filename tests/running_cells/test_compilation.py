@@ -14,7 +14,7 @@ import sys
 from skillc.cells.host import open_cell
 from skillc.contract.operation import OperationRequest
 from skillc.cells.settings import CellSettings
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.motion.numerics.compiled import list_imported
 
 

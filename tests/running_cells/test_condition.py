@@ -20,10 +20,10 @@ from skillc.contract.operation import OperationStatus
 from skillc.errors import RequestError
 from skillc.server.supervisor import CellSupervisor
 from skillc.services.replaying.check import check_run
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_ontology import catalogue
 from skillc_runtime.control.controller import ControlError
-from skillc_runtime.control.safety import SafetyLimits
+from skillc_runtime.control.supervision.safety import SafetyLimits
 from skillc_runtime.devices.backend import StopPersists
 from skillc_runtime.devices.disturbances import Disturbance, LoseArm, Move, PressEmergencyStop, Push, Take
 from skillc_runtime.world.state.terms import CONTAIN

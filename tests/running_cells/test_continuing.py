@@ -18,7 +18,7 @@ from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.errors import RequestError
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.recording.events import ImplementationChosen
 from skillc_runtime.world.state.terms import CONTAIN
 

@@ -13,7 +13,7 @@ from running_cells.test_reality import BOARD, SORTING, TABLE, make_settings, rea
 from skillc.cells.host import open_cell
 from skillc.contract.geometry import CellModel, SurfaceCoverage
 from skillc.contract.operation import OperationRequest
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.devices.disturbances import Move
 
 BOARD_IRI, TABLE_IRI = "http://example.org/lab#Whiteboard-1", "http://example.org/lab#Table-1"

@@ -14,9 +14,9 @@ from skillc.cells.host import open_cell
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.settings import CellSettings
 from skillc.contract.operation import OperationRequest
-from skillc.contract.run_tree import TreeNode
-from skillc.services.operation_tree import build_tree
-from skillc.services.reporting import SilentReporter
+from skillc.contract.runs.run_tree import TreeNode
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.run.operation_tree import build_tree
 from skillc_model.codec import loads
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.recording.envelope import Envelope

@@ -14,8 +14,8 @@ from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
 from skillc.contract.messages import Edit
 from skillc.contract.operation import OperationRequest, OperationStatus
-from skillc.services.backends import make_backend
-from skillc.services.reporting import SilentReporter
+from skillc.services.project.backends import make_backend
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.execution.cell_loop import TooManyRequests
 from skillc_runtime.execution.consistency import check_events
 from skillc_runtime.execution.planning_queue import PlanningQueue

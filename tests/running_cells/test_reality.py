@@ -18,9 +18,9 @@ from skillc.cells.database import DatabaseError
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.settings import CellSettings
 from skillc.contract.operation import OperationRequest
-from skillc.services.backends import BackendName
-from skillc.services.library_files import SHIPPED
-from skillc.services.reporting import SilentReporter
+from skillc.services.library.files import SHIPPED
+from skillc.services.project.backends import BackendName
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_ontology import catalogue
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.motion.pose import Array

@@ -13,15 +13,15 @@ from running_cells.test_operations import run_all
 from running_cells.test_reality import BOARD, ONE_PART, SORTING, TABLE, find_task, make_settings
 from running_cells.yard import write_yard
 from skillc.cells.host import CellHost, open_cell
-from skillc.cells.recording_files import recording_file
+from skillc.cells.operations.recording_files import recording_file
 from skillc.cells.settings import CellSettings
 from skillc.contract.messages import Edit
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.errors import ServiceError
-from skillc.services.backends import BackendName
+from skillc.services.project.backends import BackendName
 from skillc.services.replaying.check import ReplayCheck, check_run
 from skillc.services.replaying.report import report_recorded
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.devices.disturbances import Move, Push
 from skillc_runtime.recording.mcap.contents import START
 from skillc_runtime.recording.mcap.reader import read_recording

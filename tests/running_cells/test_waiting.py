@@ -12,7 +12,7 @@ from running_cells.test_operations import run_all
 from running_cells.yard import write_yard
 from skillc.cells.host import CellHost, open_cell
 from skillc.contract.operation import OperationRequest, OperationStatus
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.execution.planning_job import PlanningJob
 from skillc_runtime.planning.progress import PlanningProgress
 

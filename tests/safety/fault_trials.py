@@ -8,11 +8,11 @@ from typing import Final
 
 import numpy as np
 
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.signal_faults import FaultKind, SignalFault
+from skillc_runtime.backends.simulation.arms.signal_faults import FaultKind, SignalFault
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.events import Event, NodeStarted

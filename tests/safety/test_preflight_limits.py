@@ -12,8 +12,8 @@ from click.testing import CliRunner
 from msgspec import structs
 
 from skillc.cli.main import skillc
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_model import skills as model
 from skillc_model import tree
 from skillc_model.conditions import Expression, Individual, Invoke, Literal, PropertyOf

@@ -7,10 +7,10 @@ import pytest
 
 from simulation.cells import ARM, cell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.signal_faults import FaultKind, SignalFault
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.backends.simulation.arms.signal_faults import FaultKind, SignalFault
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.motion.segments import MotionLimits
 
 ARMS = ("iiwa_table", "ur5e_whiteboard")
 CAUSES: dict[FaultKind, str] = {

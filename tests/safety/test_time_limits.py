@@ -12,7 +12,7 @@ from safety.faults import things
 from simulation.cells import ARM, ERASER, GRIPPER, LAB, begin, cell, grasp, reach_for_eraser, run
 from skillc_runtime.backends.mujoco import gripper as fingers
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.base import SimulatedBase
+from skillc_runtime.backends.simulation.bases.base import SimulatedBase
 from skillc_runtime.devices.arm import Command
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.button import AwaitSwitch

@@ -8,7 +8,7 @@ import pytest
 from safety import faults
 from safety.test_faults import is_safe
 from simulation.cells import ARM, SCENES, cell
-from skillc_runtime.control.watchdog import HEARTBEAT_TIMEOUT_S, HeartbeatWatchdog
+from skillc_runtime.control.supervision.watchdog import HEARTBEAT_TIMEOUT_S, HeartbeatWatchdog
 from skillc_runtime.execution import preparation
 from skillc_runtime.execution.assignment import NotStarted
 from skillc_runtime.execution.execute import execute_task

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services import library_checks
-from skillc.services.check_cache import compute_digest
-from skillc.services.library_files import find_library
+from skillc.services.check import library_checks
+from skillc.services.library.check_cache import compute_digest
+from skillc.services.library.files import find_library
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 

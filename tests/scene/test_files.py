@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 from skillc_runtime.scene.documents import SceneError

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from rdflib import Graph
 
 from skillc.cli.main import skillc
-from skillc.services.scene_edit import edit_file
+from skillc.services.scene.editing import edit_file
 from skillc_dsl.source import Source
 from skillc_rdf.vocabulary.terms import with_named
 from skillc_rdf.vocabulary.types import Vocabulary

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services import library_checks
-from skillc.services.library_files import SHIPPED, find_library
-from skillc.services.new_library import create_library
+from skillc.services.check import library_checks
+from skillc.services.library.files import SHIPPED, find_library
+from skillc.services.scaffolding.new_library import create_library
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 

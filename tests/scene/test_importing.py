@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation, rotation_from_angles
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.bodies import read_body

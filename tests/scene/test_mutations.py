@@ -8,7 +8,7 @@ import rdflib
 from rdflib.plugins.parsers.notation3 import BadSyntax
 
 from scene.mutations import Mutant, mutants
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue
 from skillc_runtime.scene.documents import Document

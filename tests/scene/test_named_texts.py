@@ -10,8 +10,8 @@ from click.testing import CliRunner
 
 from skillc.cli.main import skillc
 from skillc.lsp.libraries import Libraries
-from skillc.services import library_checks
-from skillc.services.library_files import find_library
+from skillc.services.check import library_checks
+from skillc.services.library.files import find_library
 from skillc_ontology import catalogue
 
 HEAD = """use rparts

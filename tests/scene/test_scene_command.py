@@ -14,12 +14,12 @@ from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
 from skillc.errors import RequestError
-from skillc.services.libraries import load_vocabulary
-from skillc.services.scene_sheets import find_sheet
+from skillc.services.library.libraries import load_vocabulary
+from skillc.services.scene.sheets import find_sheet
 from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.film import rendering
 from skillc_runtime.scene.load import load_sheets
-from skillc_runtime.world.space.outlines import convex_hull
+from skillc_runtime.world.space.shape.outlines import convex_hull
 
 CELL = """\
 # A table, two things on it.

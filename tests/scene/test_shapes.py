@@ -12,7 +12,7 @@ from rdflib import RDF, Graph, Literal, URIRef
 from rdflib.namespace import XSD
 from rdflib.term import Node
 
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_ontology import catalogue
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import read_documents

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import skillc_runtime
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_runtime.scene.checks.unread import NONE, READERS, ROS
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import read_documents, sheet_documents

@@ -6,7 +6,7 @@ from functools import cache
 
 import pytest
 
-from skillc.services.libraries import load_vocabulary
+from skillc.services.library.libraries import load_vocabulary
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source
 from skillc_model.skills import SkillLibrary

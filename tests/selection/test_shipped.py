@@ -7,8 +7,8 @@ from functools import cache
 
 import pytest
 
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_model import tree
 from skillc_model.conditions import Individual
 from skillc_model.skills import Primitive, SkillLibrary

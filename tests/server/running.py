@@ -20,7 +20,7 @@ import httpx
 import uvicorn
 
 from running_cells.yard import write_yard
-from skillc.services.library_files import SHIPPED
+from skillc.services.library.files import SHIPPED
 
 READY_S = 120.0
 CLIENT_S = 60.0

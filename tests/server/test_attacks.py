@@ -24,9 +24,9 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from server.attacking import ATTACKS, Attack, forge_entries, make_attacker
 from server.running import RunningServer, serving, serving_app
-from skillc.server import requests
+from skillc.server.access.watchers import MAX_UNKNOWN
+from skillc.server.http import requests
 from skillc.server.problems import ApiRefusal
-from skillc.server.watchers import MAX_UNKNOWN
 
 ROUNDS = int(os.environ.get("ROUNDS", "1"))
 """How often each attack is made; `make soak` makes it often."""

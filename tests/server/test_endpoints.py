@@ -9,8 +9,8 @@ from typing import Any, get_type_hints
 import pytest
 from starlette.responses import Response
 
-from skillc.contract.endpoint import JSON, Endpoint
-from skillc.contract.endpoints import ENDPOINTS, STREAMS
+from skillc.contract.api.endpoint import JSON, Endpoint
+from skillc.contract.api.endpoints import ENDPOINTS, STREAMS
 from skillc.server.handlers import find_handlers, list_modules
 
 HANDLERS = find_handlers(ENDPOINTS)

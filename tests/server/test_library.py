@@ -13,10 +13,10 @@ import skillc
 from server.running import RunningServer, find_cell_process
 from skillc.cells.snapshot import CellSnapshot, decode_snapshot, encode_snapshot
 from skillc.contract.device import Figure
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import find_library, find_scene
-from skillc.services.reporting import SilentReporter
-from skillc.services.stores import load_world
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library, find_scene
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.scene.stores import load_world
 from skillc.workers.devices import list_devices
 from skillc.workers.libraries import describe_library
 

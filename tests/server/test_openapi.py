@@ -7,11 +7,11 @@ from typing import Any
 
 import msgspec
 
-from skillc.contract.endpoint import JSON, PREFIX
-from skillc.contract.endpoints import ENDPOINTS
-from skillc.contract.examples import EXAMPLES, PATH_EXAMPLES
-from skillc.server.openapi import find_tag, make_openapi
-from skillc.server.portable_schemas import name_type, simplify_arrays
+from skillc.contract.api.endpoint import JSON, PREFIX
+from skillc.contract.api.endpoints import ENDPOINTS
+from skillc.contract.api.examples import EXAMPLES, PATH_EXAMPLES
+from skillc.server.http.openapi import find_tag, make_openapi
+from skillc.server.http.portable_schemas import name_type, simplify_arrays
 
 DOCUMENT = msgspec.json.decode(msgspec.json.encode(make_openapi(ENDPOINTS, PREFIX)))
 OPERATIONS = [each for path in DOCUMENT["paths"].values() for each in path.values()]

@@ -20,9 +20,10 @@ from websockets.exceptions import ConnectionClosed
 from server.attacking import COSTLY
 from server.running import RunningServer, serving
 from server.test_network import bounded_server
-from skillc.server import app, connections
+from skillc.server import app
 from skillc.server.app import Application
 from skillc.server.context import FAILURES, ServerContext
+from skillc.server.http import connections
 from skillc.server.hub import EventHub
 from skillc.server.state import open_state
 

@@ -19,8 +19,8 @@ from skillc.cells.journal.reading import JournalReader
 from skillc.cells.settings import CellSettings
 from skillc.cli.main import skillc as program
 from skillc.contract.operation import OperationRequest
-from skillc.services.library_files import SHIPPED
-from skillc.services.reporting import SilentReporter
+from skillc.services.library.files import SHIPPED
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_ontology import catalogue
 from skillc_runtime.recording.events import Note
 from skillc_runtime.recording.mcap.reader import read_recording

@@ -14,9 +14,9 @@ from server.test_recordings import CARRY
 from skillc.cells.host import open_cell
 from skillc.contract.jobs import JobRefused
 from skillc.contract.operation import OperationRequest
-from skillc.contract.run_jobs import CompareRuns, ReadSignals, RunFiles
-from skillc.contract.signals import SignalRows
-from skillc.services.reporting import SilentReporter
+from skillc.contract.runs.run_jobs import CompareRuns, ReadSignals, RunFiles
+from skillc.contract.runs.signals import SignalRows
+from skillc.services.reporting.reporter import SilentReporter
 from skillc.workers.run_reading import MAX_ROWS, MAX_VALUES, answer_run_job
 
 

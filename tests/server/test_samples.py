@@ -19,9 +19,9 @@ from running_cells.test_reality import SORTING, make_settings, reality
 from server.running import RunningServer, wait_until
 from server.test_leases import client_of
 from skillc.cells.host import open_cell
-from skillc.cli.attached import CellTime
+from skillc.cli.progress.attached import CellTime
 from skillc.contract.sample import Sample
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 
 ARM, PART = "http://example.org/lab#Arm-1", "http://example.org/lab#Part-A"
 

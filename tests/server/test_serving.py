@@ -21,12 +21,12 @@ from websockets.exceptions import ConnectionClosed
 from server.running import RunningServer, find_cell_process, serving, wait_until
 from skillc.cli.main import skillc
 from skillc.contract.access import ROLES
-from skillc.contract.endpoint import PREFIX
-from skillc.contract.endpoints import ENDPOINTS
+from skillc.contract.api.endpoint import PREFIX
+from skillc.contract.api.endpoints import ENDPOINTS
 from skillc.server.access.roles import includes
 from skillc.server.app import Application
 from skillc.server.context import ServerContext
-from skillc.server.openapi import make_openapi
+from skillc.server.http.openapi import make_openapi
 
 
 def test_an_operation_is_paused_resumed_and_stopped(server: RunningServer) -> None:

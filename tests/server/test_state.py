@@ -20,7 +20,7 @@ from skillc.cells.host import open_cell
 from skillc.cells.settings import CellSettings
 from skillc.cli.main import skillc
 from skillc.contract.operation import OperationRequest
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 
 
 def state(*arguments: str | Path) -> Result:

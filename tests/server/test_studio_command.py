@@ -18,8 +18,8 @@ from click.testing import CliRunner, Result
 from running_cells.yard import write_yard
 from skillc.cli.main import skillc
 from skillc.errors import RequestError
-from skillc.services.library_files import SHIPPED
-from skillc.services.studio_choice import choose_studio
+from skillc.services.library.files import SHIPPED
+from skillc.services.tasks.studio_choice import choose_studio
 
 STATE = ("--state", "served", "--no-browser")
 

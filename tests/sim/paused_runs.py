@@ -18,7 +18,7 @@ from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.commands import Command, Pause, Resume
 from skillc_runtime.recording.events import Event, StateChanged
-from skillc_runtime.recording.history_builder import HistoryBuilder
+from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 

@@ -9,14 +9,14 @@ from math import inf
 import pytest
 from msgspec.structs import replace
 
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_compiler.goals.parsing import parse_call
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
-from skillc_runtime.backends.simulation.variation import Variation, add_obstacles, draw_variation
+from skillc_runtime.backends.simulation.variation.variation import Variation, add_obstacles, draw_variation
 from skillc_runtime.evaluation.trials.trial_cell import draw_disturbed_variation
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import Execution, execute_task
@@ -77,7 +77,9 @@ def stiff(facts: SceneSpec, seed: int) -> Variation:
 
 
 def test_a_pad_that_bounces_is_felt_and_the_wipe_fails(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("skillc_runtime.control.forward_dynamics.stiffest_contact", lambda *_: inf)  # nothing softens
+    monkeypatch.setattr(
+        "skillc_runtime.control.laws.forward_dynamics.stiffest_contact", lambda *_: inf
+    )  # nothing softens
     execution = wiped("clean_whiteboard", stiff)
     assert execution.status == "failed" and execution.failure is not None
     assert "contact with lab:Whiteboard-1 was lost for" in execution.failure.message

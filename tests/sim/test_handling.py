@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from skillc.services import libraries
-from skillc.services.library_files import find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import find_library
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task

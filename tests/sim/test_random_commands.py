@@ -14,8 +14,8 @@ import pytest
 
 from execution.loops import LatePlanner
 from execution.random_runs import OTHERS, STEPS, Ran, check_end, drive
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from safety.fault_trials import try_fault
-from skillc_runtime.backends.simulation.signal_faults import FaultKind
+from skillc_runtime.backends.simulation.arms.signal_faults import FaultKind
 
 pytestmark = pytest.mark.sim
 

@@ -6,8 +6,8 @@ from functools import cache
 
 import pytest
 
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
@@ -16,10 +16,10 @@ from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import execute_task
-from skillc_runtime.recording.history import RecordedCall
-from skillc_runtime.recording.history_builder import HistoryBuilder
+from skillc_runtime.recording.history.history import RecordedCall
+from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelled import LabelledIri
 from skillc_runtime.world.state.model import WorldModel
 
 pytestmark = pytest.mark.sim

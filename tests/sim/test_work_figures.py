@@ -16,7 +16,7 @@ from skillc_runtime.evaluation.report.work_figures import list_figures
 from skillc_runtime.evaluation.report.work_kinds import measure_work
 from skillc_runtime.evaluation.report.work_result import GraspResult, GuidanceResult, PushResult, SearchResult
 from skillc_runtime.execution.execute import execute_task
-from skillc_runtime.recording.history_builder import HistoryBuilder
+from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.world.state.model import WorldModel
 
 pytestmark = pytest.mark.sim

@@ -5,7 +5,7 @@ import pytest
 from cells import ARM, LAB, cell, run
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.base import SimulatedBase
+from skillc_runtime.backends.simulation.bases.base import SimulatedBase
 from skillc_runtime.backends.simulation.scene_spec import BaseSpec
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.drive import DriveBase

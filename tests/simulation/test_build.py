@@ -11,10 +11,15 @@ from cells import ARM, ERASER, SCENES, SURFACE, cell, vocabulary, world
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation import noise
-from skillc_runtime.backends.simulation.model_builder import build_model
+from skillc_runtime.backends.simulation.model.model_builder import build_model
 from skillc_runtime.backends.simulation.names import obstacle_name
 from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
-from skillc_runtime.backends.simulation.variation import OBSTACLE_M, add_obstacles, draw_variation, make_all_absent
+from skillc_runtime.backends.simulation.variation.variation import (
+    OBSTACLE_M,
+    add_obstacles,
+    draw_variation,
+    make_all_absent,
+)
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frames import pose

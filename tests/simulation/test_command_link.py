@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.command_link import EARLY_S, RANDOM, CommandLink, send
+from skillc_runtime.backends.simulation.arms.command_link import EARLY_S, RANDOM, CommandLink, send
 from skillc_runtime.devices.reality import set_reality
 from skillc_runtime.primitives.move import MoveLinear
 from skillc_runtime.world.state.model import WorldModel

@@ -7,7 +7,7 @@ from pathlib import Path
 
 PROGRAM = """
 import mujoco, numpy
-from skillc_runtime.backends.simulation.mujoco_warnings import log_warnings
+from skillc_runtime.backends.simulation.model.mujoco_warnings import log_warnings
 
 log_warnings()
 model = mujoco.MjModel.from_xml_string(

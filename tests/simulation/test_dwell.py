@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from skillc_runtime.backends.simulation.recorder import COLUMNS
+from skillc_runtime.backends.simulation.truth.recorder import COLUMNS
 from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.evaluation.metrics.lane_dwell import measure_lane_dwell
 from skillc_runtime.motion.lanes import plan_lanes
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.motion.segments import MotionLimits
 
 STEP_S = 0.001
 SPEED, ACCELERATION = 0.1, 0.4

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skillc_runtime.backends.simulation.joint_friction import BENDING_RAD, STICKING, VISCOUS, Friction, rub
+from skillc_runtime.backends.simulation.arms.joint_friction import BENDING_RAD, STICKING, VISCOUS, Friction, rub
 
 STEP_S, SLOW_N_M, INERTIA = 0.001, 5.0, 0.5
 

@@ -11,7 +11,7 @@ from cells import vocabulary
 
 from skillc_ontology import catalogue
 from skillc_runtime.control.kinematics import JOINT_RAMP_S
-from skillc_runtime.motion.joint import joint_motion
+from skillc_runtime.motion.paths.joint import joint_motion
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.data_sheet import DataSheet
 from skillc_runtime.world.state.terms import SKILLC

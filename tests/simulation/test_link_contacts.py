@@ -8,7 +8,7 @@ import pytest
 
 from simulation.cells import ARM, ERASER, LAB, cell, grasp, lift, reach_for_eraser, world
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.contact_bits import LINK
+from skillc_runtime.backends.simulation.model.contact_bits import LINK
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.changes import AddIndividual, Change, RemoveIndividual, SetProperty

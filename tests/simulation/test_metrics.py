@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfiltfilt
 
-from skillc_runtime.backends.simulation.recorder import COLUMNS
+from skillc_runtime.backends.simulation.truth.recorder import COLUMNS
 from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.evaluation.metrics.wiping import WipingSetup, filter_high_pass, measure_wiping
 from skillc_runtime.motion.coverage import CoverageMap

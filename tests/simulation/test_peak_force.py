@@ -5,7 +5,7 @@ import pytest
 from cells import world
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.observer import PeakForce
+from skillc_runtime.backends.simulation.truth.observer import PeakForce
 from skillc_runtime.world.state.model import WorldModel
 
 

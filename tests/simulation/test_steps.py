@@ -15,9 +15,9 @@ from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.devices.disturbances import Push
 from skillc_runtime.motion.numerics.compiled import COMPILES
 from skillc_runtime.motion.overlays import Circle, Spiral
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose, rotation_from_quaternion
-from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.recording.mcap.signal_tap import SampledBlock, SignalTap
 from skillc_runtime.world.state.model import WorldModel
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import strategies as st
 
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty

@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_ontology import catalogue
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.bodies import RigidBody, read_bodies, read_body

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_compiler.pipeline import compile as compiled
 from skillc_dsl.source import Source
 from skillc_model.conditions import (
@@ -34,7 +34,7 @@ from skillc_runtime.world.eval.deciding_facts import deciding_facts
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.join import solutions
 from skillc_runtime.world.space.frames import placement_changes
-from skillc_runtime.world.state.labelled_text import format_fact
+from skillc_runtime.world.state.labels.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.terms import AT, BASE_FRAME_ID, FURNITURE, SIZE

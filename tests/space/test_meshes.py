@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.mesh_file import read_mesh
-from skillc_runtime.world.space.shapes import ShapeError, solids_of
+from skillc_runtime.world.space.shape.mesh_file import read_mesh
+from skillc_runtime.world.space.shape.shapes import ShapeError, solids_of
 
 UP = np.array([0.0, 0.0, 1.0])
 FACES = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4)]

@@ -10,14 +10,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_runtime.motion.pose import angles_from_rotation, exp, rotation_from_angles
 from skillc_runtime.scene.load import load_scene, load_sheets
 from skillc_runtime.scene.saving import save_scene
 from skillc_runtime.world.space.bounding_boxes import bounding_box
-from skillc_runtime.world.space.extents import FACES
 from skillc_runtime.world.space.frame_tree import MissingFact
 from skillc_runtime.world.space.frames import attachment_changes, pose, relocation_changes, states_own_pose
+from skillc_runtime.world.space.shape.extents import FACES
 from skillc_runtime.world.state.changes import Change, ClearProperty, SetProperty
 from skillc_runtime.world.state.terms import (
     ANCHOR,

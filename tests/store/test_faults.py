@@ -11,7 +11,7 @@ from urllib.parse import urlsplit
 import pyoxigraph as ox
 import pytest
 
-from skillc.services.stores import StoreChoice
+from skillc.services.scene.stores import StoreChoice
 from skillc_runtime.store import http
 from skillc_runtime.store.address import Address
 from skillc_runtime.store.http import HttpEndpoint, InvalidAnswer, RequestRefused, ServerUnreachable, find_endpoint

@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from skillc.cli.main import skillc
-from skillc.services import stores
+from skillc.services.scene import stores
 from skillc_runtime.store import world_index
 from skillc_runtime.store.disk import DiskStore
 from skillc_runtime.store.world_index import IndexPlace, read_index, write_index

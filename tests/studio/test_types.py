@@ -9,9 +9,9 @@ import msgspec
 import pytest
 
 from docs.pages import ROOT
-from skillc.contract.endpoint import PREFIX
-from skillc.contract.endpoints import ENDPOINTS
-from skillc.server.openapi import make_openapi
+from skillc.contract.api.endpoint import PREFIX
+from skillc.contract.api.endpoints import ENDPOINTS
+from skillc.server.http.openapi import make_openapi
 
 STUDIO = ROOT / "studio"
 

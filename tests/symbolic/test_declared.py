@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_model.declared import act_as_declared
 from skillc_ontology import catalogue
 from skillc_runtime.backends.symbolic.cell import SymbolicCell

@@ -11,7 +11,7 @@ from click.testing import CliRunner, Result
 
 from docs.pages import ROOT, blocks
 from skillc.cli.main import skillc
-from skillc.services.checking import CheckRequest, check_paths
+from skillc.services.check.checking import CheckRequest, check_paths
 from symbolic.ward import write_ward
 
 HEAD = 'use skiros, skillc\nimport "terms.skill"\nprefix lab: <http://example.org/lab#>\n'

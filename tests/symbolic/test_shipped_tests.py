@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services.library_files import SHIPPED
-from skillc.services.new_library import create_library
-from skillc.services.project_templates import TEMPLATES
+from skillc.services.library.files import SHIPPED
+from skillc.services.scaffolding.new_library import create_library
+from skillc.services.scaffolding.project_templates import TEMPLATES
 from skillc.services.testing import suite
 
 PLUGIN = ("-p", "no:skillc", "-p", "skillc.pytest_plugin", "-p", "no:cacheprovider")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from skillc.services import libraries
-from skillc.services.library_files import find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import find_library
 from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.symbolic.cell import SymbolicCell

@@ -10,9 +10,9 @@ from click.testing import CliRunner
 
 from backends.kinematic_runs import prepare
 from skillc.cli.main import skillc
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.libraries import load_vocabulary
-from skillc.services.library_files import find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library
+from skillc.services.library.libraries import load_vocabulary
 from skillc_compiler.pipeline import compile as compile_sources
 from skillc_dsl.source import Source
 from skillc_model.conditions import Holds, Individual, Not

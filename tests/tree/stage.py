@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
-from skillc_runtime.control.watchdog import HeartbeatWatchdog
+from skillc_runtime.control.supervision.watchdog import HeartbeatWatchdog
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, SpaceLacking, Status
 from skillc_runtime.world.state.model import WorldModel
 from tree.library import world

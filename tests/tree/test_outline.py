@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from skillc_runtime.execution.tree.outline import outline_body
 from skillc_runtime.execution.tree.run import AttemptInputs, TreeRun
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history.node_outcome import NodeOutcome
 from tree.library import world
 from tree.stage import Stage
 from tree.strategies import Play, plays

@@ -28,13 +28,13 @@ from skillc_runtime.recording.events import (
     Note,
     WorldChanged,
 )
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history.node_outcome import NodeOutcome
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.reader import TraceError, TraceReader
 from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.recording.writer import TraceWriter
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.labelled import (
+from skillc_runtime.world.state.labels.labelled import (
     IndividualAdded,
     IndividualRemoved,
     LabelledClass,

@@ -20,7 +20,7 @@ from skillc_runtime.evaluation.measures.work import (
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.trials.settings import Setting
 from skillc_runtime.evaluation.trials.trial import Trial
-from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelled import LabelledIri
 
 KILLED, BROKEN = 3, 4
 """Seeds at which a process dies, and at which something goes wrong in it."""

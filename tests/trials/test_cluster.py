@@ -20,8 +20,8 @@ import skillc
 from learning.runners import Wiping, aim, open_study
 from skillc.errors import ServiceError
 from skillc.services.learning.search import Search
-from skillc.services.reporting import SilentReporter
-from skillc.services.trial_executors import choose_executor
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.trials.executors import choose_executor
 from skillc_runtime.evaluation.trials.dispatch import ExecutorError, run_on
 from trials.clusters import Cluster
 from trials.runners import KILLED, Faulty, Noted, good

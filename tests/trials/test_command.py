@@ -14,8 +14,10 @@ from click.testing import CliRunner, Result
 
 from skillc import extras
 from skillc.cli.main import skillc
-from skillc.services import compiled_libraries, task_loading, trial_runs
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import compiled_libraries
+from skillc.services.library.files import SHIPPED, find_library
+from skillc.services.tasks import loading as task_loading
+from skillc.services.trials import running as trial_runs
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.trials import dispatch
 from skillc_runtime.evaluation.trials.hosting import Prepare, Tried

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from skillc.cli.layout import TerminalPage
-from skillc.cli.trials_output import draw_histogram, format_series
+from skillc.cli.output.trials import draw_histogram, format_series
 from skillc_runtime.evaluation.trials.confidence import (
     compute_mean_interval,
     compute_proportion_interval,

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from skillc.services import compiled_libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import compiled_libraries
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_model import codec
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue

@@ -9,7 +9,7 @@ import pytest
 from msgspec.structs import replace
 
 from skillc.cli.layout import TerminalPage
-from skillc.cli.trials_output import format_series
+from skillc.cli.output.trials import format_series
 from skillc_runtime.evaluation.trials import page
 from skillc_runtime.evaluation.trials.judging import judge_series
 from skillc_runtime.evaluation.trials.targets import METRICS, RUNNING

@@ -16,8 +16,8 @@ import pytest
 from click.testing import CliRunner
 
 from skillc.cli.commands.doc import command
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_compiler.emit.docs import prose
 from skillc_compiler.emit.docs.site import make_site
 from skillc_compiler.emit.docs.skill_page import reasons

@@ -12,7 +12,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
-from skillc.services.project_templates import TEMPLATES
+from skillc.services.scaffolding.project_templates import TEMPLATES
 
 NAMES = [each.name for each in TEMPLATES]
 LONG = ("pick-place", "press", "insert")

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from skillc.cli.main import skillc
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.gains import UnknownController, load_own_law
-from skillc_runtime.control.own_law import CheckedLaw
+from skillc_runtime.control.laws.own_law import CheckedLaw
 
 LAW = """
 class Broken:

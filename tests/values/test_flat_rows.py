@@ -13,7 +13,7 @@ from skillc_runtime.evaluation.report.result import PlacementResult
 from skillc_runtime.evaluation.report.work_result import PushResult
 from skillc_runtime.evaluation.trials.judging import judge_series
 from skillc_runtime.evaluation.trials.trial import Trial
-from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelled import LabelledIri
 from trials.runners import wiping
 
 BUTTON, ARM = LabelledIri("http://lab#Button", "lab:Button"), LabelledIri("http://lab#Arm", "lab:Arm")

@@ -6,18 +6,18 @@ from pathlib import Path
 
 import pytest
 
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import find_scene
-from skillc.services.reporting import SilentReporter
-from skillc.services.stores import load_world
-from skillc.services.task_list import default_library
-from skillc.services.world_edits import read_edits
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_scene
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.scene.stores import load_world
+from skillc.services.scene.world_edits import read_edits
+from skillc.services.tasks.listing import default_library
 from skillc.workers.terms import list_terms
 from skillc_runtime.world.state.changes import AddRelation, SetProperty
 from skillc_runtime.world.state.elements import elements_of
 from skillc_runtime.world.state.facts import PropertyFact, RelationFact
-from skillc_runtime.world.state.labelled_text import format_fact
-from skillc_runtime.world.state.labelling import label_fact
+from skillc_runtime.world.state.labels.labelled_text import format_fact
+from skillc_runtime.world.state.labels.labelling import label_fact
 from skillc_runtime.world.state.world_state import WorldState
 
 

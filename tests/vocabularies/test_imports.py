@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 from skillc.cli.main import skillc
 from skillc.lsp.libraries import Libraries
-from skillc.services.ontology_catalogue import find_in_catalogue
+from skillc.services.library.ontology_catalogue import find_in_catalogue
 
 HEAD = """@prefix owl: <http://www.w3.org/2002/07/owl#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
 @prefix shop: <http://example.org/shop#> . @prefix stock: <http://example.org/stock#> .

@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_ontology import catalogue
 
 HEAD = """@prefix shop: <http://example.org/shop#> . @prefix owl: <http://www.w3.org/2002/07/owl#> .

@@ -10,8 +10,8 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import FORMAT, Event, TaskEnded, TaskStarted
-from skillc_runtime.recording.history import RecordedCall, RunHistory
-from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.history.history import RecordedCall, RunHistory
+from skillc_runtime.recording.history.history_builder import read_history
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.states import EndState
 from skillc_runtime.recording.writer import TraceWriter

@@ -14,10 +14,10 @@ from msgspec import structs
 
 from execution.test_repeat import recording
 from operating.monitors import Monitor
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.run.running import RunOptions, run_task
 from skillc.services.run_diff.objective import compare_objectives
-from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import load_task
+from skillc.services.tasks.loading import load_task
 from skillc_model.conditions import And, Compare, Holds, Individual, Literal, Not, PropertyOf
 from skillc_model.tree import Apply, Call, Node, Parallel, Selector, Sequence
 from skillc_rdf.vocabulary.types import Position
@@ -37,7 +37,7 @@ from skillc_runtime.recording.reasons import ParameterReason
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.signals.files import CsvSink, ParquetSink, write_dictionary
 from skillc_runtime.recording.signals.signal import CLOCK, Signal
-from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelled import LabelledIri
 from why.projects import invoke
 from why.stories import written
 

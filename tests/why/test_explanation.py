@@ -6,10 +6,10 @@ import pytest
 from msgspec import structs
 
 from selection.library import call, library, scene
-from skillc.services.story_text import format_answer, format_overview
+from skillc.services.recording.story_text import format_answer, format_overview
 from skillc_model.conditions import Individual
-from skillc_runtime.recording.history import RunHistory
-from skillc_runtime.recording.question import QuestionError, select_calls
+from skillc_runtime.recording.history.history import RunHistory
+from skillc_runtime.recording.history.question import QuestionError, select_calls
 from skillc_runtime.world.state.changes import Change, RemoveRelation
 from why.stories import in_world
 from world.lab import fact, individual, iri

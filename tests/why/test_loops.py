@@ -9,7 +9,7 @@ from textwrap import dedent
 import pytest
 
 import skillc as api
-from skillc.services.recordings import make_result
+from skillc.services.recording.recordings import make_result
 from why.projects import ask_why, invoke, write_project
 
 pytestmark = pytest.mark.slow

@@ -15,10 +15,10 @@ from operating.depot import write_depot
 from operating.monitors import Monitor
 from operating.test_repeating import Operator
 from skillc.cli.main import skillc
-from skillc.services.backends import BackendName
-from skillc.services.reporting import SilentReporter
-from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import load_task
+from skillc.services.project.backends import BackendName
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.run.running import RunOptions, run_task
+from skillc.services.tasks.loading import load_task
 from skillc_runtime.recording.run_spec import RunSpec
 
 pytestmark = pytest.mark.slow

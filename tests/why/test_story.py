@@ -10,7 +10,7 @@ import msgspec
 from hypothesis import HealthCheck, event, given, settings
 from msgspec import structs
 
-from skillc.services.story_text import overview_lines
+from skillc.services.recording.story_text import overview_lines
 from skillc_model import tree
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.run import TreeRun
@@ -27,12 +27,12 @@ from skillc_runtime.recording.events import (
     TaskEnded,
 )
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.recording.history import RecordedCall, RunHistory
-from skillc_runtime.recording.history_builder import listen_to, read_history
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history.history import RecordedCall, RunHistory
+from skillc_runtime.recording.history.history_builder import listen_to, read_history
+from skillc_runtime.recording.history.node_outcome import NodeOutcome
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelled import LabelledIri
 from tree.library import FLAGS, ON, Library, act, check, here, par, seq, world
 from tree.stage import PERIOD_S, Script, Stage
 from tree.strategies import Play, plays

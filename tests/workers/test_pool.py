@@ -13,9 +13,9 @@ from running_cells.yard import write_yard
 from skillc.cells.snapshot import CellSnapshot, encode_snapshot
 from skillc.contract.jobs import QueryWorld
 from skillc.contract.world import QueryRows
-from skillc.services.reporting import SilentReporter
-from skillc.services.scenes import open_scene
-from skillc.services.stores import StoreChoice
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.scene.stores import StoreChoice
+from skillc.services.views.scenes import open_scene
 from skillc.workers import pool
 from skillc.workers.pool import JobTimedOut, TooManyJobs, Workers
 from skillc_runtime.execution.worker_process import WorkerProcess

@@ -12,8 +12,8 @@ from skillc.cells.snapshot import decode_snapshot
 from skillc.contract.jobs import Rehearse
 from skillc.contract.operation import OperationRequest
 from skillc.contract.rehearsal import RehearsalRequest
-from skillc.services.backends import BackendName
-from skillc.services.reporting import SilentReporter
+from skillc.services.project.backends import BackendName
+from skillc.services.reporting.reporter import SilentReporter
 from skillc.workers.rehearsing import rehearse
 from skillc_runtime.backends.simulation.checkpoint import decode_checkpoint
 

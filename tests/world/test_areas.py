@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_ontology import catalogue
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import read_with_sheets

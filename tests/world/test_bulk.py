@@ -10,14 +10,14 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from scene.mutations import mutants
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_in_bulk, read_documents
 from skillc_runtime.world.state.bulk import FactTables, build_world_state
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation
-from skillc_runtime.world.state.representatives import satisfies_axioms
+from skillc_runtime.world.state.consistency.representatives import satisfies_axioms
 from skillc_runtime.world.state.world_state import WorldState
 from world.lab import NS, VOCABULARY, fact, individual, iri
 from world.sameness import everything

@@ -21,8 +21,8 @@ from skillc_runtime.world.eval.grounds import find_grounds
 from skillc_runtime.world.state import evidence
 from skillc_runtime.world.state.changes import AddIndividual, ClearProperty, RemoveIndividual, RemoveRelation
 from skillc_runtime.world.state.facts import ClassFact, Evidence, Fact, PropertyFact, RelationFact
-from skillc_runtime.world.state.labelled_text import format_fact
-from skillc_runtime.world.state.labelling import label_fact
+from skillc_runtime.world.state.labels.labelled_text import format_fact
+from skillc_runtime.world.state.labels.labelling import label_fact
 from skillc_runtime.world.state.model import WorldModel
 from store.memory import MemoryStore
 from store.worlds import model_of

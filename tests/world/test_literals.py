@@ -8,7 +8,7 @@ import pytest
 from skillc_rdf.turtle.terms import XSD
 from skillc_rdf.vocabulary.types import PlainType, PropertyTerm, VectorType
 from skillc_runtime.store.literals import LiteralError, read_literal, text_literal
-from skillc_runtime.world.state.value_types import value_error
+from skillc_runtime.world.state.consistency.value_types import value_error
 
 
 def literal(text: str, kind: str) -> ox.Literal:

@@ -13,8 +13,8 @@ import pytest
 from skillc.cells.snapshot import CellSnapshot, encode_snapshot
 from skillc.contract.jobs import ListFacts, QueryWorld, WriteWorld
 from skillc.contract.world import QueryRows
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import SHIPPED, find_library
 from skillc.workers.answering import answer_job
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue

@@ -11,7 +11,7 @@ from skillc.extras import naming_extras
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
-from skillc_runtime.recording.question import QuestionError
+from skillc_runtime.recording.history.question import QuestionError
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.names import NoSuchName

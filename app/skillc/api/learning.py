@@ -15,8 +15,8 @@ from skillc.services.learning.page import write_page
 from skillc.services.learning.place import ON_WORKERS, choose_place
 from skillc.services.learning.result import Learned as Learned
 from skillc.services.learning.spec import LearnSpec
-from skillc.services.task_list import require_task
-from skillc.services.trial_runs import OpenExecutor
+from skillc.services.tasks.listing import require_task
+from skillc.services.trials.running import OpenExecutor
 from skillc.values.arguments import AnyPath, optional_path, optional_text, read_arguments, require_count, wrong_type
 from skillc.values.keywords import read_keywords
 from skillc.values.run_keywords import LearnKeywords

@@ -11,11 +11,11 @@ from typing import Any
 from skillc.api.boundary import api_call
 from skillc.api.picture import Picture
 from skillc.errors import DiagnosticsError
-from skillc.services.checking import CheckRequest, check_paths, check_sources
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import find_library, find_scene
-from skillc.services.pictures import draw_declaration
-from skillc.services.task_list import TaskEntry, default_library, list_tasks, tasks_of
+from skillc.services.check.checking import CheckRequest, check_paths, check_sources
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library, find_scene
+from skillc.services.tasks.listing import TaskEntry, default_library, list_tasks, tasks_of
+from skillc.services.views.pictures import draw_declaration
 from skillc.values.arguments import AnyPath, optional_path, require_path, require_text
 from skillc.values.frames import make_table
 from skillc_compiler.emit.picture import mermaid, svg

@@ -17,12 +17,12 @@ from skillc.errors import RequestError, ServiceError
 from skillc.values.arguments import read_pace, require_choice, require_text
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording import commands
-from skillc_runtime.recording.account import CallOutput, MeasuredProperty
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.contact import Contact
 from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.history.account import CallOutput, MeasuredProperty
 from skillc_runtime.recording.states import State
-from skillc_runtime.world.state.labelling import label_change
+from skillc_runtime.world.state.labels.labelling import label_change
 from skillc_runtime.world.state.open_transaction import OpenTransaction
 
 Depth = Literal["into", "over", "out"]

@@ -15,11 +15,11 @@ from skillc.api.run import Run
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
-from skillc_runtime.recording.account import RunAccount
 from skillc_runtime.recording.commands import Command, Stop
 from skillc_runtime.recording.contact import Contact
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import Event, Requested
+from skillc_runtime.recording.history.account import RunAccount
 from skillc_runtime.recording.states import State
 from skillc_runtime.world.state.model import WorldModel
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skillc.errors import RequestError
-from skillc.services.files import writing_to
+from skillc.services.reporting.files import writing_to
 from skillc.values.arguments import AnyPath, require_path
 
 

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
 from skillc.api.boundary import NoticeList, api_call
 from skillc.api.picture import Picture
 from skillc.errors import RequestError, ServiceError
-from skillc.services.plan_text import describe_answer, format_plan
-from skillc.services.planning import Answer, plan_goal, prepare_planners
-from skillc.services.schedule_picture import draw_schedule
-from skillc.services.space_claims import plan_goal_in_space
-from skillc.services.task_loading import LoadedTask, check_request, fill_in, load_task
+from skillc.services.planning.plan_text import describe_answer, format_plan
+from skillc.services.planning.planning import Answer, plan_goal, prepare_planners
+from skillc.services.space.claims import plan_goal_in_space
+from skillc.services.tasks.loading import LoadedTask, check_request, fill_in, load_task
+from skillc.services.views.schedule_picture import draw_schedule
 from skillc.values.arguments import (
     AnyPath,
     optional_seconds,

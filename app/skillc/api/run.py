@@ -14,9 +14,16 @@ from skillc.api.boundary import NoticeList, api_call
 from skillc.api.picture import Figure, Film
 from skillc.api.signal_frame import read_signal_frame
 from skillc.errors import RequestError, ServiceError
-from skillc.services.recordings import answer_question, find_mcap, find_recording, is_mcap, read_envelopes, read_result
+from skillc.services.recording.recordings import (
+    answer_question,
+    find_mcap,
+    find_recording,
+    is_mcap,
+    read_envelopes,
+    read_result,
+)
+from skillc.services.recording.story_text import format_answer, format_overview
 from skillc.services.replaying.playback import play_paced
-from skillc.services.story_text import format_answer, format_overview
 from skillc.values.arguments import AnyPath, require_choice, require_path, require_text
 from skillc.values.flat_rows import make_flat_row
 from skillc.values.frames import make_frame, make_table
@@ -24,9 +31,9 @@ from skillc_runtime.evaluation.report.result import PlacementResult, StepResult,
 from skillc_runtime.evaluation.report.work_result import WorkResult
 from skillc_runtime.evaluation.report.write import REPORT
 from skillc_runtime.recording.envelope import Envelope
-from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.history.history_builder import read_history
 from skillc_runtime.recording.known_facts import format_false_claim
-from skillc_runtime.world.state.labelled_text import format_value
+from skillc_runtime.world.state.labels.labelled_text import format_value
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -19,12 +19,12 @@ from skillc.api.operation import Operation
 from skillc.api.operation_state import Monitor, OperationState
 from skillc.api.run import Run
 from skillc.errors import RequestError, ServiceError
-from skillc.services.backends import require_backend
-from skillc.services.files import check_writable
-from skillc.services.planning import prepare_planners
-from skillc.services.recordings import find_mcap
-from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import LoadedTask, check_request, fill_in, load_task
+from skillc.services.planning.planning import prepare_planners
+from skillc.services.project.backends import require_backend
+from skillc.services.recording.recordings import find_mcap
+from skillc.services.reporting.files import check_writable
+from skillc.services.run.running import RunOptions, run_task
+from skillc.services.tasks.loading import LoadedTask, check_request, fill_in, load_task
 from skillc.values.arguments import read_pace
 from skillc.values.keywords import read_keywords
 from skillc.values.run_keywords import RunKeywords, StartKeywords

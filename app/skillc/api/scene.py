@@ -16,13 +16,13 @@ from skillc.api.picture import Picture
 from skillc.api.planning import Plan, PlanKeywords, make_plan
 from skillc.api.table import QueryResult
 from skillc.errors import RequestError
-from skillc.services import scenes
-from skillc.services.assignments import assign_call, assign_goal
-from skillc.services.files import writing_to
-from skillc.services.scene_export import world_graph
-from skillc.services.scenes import FactText, OpenScene
-from skillc.services.stores import StoreChoice
-from skillc.services.task_loading import LoadedTask
+from skillc.services.reporting.files import writing_to
+from skillc.services.scene.stores import StoreChoice
+from skillc.services.tasks.assignments import assign_call, assign_goal
+from skillc.services.tasks.loading import LoadedTask
+from skillc.services.views import scenes
+from skillc.services.views.scene_export import world_graph
+from skillc.services.views.scenes import FactText, OpenScene
 from skillc.values.arguments import AnyPath, optional_path, require_path, require_text
 from skillc.values.keywords import read_keywords
 from skillc.values.run_keywords import SceneRunKeywords, SceneStartKeywords

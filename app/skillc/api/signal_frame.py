@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from skillc.errors import ServiceError
-from skillc.services.recordings import read_signals
-from skillc.services.signal_files import read_signal_dictionary
+from skillc.services.recording.recordings import read_signals
+from skillc.services.run.signal_files import read_signal_dictionary
 from skillc.values.frames import import_pandas
 from skillc_runtime.recording.signals.files import DICTIONARY
 from skillc_runtime.recording.signals.signal import CLOCK

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
 from skillc.api.boundary import NoticeList, api_call
 from skillc.errors import RequestError
-from skillc.services.task_list import require_task
-from skillc.services.trial_executors import choose_executor
-from skillc.services.trial_runs import OpenExecutor, TrialRequest, run_trials, write_page
+from skillc.services.tasks.listing import require_task
+from skillc.services.trials.executors import choose_executor
+from skillc.services.trials.running import OpenExecutor, TrialRequest, run_trials, write_page
 from skillc.values.arguments import (
     AnyPath,
     optional_path,

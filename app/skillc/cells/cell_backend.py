@@ -11,8 +11,8 @@ from skillc.cells.journal.reading import JournalReader
 from skillc.cells.reality import RealityKeeper, build_again
 from skillc.cells.samples import Sampler
 from skillc.cells.settings import CellSettings
-from skillc.services.backends import make_backend
-from skillc.services.run_recordings import find_obstacle, make_recorded_cell
+from skillc.services.project.backends import make_backend
+from skillc.services.run.recordings import find_obstacle, make_recorded_cell
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.primitives.standing_bases import place_standing_bases
 from skillc_runtime.world.space.frame_tree import FrameError

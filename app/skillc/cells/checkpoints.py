@@ -18,8 +18,8 @@ from skillc.cells.settings import CellSettings
 from skillc.contract.cell import CellCheckpoint
 from skillc.contract.messages import CheckpointCommand, Forget, Reset, Restore, Save
 from skillc.errors import RequestError, ServiceError
-from skillc.services.reporting import SilentReporter
-from skillc.services.stores import identify_scene, load_world
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.scene.stores import identify_scene, load_world
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.checkpoints import CheckpointError, Checkpoints
 from skillc_runtime.store.change_json import decode_changes, encode_changes

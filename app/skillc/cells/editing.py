@@ -8,11 +8,11 @@ from typing import assert_never
 
 import numpy as np
 
-from skillc.cells.submitted import SubmittedOperation
+from skillc.cells.operations.submitted import SubmittedOperation
 from skillc.contract.messages import Edit, Place
 from skillc.contract.sample import PoseNumbers
 from skillc.errors import RequestError
-from skillc.services.world_edits import read_edits
+from skillc.services.scene.world_edits import read_edits
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.world_edit import recorded_changes
 from skillc_runtime.motion.pose import Pose, rotation_from_quaternion
@@ -21,7 +21,7 @@ from skillc_runtime.recording.events import Requested
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import place_changes
 from skillc_runtime.world.state.changes import Change
-from skillc_runtime.world.state.labelling import label_change
+from skillc_runtime.world.state.labels.labelling import label_change
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.names import NoSuchName, resolve_individual
 from skillc_runtime.world.state.transactions import StoreError

@@ -10,34 +10,34 @@ from pathlib import Path
 
 from msgspec import structs
 
-from skillc.cells.assigning import assign_request
 from skillc.cells.cell_backend import CellBackend
 from skillc.cells.checkpoints import CellCheckpoints
 from skillc.cells.condition import CellCondition
-from skillc.cells.continuing import decisions_about, find_interrupted, prepare_continuation, take_over
 from skillc.cells.database import DatabaseError
 from skillc.cells.disturbing import disturb_cell
 from skillc.cells.editing import edit_world
 from skillc.cells.evidence import EvidenceKeeper
-from skillc.cells.interrupted import end_interrupted
 from skillc.cells.journal.fingerprint import make_fingerprint
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.library import decode_library, load_library
-from skillc.cells.recordings import CellRecordings
+from skillc.cells.operations.assigning import assign_request
+from skillc.cells.operations.continuing import decisions_about, find_interrupted, prepare_continuation, take_over
+from skillc.cells.operations.interrupted import end_interrupted
+from skillc.cells.operations.recordings import CellRecordings
+from skillc.cells.operations.submitted import SubmittedOperation
 from skillc.cells.settings import WORLD, CellSettings
 from skillc.cells.snapshot import SnapshotTaker
-from skillc.cells.submitted import SubmittedOperation
 from skillc.cells.world import restore_world
 from skillc.contract.cell import CellStatus
 from skillc.contract.messages import CheckpointCommand, Edit, Place, Reset, Restore
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.errors import RequestError
-from skillc.services.breakpoints import make_gate, parse_breakpoints
-from skillc.services.library_files import find_scene
-from skillc.services.reporting import Reporter
-from skillc.services.run_looks import look_from
-from skillc.services.stores import StoreChoice, read_or_fill
+from skillc.services.library.files import find_scene
+from skillc.services.reporting.reporter import Reporter
+from skillc.services.scene.stores import StoreChoice, read_or_fill
+from skillc.services.space.run_looks import look_from
+from skillc.services.tasks.breakpoints import make_gate, parse_breakpoints
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.execution.assignment import Assignment
@@ -50,9 +50,9 @@ from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import prepare_after
 from skillc_runtime.execution.tree.gate import format_breakpoints
 from skillc_runtime.execution.world_edit import recorded_changes
-from skillc_runtime.recording.account import RunAccount
 from skillc_runtime.recording.commands import Command, SetBreakpoints
 from skillc_runtime.recording.events import Disturbed
+from skillc_runtime.recording.history.account import RunAccount
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_spec import specify
 from skillc_runtime.recording.states import ENDS

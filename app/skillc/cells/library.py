@@ -9,10 +9,10 @@ from pathlib import Path
 import msgspec
 
 from skillc.cells.settings import CellSettings
-from skillc.services.backends import adapt_library
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import find_library
-from skillc.services.library_modules import find_modules
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library
+from skillc.services.library.modules import find_modules
+from skillc.services.project.backends import adapt_library
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.platforms.python_modules import import_named
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS, ForeignError, foreign_code

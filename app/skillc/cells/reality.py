@@ -7,7 +7,7 @@ import time
 from skillc.cells.database import DatabaseError
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
-from skillc.services.backends import BackendName, make_backend
+from skillc.services.project.backends import BackendName, make_backend
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.checkpoints import CheckpointError
 from skillc_runtime.world.state.model import WorldModel

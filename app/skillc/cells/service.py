@@ -10,9 +10,9 @@ from typing import assert_never
 
 import msgspec
 
-from skillc.cells.assigner import Assigned, Assigner
 from skillc.cells.host import CellHost
 from skillc.cells.mailbox import ALIVE_S, Inbox, Outbox
+from skillc.cells.operations.assigner import Assigned, Assigner
 from skillc.contract.cell import CellStatus
 from skillc.contract.messages import (
     Acknowledge,
@@ -42,8 +42,8 @@ from skillc.contract.messages import (
     TakeSnapshot,
 )
 from skillc.errors import DiagnosticsError, RequestError, ServiceError
-from skillc.services.backends import check_pace
-from skillc.services.diagnosis import diagnose
+from skillc.services.project.backends import check_pace
+from skillc.services.reporting.diagnosis import diagnose
 from skillc_runtime.execution.cell_loop import NotDurable, Request, TooManyRequests
 from skillc_runtime.execution.pace import FAST, REAL, Pace
 

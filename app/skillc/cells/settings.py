@@ -6,7 +6,7 @@ from pathlib import Path
 
 import msgspec
 
-from skillc.services.backends import BackendName
+from skillc.services.project.backends import BackendName
 
 JOURNAL, WORLD = "journal.sqlite", "world"
 """The files of a cell in its folder."""

@@ -69,7 +69,7 @@ def run_trials(
 def show_world(sparql: str | None, individuals: Sequence[str], words: str | None, history: bool, as_json: bool) -> None:
     """Print the answer to a query, the facts, those about individuals, or who has written them."""
     from skillc.cli.console import page_of, print_result, print_text
-    from skillc.cli.scene_output import format_answer
+    from skillc.cli.output.scene import format_answer
     from skillc_runtime.scene.query import QueryAnswer
 
     with asked_cell() as cell:
@@ -90,7 +90,7 @@ def show_world(sparql: str | None, individuals: Sequence[str], words: str | None
 
 def export_world(format: str, everything: bool, file: Path | None) -> None:
     """Print the world of a cell in a format, or write it to a file, whose path is printed."""
-    from skillc.services.files import write_file
+    from skillc.services.reporting.files import write_file
 
     with asked_cell() as cell:
         text = cell.export(cast("WorldFormat", format), everything)
@@ -104,8 +104,8 @@ def export_world(format: str, everything: bool, file: Path | None) -> None:
 def show_things(folder: Path, as_json: bool) -> None:
     """List the things of a cell with their poses, as it is believed, and draw them from above into a folder."""
     from skillc.cli.console import page_of, print_remark, print_result
-    from skillc.cli.scene_output import format_placed
-    from skillc.services.files import write_file
+    from skillc.cli.output.scene import format_placed
+    from skillc.services.reporting.files import write_file
 
     with asked_cell() as cell:
         print_result(format_placed(cell.things(), as_json, page_of(sys.stdout)))
@@ -127,14 +127,14 @@ def edit_world(edits: Sequence[str], why: str | None) -> None:
 
 
 def _format_fact(each: WorldFact) -> str:
-    from skillc_runtime.world.state.labelled_text import format_fact
+    from skillc_runtime.world.state.labels.labelled_text import format_fact
 
     known = f"  ({each.evidence} by {each.origin})" if each.evidence else f"  ({each.origin})" if each.origin else ""
     return f"{format_fact(each.fact)}{known}"
 
 
 def _format_write(each: WorldWrite) -> str:
-    from skillc.cli.event_lines import format_change
+    from skillc.cli.output.event_lines import format_change
 
     when = datetime.fromtimestamp(each.written_ns / NS, UTC).astimezone().isoformat(" ", "seconds")
     changes = "; ".join(map(format_change, each.changes))

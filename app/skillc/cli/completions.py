@@ -9,7 +9,7 @@ from click.shell_completion import CompletionItem
 def complete_task(_context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """Return the tasks whose names begin so, with what they do."""
     from skillc.errors import ServiceError
-    from skillc.services.task_list import list_tasks
+    from skillc.services.tasks.listing import list_tasks
 
     try:
         tasks = list_tasks()
@@ -37,14 +37,14 @@ def complete_scene(_context: click.Context, _parameter: click.Parameter, begun: 
 
 def complete_template(_context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """Return the templates of projects whose names begin so, with what they contain."""
-    from skillc.services.project_templates import TEMPLATES
+    from skillc.services.scaffolding.project_templates import TEMPLATES
 
     return [CompletionItem(each.name, help=each.summary) for each in TEMPLATES if each.name.startswith(begun)]
 
 
 def complete_device(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """Return the shipped robots, grippers or tools whose names begin so."""
-    from skillc.services.additions import FOLDERS
+    from skillc.services.scaffolding.additions import FOLDERS
     from skillc_ontology import catalogue
 
     folder = FOLDERS.get(context.params.get("kind") or "")

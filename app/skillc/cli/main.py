@@ -21,7 +21,7 @@ from skillc.cli.interrupts import Interrupted, raising_on_signals
 from skillc.cli.options import WITH_ONTOLOGY, add_ontology_option
 from skillc.cli.usage_errors import print_click_error
 from skillc.errors import OutputError
-from skillc.services import crash_reports
+from skillc.services.reporting import crash_reports
 from skillc_runtime.platforms.python_modules import defer_import
 
 COMMANDS = Path(__file__).parent / "commands"

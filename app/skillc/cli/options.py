@@ -36,7 +36,7 @@ class BackendType(click.ParamType[str]):
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return the name; a usage error with those that there are for another one."""
         from skillc.errors import RequestError
-        from skillc.services.backends import require_backend
+        from skillc.services.project.backends import require_backend
 
         try:
             return require_backend(value)
@@ -45,7 +45,7 @@ class BackendType(click.ParamType[str]):
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
         """Return the names that begin so."""
-        from skillc.services.backends import list_backends
+        from skillc.services.project.backends import list_backends
 
         return [CompletionItem(each) for each in list_backends() if each.startswith(incomplete)]
 

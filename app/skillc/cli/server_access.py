@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.operation_remarks import remark_status
 from skillc.cli.options import grouped_option, task_arguments
+from skillc.cli.output.operation_remarks import remark_status
 from skillc.cli.server_completions import (
     Complete,
     complete_any_operation,

@@ -11,7 +11,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from skillc.cli.completions import complete_task
-from skillc.cli.operation_remarks import describe_state
+from skillc.cli.output.operation_remarks import describe_state
 from skillc.cli.server_connection import CELL, URL, connect_server
 from skillc.errors import ServiceError
 
@@ -173,7 +173,7 @@ def _find_parameters(server: Server, context: click.Context) -> Iterator[tuple[S
 
 def _list_individuals(cell: ServerCell, type: str | None = None) -> Iterator[tuple[str, str]]:
     """Yield the individuals of a cell, or those of a class, each with a class that it has."""
-    from skillc_runtime.world.state.labelled import LabelledClass
+    from skillc_runtime.world.state.labels.labelled import LabelledClass
 
     for each in cell.facts(type=type):
         if isinstance(each.fact, LabelledClass):

@@ -8,7 +8,7 @@ from ipaddress import ip_address
 from pathlib import Path
 from urllib.parse import urlsplit
 
-from skillc.contract.endpoint import PREFIX
+from skillc.contract.api.endpoint import PREFIX
 from skillc.errors import RequestError
 
 DEFAULT_URL = "http://127.0.0.1:8421"

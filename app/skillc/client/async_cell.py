@@ -22,8 +22,7 @@ from skillc.client.requests import (
     describe_rehearsal,
     describe_trials,
 )
-from skillc.contract.cell import CellStatus, Disturbance, PaceSetting
-from skillc.contract.endpoints import (
+from skillc.contract.api.endpoints import (
     ADD_ORDER,
     DISTURB_CELL,
     EDIT_WORLD,
@@ -36,10 +35,11 @@ from skillc.contract.endpoints import (
     SUBMIT_OPERATION,
     WRITE_WORLD,
 )
-from skillc.contract.history import HistoryPage
+from skillc.contract.cell import CellStatus, Disturbance, PaceSetting
 from skillc.contract.order import Order
 from skillc.contract.plan import PlanPreview
 from skillc.contract.rehearsal import Rehearsal
+from skillc.contract.runs.history import HistoryPage
 from skillc.contract.sample import Sample
 from skillc.contract.trials import TrialDisturbance, TrialSeries
 from skillc.contract.world import (

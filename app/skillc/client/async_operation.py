@@ -15,8 +15,8 @@ from skillc.client.experiments import make_report
 from skillc.client.feed import follow_operation
 from skillc.client.retries import Retries
 from skillc.contract import commands
+from skillc.contract.api.endpoints import GIVE_COMMAND, READ_RECORDING, SHOW_OPERATION, STOP_OPERATION, SUBMIT_OPERATION
 from skillc.contract.commands import Command
-from skillc.contract.endpoints import GIVE_COMMAND, READ_RECORDING, SHOW_OPERATION, STOP_OPERATION, SUBMIT_OPERATION
 from skillc.contract.operation import ENDS, Contact, Decision, OperationRequest, OperationStatus, State
 from skillc.contract.report import OperationReport
 from skillc.contract.stopping import StopReason

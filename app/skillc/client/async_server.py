@@ -11,7 +11,7 @@ from skillc.client.async_operation import AsyncOperation
 from skillc.client.calls import ServerCalls
 from skillc.client.feed import Status, follow_states
 from skillc.contract.access import NewToken, Role
-from skillc.contract.endpoints import ADD_TOKEN, MAKE_LOGIN_CODE, SHOW_OPERATION
+from skillc.contract.api.endpoints import ADD_TOKEN, MAKE_LOGIN_CODE, SHOW_OPERATION
 from skillc.errors import RequestError
 
 

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from skillc.client.connection import Connection
 from skillc.contract.access import TokenInfo
-from skillc.contract.audit import AuditEntry, AuditPage
-from skillc.contract.cell import CellCheckpoint, CellStatus, CheckpointName, ResetReason
-from skillc.contract.device import DeviceStatus
-from skillc.contract.endpoints import (
+from skillc.contract.api.endpoints import (
     ACKNOWLEDGE_FAULT,
     CHANGE_LIBRARY_SOURCE,
     COMPARE_RUNS,
@@ -50,7 +47,10 @@ from skillc.contract.endpoints import (
     STOP_CELL,
     TAKE_LEASE,
 )
-from skillc.contract.explanation import Question, RunExplanation
+from skillc.contract.api.version import VersionInfo
+from skillc.contract.audit import AuditEntry, AuditPage
+from skillc.contract.cell import CellCheckpoint, CellStatus, CheckpointName, ResetReason
+from skillc.contract.device import DeviceStatus
 from skillc.contract.geometry import CellModel, SurfaceCoverage
 from skillc.contract.lease import Lease, LeaseRequest
 from skillc.contract.library import LibraryDescription, LibraryStatus
@@ -58,13 +58,13 @@ from skillc.contract.operation import OperationStatus
 from skillc.contract.order import Order
 from skillc.contract.queue import QueueOrder
 from skillc.contract.rehearsal import Rehearsal
-from skillc.contract.run_diff import OtherRun, RunDiff
-from skillc.contract.run_tree import OperationTree
-from skillc.contract.signals import SignalPage, SignalRows
+from skillc.contract.runs.explanation import Question, RunExplanation
+from skillc.contract.runs.run_diff import OtherRun, RunDiff
+from skillc.contract.runs.run_tree import OperationTree
+from skillc.contract.runs.signals import SignalPage, SignalRows
 from skillc.contract.source import SourceChange, SourceInfo, SourcePath, SourceText
 from skillc.contract.stopping import StopReason
 from skillc.contract.trials import Series, TrialReplay, TrialSeries
-from skillc.contract.version import VersionInfo
 from skillc.contract.world import PlacedThing, WorldPlacement
 
 

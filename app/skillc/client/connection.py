@@ -13,8 +13,8 @@ import msgspec
 
 from skillc.client.address import ServerAddress
 from skillc.client.errors import RefusedError, UnavailableError
-from skillc.contract.endpoint import Endpoint
-from skillc.contract.problem import ProblemDetails
+from skillc.contract.api.endpoint import Endpoint
+from skillc.contract.api.problem import ProblemDetails
 from skillc.errors import ServiceError
 from skillc.values.arguments import require_text
 from skillc_dsl.rendering.json import from_data

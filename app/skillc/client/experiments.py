@@ -9,7 +9,7 @@ from pathlib import Path
 
 from skillc.client.connection import Connection
 from skillc.client.errors import RefusedError
-from skillc.contract.endpoints import (
+from skillc.contract.api.endpoints import (
     JUDGE_TRIALS,
     MAKE_REPORT,
     READ_FILM,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from skillc.client.connection import Connection
-from skillc.contract.endpoints import LIST_FACTS
+from skillc.contract.api.endpoints import LIST_FACTS
 from skillc.contract.world import FactPage, WorldFact
 
 PAGE = 1000

@@ -13,12 +13,12 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidMes
 from skillc.client.connection import Connection, decode, decode_binary, describe_loss
 from skillc.client.errors import RefusedError, UnavailableError
 from skillc.client.retries import Retries
+from skillc.contract.api.endpoint import Stream
+from skillc.contract.api.endpoints import STREAM_EVENTS, STREAM_SAMPLES
 from skillc.contract.cell import CellStatus
-from skillc.contract.endpoint import Stream
-from skillc.contract.endpoints import STREAM_EVENTS, STREAM_SAMPLES
-from skillc.contract.history import EventsHello
 from skillc.contract.messages import Happened, StatusChanged
 from skillc.contract.operation import OperationStatus
+from skillc.contract.runs.history import EventsHello
 from skillc.contract.sample import Sample, SampleHello
 from skillc.errors import ServiceError
 from skillc.events import Envelope

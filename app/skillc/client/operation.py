@@ -8,12 +8,12 @@ from pathlib import Path
 from skillc.client.async_operation import Depth
 from skillc.client.waiting import WaitingOperation
 from skillc.contract.commands import Command
-from skillc.contract.explanation import RunExplanation
 from skillc.contract.operation import Decision, OperationStatus, State
 from skillc.contract.report import OperationReport
-from skillc.contract.run_diff import RunDiff
-from skillc.contract.run_tree import OperationTree
-from skillc.contract.signals import SignalRows
+from skillc.contract.runs.explanation import RunExplanation
+from skillc.contract.runs.run_diff import RunDiff
+from skillc.contract.runs.run_tree import OperationTree
+from skillc.contract.runs.signals import SignalRows
 from skillc.events import Envelope
 
 

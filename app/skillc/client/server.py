@@ -9,12 +9,12 @@ from skillc.client.feed import Status
 from skillc.client.operation import ServerOperation
 from skillc.client.waiting import WaitingServer
 from skillc.contract.access import Role, TokenInfo
+from skillc.contract.api.version import VersionInfo
 from skillc.contract.audit import AuditEntry
 from skillc.contract.cell import CellStatus
 from skillc.contract.library import LibraryStatus
 from skillc.contract.source import SourceInfo, SourceText
 from skillc.contract.trials import Series, TrialReplay, TrialSeries
-from skillc.contract.version import VersionInfo
 
 
 class Server(WaitingServer):

@@ -9,9 +9,9 @@ import msgspec
 
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.planning.progress import PlanningProgress
-from skillc_runtime.recording.account import CallOutput, MeasuredProperty
 from skillc_runtime.recording.contact import Contact as Contact
 from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.history.account import CallOutput, MeasuredProperty
 from skillc_runtime.recording.run_spec import RunRequest
 from skillc_runtime.recording.states import ENDS as ENDS
 from skillc_runtime.recording.states import Decision as Decision

@@ -9,7 +9,7 @@ import msgspec
 
 from skillc.contract.values import CheckedBody, Why, check_why
 from skillc_runtime.world.state.facts import Evidence
-from skillc_runtime.world.state.labelled import LabelledChange, LabelledFact
+from skillc_runtime.world.state.labels.labelled import LabelledChange, LabelledFact
 
 WorldFormat: TypeAlias = Literal["turtle", "rdfxml", "jsonld", "ntriples", "trig", "graph", "top-view"]
 """The forms of RDF, and pictures as SVG: the individuals with their relations, and what is where from above."""

@@ -9,15 +9,15 @@ from functools import cache
 from pathlib import Path
 
 from skillc.errors import DiagnosticsError
-from skillc.services import library_files
-from skillc.services.library_files import (
+from skillc.services.library import files as library_files
+from skillc.services.library.files import (
     SHIPPED,
     LibraryFiles,
     find_library,
     read_vocabularies,
     user_vocabularies,
 )
-from skillc.services.ontology_imports import follow_imports
+from skillc.services.library.ontology_imports import follow_imports
 from skillc.services.project import project as projects
 from skillc.services.project.loading import find_project
 from skillc_dsl.diagnostics import Outcome

@@ -13,8 +13,8 @@ from pygls.uris import from_fs_path, to_fs_path
 from skillc.lsp import files
 from skillc.lsp.files import Root
 from skillc.lsp.scenes import SceneCache, find_problems
-from skillc.services.libraries import load_vocabulary_with
-from skillc.services.library_files import LibraryFiles
+from skillc.services.library.files import LibraryFiles
+from skillc.services.library.libraries import load_vocabulary_with
 from skillc_compiler.ide.analysis import Analysis, AnalysisInput, analyse
 from skillc_compiler.problems import AnalysisMemo
 from skillc_dsl.diagnostics import Diagnostic, Outcome
@@ -24,7 +24,7 @@ from skillc_dsl.source import Source
 from skillc_rdf.vocabulary.conflicts import judge_conflicts
 
 if TYPE_CHECKING:
-    from skillc.services.task_scenes import TaskScenes
+    from skillc.services.tasks.scenes import TaskScenes
     from skillc_compiler.resolve.individuals import Individuals
 
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from skillc.services.library_checks import check_with_scenes
-from skillc.services.library_files import LibraryFiles
+from skillc.services.check.library_checks import check_with_scenes
+from skillc.services.library.files import LibraryFiles
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
@@ -19,7 +19,7 @@ from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.types import Vocabulary
 
 if TYPE_CHECKING:
-    from skillc.services.task_scenes import TaskScenes
+    from skillc.services.tasks.scenes import TaskScenes
     from skillc_runtime.scene.load import Scene
 
 
@@ -36,8 +36,8 @@ class SceneCache:
         by_default = around.project is not None and around.project.manifest.scene is not None
         if not any(task.scene or by_default for task in program.tasks):
             return None
-        from skillc.services.named_scenes import default_scene
-        from skillc.services.task_scenes import SceneTexts, read_scene, read_task_scenes
+        from skillc.services.tasks.named_scenes import default_scene
+        from skillc.services.tasks.scenes import SceneTexts, read_scene, read_task_scenes
 
         default = default_scene(around.project) if around.project else None
         terms = _own_terms(program.vocabulary, base)

@@ -17,7 +17,7 @@ from skillc.lsp import diagnostics as problems
 from skillc.lsp.files import Root
 from skillc.lsp.libraries import FileView, Libraries
 from skillc.lsp.positions import PositionConverter
-from skillc.services import crash_reports
+from skillc.services.reporting import crash_reports
 from skillc_compiler.ide.analysis import Analysis
 from skillc_dsl.diagnostics import Diagnostic
 

@@ -20,25 +20,25 @@ from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.types import ASGIApp
 
 from skillc.cells.database import DatabaseError
-from skillc.contract.endpoint import PREFIX, Endpoint
-from skillc.contract.endpoints import ENDPOINTS, STREAMS, UNAVAILABLE
+from skillc.contract.api.endpoint import PREFIX, Endpoint
+from skillc.contract.api.endpoints import ENDPOINTS, STREAMS, UNAVAILABLE
+from skillc.server.access.rates import TokenBuckets
 from skillc.server.access.roles import includes
 from skillc.server.access.tokens import Client
-from skillc.server.api_call import ApiCall
-from skillc.server.audited_request import AuditedRequest
-from skillc.server.authentication import find_cookie, find_known_client, read_session
 from skillc.server.context import ServerContext
-from skillc.server.event_stream import stream_events
-from skillc.server.guard import Guard
 from skillc.server.handlers import find_handlers
+from skillc.server.http.api_call import ApiCall
+from skillc.server.http.audited_request import AuditedRequest
+from skillc.server.http.authentication import find_cookie, find_known_client, read_session
+from skillc.server.http.event_stream import stream_events
+from skillc.server.http.guard import Guard
+from skillc.server.http.openapi import make_openapi
+from skillc.server.http.proxy import ProxiedRequests
+from skillc.server.http.requests import decode_body, read_body, read_key, read_query, wait_until_gone
+from skillc.server.http.sample_stream import stream_samples
 from skillc.server.language.stream import stream_language
 from skillc.server.log import log
-from skillc.server.openapi import make_openapi
 from skillc.server.problems import MEDIA_TYPE, ApiRefusal
-from skillc.server.proxy import ProxiedRequests
-from skillc.server.rates import TokenBuckets
-from skillc.server.requests import decode_body, read_body, read_key, read_query, wait_until_gone
-from skillc.server.sample_stream import stream_samples
 from skillc.server.studio_page import STUDIO_FILES, StudioPage
 
 REQUESTS_PER_S, BURST = 200.0, 400.0

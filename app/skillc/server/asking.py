@@ -9,9 +9,9 @@ from typing import TypeVar
 
 from skillc.contract.jobs import Job
 from skillc.contract.messages import TakeSnapshot
-from skillc.contract.run_jobs import RunJob
-from skillc.server.api_call import ApiCall
-from skillc.server.outcome import raise_refused
+from skillc.contract.runs.run_jobs import RunJob
+from skillc.server.http.api_call import ApiCall
+from skillc.server.http.outcome import raise_refused
 from skillc.server.problems import ApiRefusal
 from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs
 

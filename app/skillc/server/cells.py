@@ -11,10 +11,10 @@ from skillc.cells.settings import CellSettings
 from skillc.errors import RequestError
 from skillc.server.served_library import ServedLibrary, open_library
 from skillc.server.state import CELLS
-from skillc.services.backends import BackendName
-from skillc.services.library_files import find_scene
-from skillc.services.named_scenes import default_scene
+from skillc.services.library.files import find_scene
+from skillc.services.project.backends import BackendName
 from skillc.services.project.loading import find_project
+from skillc.services.tasks.named_scenes import default_scene
 from skillc_ontology import catalogue
 
 

@@ -11,15 +11,16 @@ from http import HTTPStatus
 
 from skillc.cells.journal.reading import JournalReader
 from skillc.contract.operation import OperationStatus
+from skillc.server.access.audit import AuditLog
 from skillc.server.access.codes import LoginCodes
 from skillc.server.access.leases import Leases
-from skillc.server.audit import AuditLog
+from skillc.server.access.rates import TokenBuckets
+from skillc.server.access.watchers import Watchers
 from skillc.server.hub import EventHub
 from skillc.server.idempotency import RequestKeys
 from skillc.server.metrics import Metrics
 from skillc.server.orders.store import Orders
 from skillc.server.problems import ApiRefusal
-from skillc.server.rates import TokenBuckets
 from skillc.server.rehearsals import Rehearsals
 from skillc.server.reports import Reports
 from skillc.server.served_library import ServedLibrary
@@ -29,7 +30,6 @@ from skillc.server.supervisor import CellSupervisor
 from skillc.server.trials.replays import TrialReplays
 from skillc.server.trials.running import TrialRuns
 from skillc.server.trials.store import TrialStore
-from skillc.server.watchers import Watchers
 from skillc.workers.pool import Workers
 from skillc.workers.programs import read_run
 

@@ -8,9 +8,9 @@ from pkgutil import iter_modules
 from types import ModuleType
 from typing import Any
 
-from skillc.contract.endpoint import Endpoint
+from skillc.contract.api.endpoint import Endpoint
 from skillc.server import routes
-from skillc.server.api_call import Handler
+from skillc.server.http.api_call import Handler
 
 
 def find_handlers(endpoints: Iterable[Endpoint[Any]]) -> Mapping[str, Handler]:

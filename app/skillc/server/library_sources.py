@@ -11,10 +11,10 @@ from skillc.contract.source import SourceText
 from skillc.errors import DiagnosticsError, ServiceError
 from skillc.server.library_stamp import list_files
 from skillc.server.served_library import ServedLibrary
-from skillc.services.files import rewrite_file
-from skillc.services.library_files import SHIPPED
+from skillc.services.library.files import SHIPPED
 from skillc.services.project.loading import find_project
 from skillc.services.project.project import Project
+from skillc.services.reporting.files import rewrite_file
 from skillc_dsl.encoding import MOST_BYTES, decode, normalise_newlines, read_file
 
 TEXTS = (".skill", ".ttl")

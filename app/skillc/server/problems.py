@@ -9,8 +9,8 @@ import msgspec
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
+from skillc.contract.api.problem import ProblemDetails
 from skillc.contract.diagnosis import NO_DIAGNOSIS, Diagnosis
-from skillc.contract.problem import ProblemDetails
 from skillc_dsl.rendering.json import to_data
 
 MEDIA_TYPE = "application/problem+json"

@@ -9,11 +9,11 @@ from pathlib import Path
 
 from skillc.cells.database import DatabaseError, describe_error, open_for_writing
 from skillc.cells.journal.pruning import prune_journal
-from skillc.cells.recording_files import RECORDINGS, recording_file
+from skillc.cells.operations.recording_files import RECORDINGS, recording_file
 from skillc.cells.settings import JOURNAL
 from skillc.contract.audit import AuditEntry
 from skillc.errors import RequestError, ServiceError
-from skillc.server.audit import AuditLog
+from skillc.server.access.audit import AuditLog
 from skillc.server.idempotency import RequestKeys
 from skillc.server.state import CELLS, DATABASE, SCHEMA
 

@@ -11,7 +11,7 @@ from msgspec import structs
 from skillc.contract.jobs import Rehearse
 from skillc.contract.rehearsal import Rehearsal, RehearsalRequest
 from skillc.server.simulation_jobs import SimulationJobs
-from skillc.services.recordings import RECORDING
+from skillc.services.recording.recordings import RECORDING
 from skillc_runtime.recording.envelope import make_run_id
 
 FILM = "film.mp4"

@@ -12,23 +12,23 @@ import uvicorn
 from starlette.types import ASGIApp
 
 from skillc.cells.database import DatabaseError
+from skillc.contract.api.endpoint import PREFIX
 from skillc.contract.cell import CellStatus
-from skillc.contract.endpoint import PREFIX
 from skillc.contract.messages import StatusChanged
 from skillc.contract.values import MAX_BODY_BYTES
 from skillc.errors import ServiceError
 from skillc.server.app import Application
 from skillc.server.cells import ServedCells
-from skillc.server.connections import BoundedConnection
 from skillc.server.context import ServerContext
 from skillc.server.ending import EndingServer
+from skillc.server.http.connections import BoundedConnection
+from skillc.server.http.listening import Listening
 from skillc.server.hub import EventHub, News
-from skillc.server.listening import Listening
 from skillc.server.log import log
 from skillc.server.orders.submitting import keep_submitting
 from skillc.server.state import ServerState, announced
 from skillc.server.supervisor import CellSupervisor
-from skillc.services.reporting import Reporter
+from skillc.services.reporting.reporter import Reporter
 from skillc_dsl.garbage import exempt_from_gc
 from skillc_runtime.platforms.open_files import raise_open_files_limit
 from skillc_runtime.world.state.transactions import StoreError

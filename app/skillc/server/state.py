@@ -12,11 +12,11 @@ from pathlib import Path
 from skillc.cells.database import DatabaseError, Schema, describe_error, open_for_writing
 from skillc.client.address import ADDRESS, ADMIN_TOKEN, read_token
 from skillc.errors import ServiceError
+from skillc.server.access.audit import TABLE as AUDIT
 from skillc.server.access.sessions import TABLE as SESSIONS
 from skillc.server.access.sessions import Sessions
 from skillc.server.access.tokens import PREFIX, Tokens
 from skillc.server.access.tokens import TABLE as TOKENS
-from skillc.server.audit import TABLE as AUDIT
 from skillc.server.idempotency import TABLE as REQUESTS
 from skillc.server.orders.store import TABLE as ORDERS
 from skillc.server.trials.store import SERIES, TRIALS

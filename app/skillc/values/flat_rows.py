@@ -7,7 +7,7 @@ from typing import TypeAlias, get_args
 
 import msgspec
 
-from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelled import LabelledIri
 
 Cell: TypeAlias = bool | int | float | str | None
 """A value in a frame. A missing text is None, a missing number is `nan`."""

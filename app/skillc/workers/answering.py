@@ -9,9 +9,9 @@ from typing import TypeAlias, assert_never
 
 import msgspec
 
-from skillc.cells.assigning import assign_request
 from skillc.cells.database import DatabaseError
 from skillc.cells.journal.reading import JournalReader
+from skillc.cells.operations.assigning import assign_request
 from skillc.cells.samples import list_numbers
 from skillc.cells.snapshot import CellSnapshot, decode_snapshot
 from skillc.contract.device import Device
@@ -40,10 +40,10 @@ from skillc.contract.plan import PlanPreview
 from skillc.contract.sample import PoseNumbers
 from skillc.contract.world import PlacedThing, QueryRows, StatableFacts, WorldFact, WorldFacts, WorldText, WorldWrite
 from skillc.errors import DiagnosticsError, ServiceError
-from skillc.services.breakpoints import parse_breakpoints
-from skillc.services.diagnosis import diagnose
-from skillc.services.scene_show import list_placed
-from skillc.services.scenes import describe_state, find_individuals, query_document, view_world
+from skillc.services.reporting.diagnosis import diagnose
+from skillc.services.tasks.breakpoints import parse_breakpoints
+from skillc.services.views.scene_show import list_placed
+from skillc.services.views.scenes import describe_state, find_individuals, query_document, view_world
 from skillc.workers.devices import list_devices
 from skillc.workers.planning import preview_plan
 from skillc.workers.rehearsing import rehearse
@@ -59,7 +59,7 @@ from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.elements import elements_of, find_elements
 from skillc_runtime.world.state.facts import ClassFact, Fact, PropertyFact, RelationFact
-from skillc_runtime.world.state.labelling import label_change, label_fact
+from skillc_runtime.world.state.labels.labelling import label_change, label_fact
 from skillc_runtime.world.state.names import NoSuchName, resolve_individual
 
 MAX_ROWS = 10_000

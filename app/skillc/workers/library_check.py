@@ -18,9 +18,9 @@ from msgspec import structs
 from skillc.cells.library import encode_library
 from skillc.contract.library import LibraryDescription
 from skillc.errors import DiagnosticsError, ServiceError
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.library_files import LibraryFiles, find_library
-from skillc.services.library_modules import find_modules, module_of
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import LibraryFiles, find_library
+from skillc.services.library.modules import find_modules, module_of
 from skillc.services.project.loading import find_project
 from skillc.workers.libraries import describe_library
 from skillc_dsl.encoding import decode, read_file

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 import msgspec
 
-from skillc.cells.assigning import assign_request
+from skillc.cells.operations.assigning import assign_request
 from skillc.cells.snapshot import CellSnapshot
 from skillc.contract.jobs import PreviewPlan
 from skillc.contract.plan import PlanPreview
-from skillc.services.plan_text import describe_answer, format_plan
-from skillc.services.planning import Answer, plan_goal, prepare_planners
-from skillc.services.run_looks import look_from_postures
-from skillc.services.task_loading import LoadedTask
+from skillc.services.planning.plan_text import describe_answer, format_plan
+from skillc.services.planning.planning import Answer, plan_goal, prepare_planners
+from skillc.services.space.run_looks import look_from_postures
+from skillc.services.tasks.loading import LoadedTask
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.execution.refinement.goal_places import name_goal_places

@@ -12,7 +12,7 @@ import msgspec
 
 from skillc.contract.diagnosis import NO_DIAGNOSIS, Diagnosis
 from skillc.contract.jobs import Job, JobRefused
-from skillc.contract.run_jobs import RunJob
+from skillc.contract.runs.run_jobs import RunJob
 from skillc.workers.programs import Program, do_job
 from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess, WorkerResult

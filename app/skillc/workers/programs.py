@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 from skillc.contract.jobs import Job, JobRefused
-from skillc.contract.run_jobs import RunJob
+from skillc.contract.runs.run_jobs import RunJob
 from skillc_runtime.platforms.memory import limit_memory
 
 Program: TypeAlias = Callable[[Any], bytes | JobRefused]

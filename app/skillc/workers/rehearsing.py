@@ -7,12 +7,12 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from skillc.cells.assigning import assign_request
+from skillc.cells.operations.assigning import assign_request
 from skillc.cells.snapshot import CellSnapshot
 from skillc.contract.jobs import Rehearse
-from skillc.services.reporting import SilentReporter
-from skillc.services.running import RunOptions, run_task
-from skillc.services.task_loading import LoadedTask
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.run.running import RunOptions, run_task
+from skillc.services.tasks.loading import LoadedTask
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun

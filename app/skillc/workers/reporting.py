@@ -8,7 +8,7 @@ from skillc.cells.snapshot import CellSnapshot
 from skillc.contract.jobs import MakeReport
 from skillc.errors import RequestError
 from skillc.services.replaying.report import report_recorded
-from skillc.services.reporting import SilentReporter
+from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.recording.run_spec import RunSpec
 

@@ -11,23 +11,23 @@ import numpy as np
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.journal.reading import JournalReader
-from skillc.contract.explanation import ChainedFailure, ExplainedCall, RunExplanation
 from skillc.contract.jobs import JobRefused
-from skillc.contract.run_diff import RunDiff
-from skillc.contract.run_jobs import CompareRuns, ExplainRun, ReadSignals, RunFiles, RunJob, ShowTree
-from skillc.contract.run_tree import OperationTree
-from skillc.contract.signals import SignalRows
+from skillc.contract.runs.explanation import ChainedFailure, ExplainedCall, RunExplanation
+from skillc.contract.runs.run_diff import RunDiff
+from skillc.contract.runs.run_jobs import CompareRuns, ExplainRun, ReadSignals, RunFiles, RunJob, ShowTree
+from skillc.contract.runs.run_tree import OperationTree
+from skillc.contract.runs.signals import SignalRows
 from skillc.errors import ServiceError
-from skillc.services.operation_tree import build_tree
-from skillc.services.recordings import answer_question, make_result, read_signals
+from skillc.services.recording.recordings import answer_question, make_result, read_signals
+from skillc.services.recording.story_text import explain_call, format_answer, overview_lines
+from skillc.services.run.operation_tree import build_tree
 from skillc.services.run_diff.compare import compare_runs
 from skillc.services.run_diff.recorded import RecordedRunData, make_run_data, read_mcap_columns
-from skillc.services.story_text import explain_call, format_answer, overview_lines
 from skillc_model.codec import LibraryError, loads
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.recording.envelope import Envelope
-from skillc_runtime.recording.history import RecordedCall
-from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.history.history import RecordedCall
+from skillc_runtime.recording.history.history_builder import read_history
 from skillc_runtime.recording.mcap.contents import LIBRARY
 from skillc_runtime.recording.mcap.reader import RecordedFile, read_recording
 from skillc_runtime.recording.reader import TraceError

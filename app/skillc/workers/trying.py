@@ -8,14 +8,14 @@ import msgspec
 
 from skillc.cells.snapshot import CellSnapshot
 from skillc.contract.jobs import CheckTrials, RecordTrial, RunTrial
-from skillc.services.assignments import assign_task
-from skillc.services.backends import DEFAULT_BACKEND
-from skillc.services.library_files import find_scene
-from skillc.services.reporting import SilentReporter
-from skillc.services.stores import load_world
-from skillc.services.task_list import find_task
-from skillc.services.trial_recordings import record_in
-from skillc.services.trial_runs import bind_trial_task, require_effect
+from skillc.services.library.files import find_scene
+from skillc.services.project.backends import DEFAULT_BACKEND
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.scene.stores import load_world
+from skillc.services.tasks.assignments import assign_task
+from skillc.services.tasks.listing import find_task
+from skillc.services.trials.recordings import record_in
+from skillc.services.trials.running import bind_trial_task, require_effect
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.trials.experiment import TrialRunner
 from skillc_runtime.evaluation.trials.trial import Trial

@@ -7,9 +7,9 @@ from typing import assert_never
 from skillc.cells.snapshot import CellSnapshot
 from skillc.contract.jobs import WriteWorld
 from skillc.contract.world import WorldText
-from skillc.services.scene_export import export_scene
-from skillc.services.scene_show import draw_from_above
-from skillc.services.scenes import picture_scene, view_world
+from skillc.services.views.scene_export import export_scene
+from skillc.services.views.scene_show import draw_from_above
+from skillc.services.views.scenes import picture_scene, view_world
 from skillc_compiler.emit.picture.svg import draw_document
 
 

@@ -6,8 +6,6 @@ from collections.abc import Iterator, Sequence
 
 from msgspec import structs
 
-from skillc_compiler.analysis.apply_effects import apply_effects
-from skillc_compiler.analysis.assume import assume, unify
 from skillc_compiler.analysis.binding import (
     Binding,
     bind_call,
@@ -16,13 +14,15 @@ from skillc_compiler.analysis.binding import (
     definite_effects,
     fresh_variable,
 )
-from skillc_compiler.analysis.evaluate import evaluate, known_individuals
 from skillc_compiler.analysis.exploration import CallEffect, EvalContext, Exploration, havoc_concurrent
-from skillc_compiler.analysis.havoc import havoc
+from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
+from skillc_compiler.analysis.knowledge.assume import assume, unify
+from skillc_compiler.analysis.knowledge.evaluate import evaluate, known_individuals
+from skillc_compiler.analysis.knowledge.havoc import havoc
+from skillc_compiler.analysis.knowledge.state import State
+from skillc_compiler.analysis.knowledge.writes import Write
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, extend_path
-from skillc_compiler.analysis.state import State
 from skillc_compiler.analysis.summaries import hide_names, in_caller_terms
-from skillc_compiler.analysis.writes import Write
 from skillc_compiler.program.typed import Call, Requirement
 from skillc_model.conditions import Variable
 from skillc_model.traversal import free_variables

@@ -9,15 +9,15 @@ from typing import Protocol, TypeAlias
 import msgspec
 from msgspec import structs
 
-from skillc_compiler.analysis.alias_types import AliasTypes
-from skillc_compiler.analysis.evaluate import evaluate
 from skillc_compiler.analysis.findings import BrokenHold, Finding, UnassignedRead, UnprovedPrecondition
-from skillc_compiler.analysis.havoc import havoc
 from skillc_compiler.analysis.initial_state import requirements_of
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
+from skillc_compiler.analysis.knowledge.evaluate import evaluate
+from skillc_compiler.analysis.knowledge.havoc import havoc
+from skillc_compiler.analysis.knowledge.state import State
+from skillc_compiler.analysis.knowledge.writes import NO_WRITES, Write
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, path_length
-from skillc_compiler.analysis.state import State
 from skillc_compiler.analysis.summaries import WriteSummaries, hide_names
-from skillc_compiler.analysis.writes import NO_WRITES, Write
 from skillc_compiler.program.typed import (
     Call,
     Implementation,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from skillc_compiler.analysis.alias_types import AliasTypes
-from skillc_compiler.analysis.assume import assume
 from skillc_compiler.analysis.binding import class_of
-from skillc_compiler.analysis.state import IndividualTerm, State
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
+from skillc_compiler.analysis.knowledge.assume import assume
+from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
 from skillc_compiler.program.typed import Implementation, Parameter, Requirement, Task
 from skillc_compiler.program.types import Thing as ThingType
 from skillc_model.conditions import Compare, Condition, Given, Holds, Individual, Literal, Not, Same, Variable

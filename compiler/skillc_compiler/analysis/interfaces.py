@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import msgspec
 
+from skillc_compiler.analysis.knowledge.writes import Write
 from skillc_compiler.analysis.parallel_conflicts import devices_inside
 from skillc_compiler.analysis.summaries import WriteSummaries
-from skillc_compiler.analysis.writes import Write
 from skillc_compiler.program.typed import Implementation, Program, Requirement
 
 

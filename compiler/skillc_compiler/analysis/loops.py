@@ -5,8 +5,9 @@ from __future__ import annotations
 from functools import reduce
 from typing import assert_never
 
-from skillc_compiler.analysis.assume import assume
 from skillc_compiler.analysis.exploration import EvalContext, Exploration, explore_sequence, havoc_concurrent
+from skillc_compiler.analysis.knowledge.assume import assume
+from skillc_compiler.analysis.knowledge.state import State, join
 from skillc_compiler.analysis.paths import (
     EndStates,
     Path,
@@ -17,7 +18,6 @@ from skillc_compiler.analysis.paths import (
     havoc_all,
     widen,
 )
-from skillc_compiler.analysis.state import State, join
 from skillc_compiler.logic.rounds import count_rounds
 from skillc_compiler.program.typed import TypedNode
 from skillc_dsl import syntax as s

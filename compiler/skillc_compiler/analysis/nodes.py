@@ -6,14 +6,16 @@ from collections.abc import Iterator
 from typing import assert_never
 
 from skillc_compiler.analysis import loops, parallel
-from skillc_compiler.analysis.alias_types import AliasTypes, any_individual
-from skillc_compiler.analysis.apply_effects import apply_effects
-from skillc_compiler.analysis.assume import assume
 from skillc_compiler.analysis.binding import definite_effects
 from skillc_compiler.analysis.calls import explore_call
 from skillc_compiler.analysis.exploration import EvalContext, Exploration, explore_sequence, havoc_concurrent
-from skillc_compiler.analysis.havoc import havoc
 from skillc_compiler.analysis.initial_state import requirements_of
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, any_individual
+from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
+from skillc_compiler.analysis.knowledge.assume import assume
+from skillc_compiler.analysis.knowledge.havoc import havoc
+from skillc_compiler.analysis.knowledge.state import State
+from skillc_compiler.analysis.knowledge.writes import OutputWrite, PropertyWrite, RelationWrite, Write
 from skillc_compiler.analysis.paths import (
     MAX_STATES,
     EndStates,
@@ -26,9 +28,7 @@ from skillc_compiler.analysis.paths import (
     widen,
 )
 from skillc_compiler.analysis.scopes import explore_with
-from skillc_compiler.analysis.state import State
 from skillc_compiler.analysis.summaries import node_key
-from skillc_compiler.analysis.writes import OutputWrite, PropertyWrite, RelationWrite, Write
 from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s

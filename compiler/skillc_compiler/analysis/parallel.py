@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from skillc_compiler.analysis.alias_types import AliasTypes
-from skillc_compiler.analysis.assume import assume
 from skillc_compiler.analysis.binding import bind_call, call_requirements
 from skillc_compiler.analysis.exploration import EvalContext, Exploration, interleave
-from skillc_compiler.analysis.havoc import havoc
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
+from skillc_compiler.analysis.knowledge.assume import assume
+from skillc_compiler.analysis.knowledge.havoc import havoc
+from skillc_compiler.analysis.knowledge.state import State
+from skillc_compiler.analysis.knowledge.writes import OutputWrite, Write
 from skillc_compiler.analysis.paths import EndStates, Path, StatePaths, add_state, add_states, havoc_all, widen
-from skillc_compiler.analysis.state import State
-from skillc_compiler.analysis.writes import OutputWrite, Write
 from skillc_compiler.program.typed import Call, TypedNode
 from skillc_dsl import syntax as s
 

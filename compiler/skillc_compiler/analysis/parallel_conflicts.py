@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from skillc_compiler.analysis.axioms import CanonicalAxioms
 from skillc_compiler.analysis.findings import ParallelConflict
+from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
+from skillc_compiler.analysis.knowledge.writes import PropertyWrite, RelationWrite, Write
 from skillc_compiler.analysis.summaries import WriteSummaries
-from skillc_compiler.analysis.writes import PropertyWrite, RelationWrite, Write
 from skillc_compiler.program.typed import Call, Implementation, Program, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s

@@ -8,10 +8,10 @@ from typing import TypeAlias
 
 import msgspec
 
-from skillc_compiler.analysis.alias_types import AliasTypes
-from skillc_compiler.analysis.havoc import havoc
-from skillc_compiler.analysis.state import State, join
-from skillc_compiler.analysis.writes import Write
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
+from skillc_compiler.analysis.knowledge.havoc import havoc
+from skillc_compiler.analysis.knowledge.state import State, join
+from skillc_compiler.analysis.knowledge.writes import Write
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.source import Span
 

@@ -12,10 +12,6 @@ import msgspec
 from msgspec import structs
 
 from skillc_compiler.analysis import end_states
-from skillc_compiler.analysis.alias_types import AliasTypes
-from skillc_compiler.analysis.assume import assume
-from skillc_compiler.analysis.axioms import CanonicalAxioms, build_axioms
-from skillc_compiler.analysis.evaluate import evaluate
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
     Finding,
@@ -30,16 +26,20 @@ from skillc_compiler.analysis.findings import (
 )
 from skillc_compiler.analysis.initial_state import can_start, declare_names, initial_state, parameter_state
 from skillc_compiler.analysis.interfaces import Interface, summarise
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
+from skillc_compiler.analysis.knowledge.assume import assume
+from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms, build_axioms
+from skillc_compiler.analysis.knowledge.evaluate import evaluate
+from skillc_compiler.analysis.knowledge.sameness import CalledPrimitive, Proved
+from skillc_compiler.analysis.knowledge.state import State
+from skillc_compiler.analysis.knowledge.writes import NO_WRITES, Write
 from skillc_compiler.analysis.nodes import explore
 from skillc_compiler.analysis.parallel_conflicts import find_parallel_conflicts
 from skillc_compiler.analysis.paths import Path
 from skillc_compiler.analysis.remedies import Explored, add_remedies
-from skillc_compiler.analysis.sameness import CalledPrimitive, Proved
 from skillc_compiler.analysis.scopes import leaked_scopes
-from skillc_compiler.analysis.state import State
 from skillc_compiler.analysis.summaries import WriteSummaries
 from skillc_compiler.analysis.verify_monitor import VerifyMonitor
-from skillc_compiler.analysis.writes import NO_WRITES, Write
 from skillc_compiler.program.called import called_by, may_run_one_that_runs_it, run_by
 from skillc_compiler.program.memo import Latest, Memo, Memos
 from skillc_compiler.program.typed import Implementation, Let, Program, Task, Test, TypedNode

@@ -10,7 +10,6 @@ from typing import TypeAlias
 from msgspec import structs
 
 from skillc_compiler.analysis.binding import call_requirements, class_of, fresh_variable
-from skillc_compiler.analysis.evaluate import evaluate
 from skillc_compiler.analysis.exploration import Exploration
 from skillc_compiler.analysis.findings import (
     Finding,
@@ -20,6 +19,7 @@ from skillc_compiler.analysis.findings import (
     UnprovedPrecondition,
 )
 from skillc_compiler.analysis.initial_state import requirements_of
+from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.paths import EndStates
 from skillc_compiler.program.typed import Call, Implementation, TypedNode
 from skillc_compiler.program.types import Thing

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from skillc_compiler.analysis.alias_types import AliasTypes, any_individual
-from skillc_compiler.analysis.apply_effects import apply_effects
-from skillc_compiler.analysis.axioms import CanonicalAxioms
 from skillc_compiler.analysis.binding import class_of, definite_effects
-from skillc_compiler.analysis.evaluate import evaluate
 from skillc_compiler.analysis.initial_state import declare_names, initial_state, requirements_of
-from skillc_compiler.analysis.writes import (
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, any_individual
+from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
+from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
+from skillc_compiler.analysis.knowledge.evaluate import evaluate
+from skillc_compiler.analysis.knowledge.writes import (
     NO_WRITES,
     OnceWrite,
     OutputWrite,

@@ -11,11 +11,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from skillc_compiler.analysis.evaluate import evaluate
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.initial_state import initial_state
+from skillc_compiler.analysis.knowledge.evaluate import evaluate
+from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, path_length
-from skillc_compiler.analysis.state import State
 from skillc_compiler.analysis.summaries import WriteSummaries
 from skillc_compiler.program.typed import Call, Event, Implementation, Program, Property, TypedNode
 from skillc_compiler.program.walk import calls_in

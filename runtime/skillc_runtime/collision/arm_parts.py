@@ -11,7 +11,7 @@ from skillc_runtime.collision.arm_assembly import ArmAssembly
 from skillc_runtime.collision.collision_model import MOVES, CollisionModel, build_collision_model
 from skillc_runtime.collision.scenery import PoseKey, Scenery, SolidObstacle, pose_key
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.solids import Kind
+from skillc_runtime.world.space.shape.solids import Kind
 
 NOTHING = Scenery(PoseKey((0.0, 0.0, -10.0), (1.0, 0.0, 0.0, 0.0)), (), ())
 

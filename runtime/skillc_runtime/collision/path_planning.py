@@ -15,7 +15,7 @@ import numpy as np
 from skillc_runtime.cancellation import check_current
 from skillc_runtime.collision.collision_checker import MIN_STEP_M, Collision, CollisionChecker
 from skillc_runtime.collision.rrt_connect import sample_path
-from skillc_runtime.motion.joint import JointTrajectory
+from skillc_runtime.motion.paths.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array
 
 SEARCHES = ((1.6, 2_000), (1.0, 4_000), (1.0, 8_000), (1.6, 4_000), (3.2, 4_000))

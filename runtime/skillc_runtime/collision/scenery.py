@@ -15,8 +15,8 @@ from skillc_runtime.world.space.bodies import read_body
 from skillc_runtime.world.space.bounding_boxes import solid_box
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
-from skillc_runtime.world.space.oriented_box import OrientedBox
-from skillc_runtime.world.space.solids import Hull, Kind, Solid
+from skillc_runtime.world.space.shape.oriented_box import OrientedBox
+from skillc_runtime.world.space.shape.solids import Hull, Kind, Solid
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.terms import FIXTURE, SIZE, WORKSPACE, WORKSTATION
 from skillc_runtime.world.state.world_state import WorldState

@@ -7,7 +7,7 @@ from typing import Any, assert_never
 import mujoco
 
 from skillc_runtime.motion.pose import quaternion_from_rotation
-from skillc_runtime.world.space.solids import Solid
+from skillc_runtime.world.space.shape.solids import Solid
 
 
 def add_solid(spec: Any, parent: Any, name: str, solid: Solid) -> Any:

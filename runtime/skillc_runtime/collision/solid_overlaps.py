@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from skillc_runtime.world.space.solids import Solid
+from skillc_runtime.world.space.shape.solids import Solid
 
 FAR_M = 1.0
 """Beyond this distance no distance is computed."""

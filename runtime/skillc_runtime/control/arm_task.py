@@ -6,8 +6,8 @@ from math import dist
 
 import numpy as np
 
-from skillc_runtime.control.controllers import make_controllers
 from skillc_runtime.control.kinematics import JOINT_RAMP_S, Kinematics
+from skillc_runtime.control.laws.controllers import make_controllers
 from skillc_runtime.control.measured import MeasuredArm
 from skillc_runtime.control.period import TASK, TOOL_JUMP_M_S
 from skillc_runtime.control.setup import ArmSetup

@@ -15,7 +15,7 @@ import numpy as np
 
 from skillc_runtime.control.arm_task import ArmTask
 from skillc_runtime.control.limits import JointLimit
-from skillc_runtime.control.signal_memory import FOUND, OF_WRIST, SignalMemory, find_speeds
+from skillc_runtime.control.supervision.signal_memory import FOUND, OF_WRIST, SignalMemory, find_speeds
 from skillc_runtime.devices.arm import (
     Arm,
     ArmLimits,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from skillc_runtime.control.arm_task import ArmTask
 from skillc_runtime.control.blind_stop import BlindStop, make_blind_stop
-from skillc_runtime.control.command_validator import CommandValidator
 from skillc_runtime.control.compliance_control import ComplianceControl
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.motion_control import MotionControl
@@ -21,6 +20,7 @@ from skillc_runtime.control.period import (
 )
 from skillc_runtime.control.period_memory import Control, ControlPeriod
 from skillc_runtime.control.setup import ArmSetup
+from skillc_runtime.control.supervision.command_validator import CommandValidator
 from skillc_runtime.devices.arm import ArmState, Command
 from skillc_runtime.motion.numerics.compiled import compile_imported
 from skillc_runtime.motion.pose import Array

@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 
 from skillc_runtime.control.inverse_kinematics import pose_error, step_towards
-from skillc_runtime.control.virtual_arm import VirtualArm
+from skillc_runtime.control.laws.virtual_arm import VirtualArm
 from skillc_runtime.devices.arm import ArmLimits
 from skillc_runtime.devices.arm_driver import Infeasible
 from skillc_runtime.motion.pose import Array, Pose

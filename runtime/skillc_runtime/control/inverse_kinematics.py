@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from skillc_runtime.control.laws.virtual_arm import VirtualArm
 from skillc_runtime.control.limits import range_margin
-from skillc_runtime.control.virtual_arm import VirtualArm
 from skillc_runtime.kinematics.inverse import find_posture, rank_postures
 from skillc_runtime.motion.pose import Array, Pose, log
 

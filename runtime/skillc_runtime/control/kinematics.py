@@ -10,10 +10,10 @@ import numpy as np
 
 from skillc_runtime.control.feasibility import check_overlay_feasible, slow_to_feasible
 from skillc_runtime.control.inverse_kinematics import rank_arm_postures, solve_inverse_kinematics
+from skillc_runtime.control.laws.virtual_arm import VirtualArm
 from skillc_runtime.control.measured import NEAR_JOINT_RAD
-from skillc_runtime.control.virtual_arm import VirtualArm
 from skillc_runtime.devices.arm import ArmLimits, ArmState
-from skillc_runtime.motion.joint_path import JointPath, joint_path
+from skillc_runtime.motion.paths.joint_path import JointPath, joint_path
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Trajectory
 

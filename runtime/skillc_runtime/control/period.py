@@ -13,17 +13,17 @@ import msgspec
 import numpy as np
 
 from skillc_runtime.control.compliance_state import ComplianceMemory, follow_target
-from skillc_runtime.control.forward_dynamics import ForwardDynamicsMemory, move_virtual_arm
-from skillc_runtime.control.impedance import ImpedanceMemory, impedance
-from skillc_runtime.control.joint_position import computed_torque, move_servos
+from skillc_runtime.control.laws.forward_dynamics import ForwardDynamicsMemory, move_virtual_arm
+from skillc_runtime.control.laws.impedance import ImpedanceMemory, impedance
+from skillc_runtime.control.laws.joint_position import computed_torque, move_servos
+from skillc_runtime.control.laws.task_error import EXERTED
+from skillc_runtime.control.laws.virtual_arm import VirtualState
+from skillc_runtime.control.laws.virtual_chain import VirtualChain, compute_virtual
 from skillc_runtime.control.limits import COMMANDED, DRIVEN
 from skillc_runtime.control.momentum_observer import add_impulse
-from skillc_runtime.control.plausibility import check_signals
 from skillc_runtime.control.push_memory import advance_pushes
-from skillc_runtime.control.safety import MEASURES_EFFORT, SafetyMemory, check_limits
-from skillc_runtime.control.task_error import EXERTED
-from skillc_runtime.control.virtual_arm import VirtualState
-from skillc_runtime.control.virtual_chain import VirtualChain, compute_virtual
+from skillc_runtime.control.supervision.plausibility import check_signals
+from skillc_runtime.control.supervision.safety import MEASURES_EFFORT, SafetyMemory, check_limits
 from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.motion.arrays import OutMatrix, OutVector
 from skillc_runtime.motion.joint_plan import JointPlan, use_ahead

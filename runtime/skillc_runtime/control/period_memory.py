@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from skillc_runtime.control.arm_task import ArmTask
-from skillc_runtime.control.command_validator import CommandValidator
-from skillc_runtime.control.forward_dynamics import ForwardDynamics
-from skillc_runtime.control.impedance import Impedance
+from skillc_runtime.control.laws.forward_dynamics import ForwardDynamics
+from skillc_runtime.control.laws.impedance import Impedance
 from skillc_runtime.control.limits import JointLimit, TorqueLimit
 from skillc_runtime.control.period import (
     IS_WATCHED,
@@ -26,6 +25,7 @@ from skillc_runtime.control.period import (
     make_state,
     watch_arm,
 )
+from skillc_runtime.control.supervision.command_validator import CommandValidator
 from skillc_runtime.devices.arm import Arm, ArmState, Command, Torque, command_values, copy_command
 from skillc_runtime.motion.joint_plan import JointPlan
 from skillc_runtime.motion.numerics.compiled import COMPILES, Bound, bind

@@ -13,7 +13,7 @@ from typing import assert_never
 import numpy as np
 
 from skillc_runtime.control.momentum_observer import MEASURING, estimate_wrench
-from skillc_runtime.control.safety import FEELS_FORCE, OBSERVES, SafetyMemory
+from skillc_runtime.control.supervision.safety import FEELS_FORCE, OBSERVES, SafetyMemory
 from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.devices.guarded_push import Contact, GuardedPush, Standstill
 from skillc_runtime.motion.numerics.compiled import inlined

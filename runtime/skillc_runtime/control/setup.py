@@ -8,7 +8,7 @@ import msgspec
 import mujoco
 
 from skillc_runtime.control.gains import Gains
-from skillc_runtime.control.safety import SafetyLimits
+from skillc_runtime.control.supervision.safety import SafetyLimits
 from skillc_runtime.devices.arm import Arm, ArmLimits
 from skillc_runtime.motion.pose import Pose
 

@@ -8,7 +8,7 @@ from skillc_runtime.control.compliance_state import ComplianceState
 from skillc_runtime.control.controller import Controller
 from skillc_runtime.control.gains import Gains
 from skillc_runtime.devices.arm import ArmState, Command
-from skillc_runtime.motion.joint import JointReference
+from skillc_runtime.motion.paths.joint import JointReference
 from skillc_runtime.motion.pose import Array, Pose, log
 from skillc_runtime.motion.reference import Reference
 from skillc_runtime.motion.reference_generator import ReferenceGenerator

@@ -13,7 +13,7 @@ from skillc_runtime.devices.guarded_push import GuardedPush, PushProgress
 
 if TYPE_CHECKING:
     # Compiled functions are slow to import, and whoever only reads gains needs none.
-    from skillc_runtime.motion.joint import JointTrajectory
+    from skillc_runtime.motion.paths.joint import JointTrajectory
     from skillc_runtime.motion.pose import Array, Pose
     from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 

@@ -23,7 +23,7 @@ from skillc_runtime.planning.plan import Step
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Listener, Note, PromptsChanged
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history.node_outcome import NodeOutcome
 from skillc_runtime.recording.run_spec import RunSpec
 
 TICK_S = 0.01

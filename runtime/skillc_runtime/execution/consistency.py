@@ -15,7 +15,7 @@ from skillc_runtime.recording.commands import Abort
 from skillc_runtime.recording.events import Event
 from skillc_runtime.recording.states import ENDS, State
 from skillc_runtime.world.eval.conditions import evaluate
-from skillc_runtime.world.state.labelled_reading import change_of, value_of_labelled
+from skillc_runtime.world.state.labels.labelled_reading import change_of, value_of_labelled
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState

@@ -21,7 +21,7 @@ from skillc_runtime.recording.events import (
     TaskStarted,
 )
 from skillc_runtime.recording.space_claim import SpaceClaim
-from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelled import LabelledIri
 
 
 @dataclass(frozen=True, slots=True)

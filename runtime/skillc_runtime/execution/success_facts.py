@@ -14,8 +14,8 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.grounds import Ground, find_grounds
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.evidence import DecidingWrite, weakest
-from skillc_runtime.world.state.labelled import LabelledFact
-from skillc_runtime.world.state.labelling import label_fact, label_property
+from skillc_runtime.world.state.labels.labelled import LabelledFact
+from skillc_runtime.world.state.labels.labelling import label_fact, label_property
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import PUSH_FORCE
 from skillc_runtime.world.state.values import Value

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from skillc_runtime.execution.tree.event_factory import make_change_event
+from skillc_runtime.execution.tree.calls.event_factory import make_change_event
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.recording.commands import EditWorld
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.space_claim import SpaceClaim
-from skillc_runtime.world.space.chosen_places import reservation_changes
+from skillc_runtime.world.space.placing.chosen_places import reservation_changes
 from skillc_runtime.world.space.stands import stand_changes
 from skillc_runtime.world.state.changes import Change
-from skillc_runtime.world.state.labelled_reading import change_of
+from skillc_runtime.world.state.labels.labelled_reading import change_of
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -14,7 +14,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import RigidBody, read_bodies
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
-from skillc_runtime.world.state.labelled import display_name
+from skillc_runtime.world.state.labels.labelled import display_name
 from skillc_runtime.world.state.terms import CONTAINER
 
 ELSEWHERE_M = 0.005

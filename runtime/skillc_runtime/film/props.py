@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.solids import Kind
+from skillc_runtime.world.space.shape.solids import Kind
 
 UPRIGHT = 0.7
 """A surface is upright if the vertical component of its normal is smaller."""

@@ -28,7 +28,7 @@ from skillc_runtime.film.windows import (
     list_geoms,
 )
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.space.solids import Kind
+from skillc_runtime.world.space.shape.solids import Kind
 
 Picture = NDArray[np.uint8]
 

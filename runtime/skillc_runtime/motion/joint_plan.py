@@ -9,9 +9,9 @@ import msgspec
 import numpy as np
 
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector
-from skillc_runtime.motion.joint import joints_at, segments_of
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import copy_vector
+from skillc_runtime.motion.paths.joint import joints_at, segments_of
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.stopping_motion import stop_at
 from skillc_runtime.motion.time_scaling import scaled_time

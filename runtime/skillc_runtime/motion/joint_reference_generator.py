@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 from msgspec.structs import replace
 
-from skillc_runtime.motion.joint import JointReference, JointTrajectory
 from skillc_runtime.motion.joint_plan import (
     BRAKES,
     ENDS,
@@ -15,6 +14,7 @@ from skillc_runtime.motion.joint_plan import (
     sample_joint_plan,
 )
 from skillc_runtime.motion.numerics.compiled import bind
+from skillc_runtime.motion.paths.joint import JointReference, JointTrajectory
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.stopping_motion import stopping_motion
 from skillc_runtime.motion.time_scaling import RAMP_S, start_time

@@ -14,9 +14,9 @@ from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import copy_matrix, cross, product, rotation_by, times
 from skillc_runtime.motion.overlays import CIRCLE, SINES, SPIRAL, circle_at, faded_at, sines_at, spiral_at
-from skillc_runtime.motion.path import COLUMNS_OF_PATH, path_at
+from skillc_runtime.motion.paths.path import COLUMNS_OF_PATH, path_at
+from skillc_runtime.motion.paths.profile import trapezoid_at
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.motion.profile import trapezoid_at
 from skillc_runtime.motion.stopping_motion import stop_at
 from skillc_runtime.motion.time_scaling import scaled_time
 

@@ -6,8 +6,8 @@ import msgspec
 import numpy as np
 from msgspec.structs import replace
 
+from skillc_runtime.motion.paths.profile import Profile, trapezoidal_profile
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.motion.profile import Profile, trapezoidal_profile
 
 
 class Shift(msgspec.Struct, frozen=True):

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from skillc_runtime.motion.arc import arc_through
-from skillc_runtime.motion.path import join_segments
+from skillc_runtime.motion.paths.arc import arc_through
+from skillc_runtime.motion.paths.path import join_segments
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.motion.reference import Trajectory
-from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.collision_free_motion import move_tool_along
 from skillc_runtime.primitives.computation import Computing

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from skillc_runtime.devices.arm_driver import Infeasible
-from skillc_runtime.motion.segments import MotionLimits
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.primitives.computation import Computing
 from skillc_runtime.primitives.compute_here import compute_here
 from skillc_runtime.primitives.known_limits import find_excess, find_place_outside
@@ -14,7 +14,7 @@ from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, SpaceLacking, Status
 from skillc_runtime.primitives.time_limits import STANDSTILL_S
 from skillc_runtime.primitives.touch_guard import RESISTANCE_N, TouchGuard
-from skillc_runtime.world.state.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import Quantity
 from skillc_runtime.world.state.terms import HAS_GRIPPER
 
 if TYPE_CHECKING:

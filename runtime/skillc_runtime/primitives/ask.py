@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
-from skillc_runtime.world.state.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import Quantity
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 

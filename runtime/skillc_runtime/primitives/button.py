@@ -8,8 +8,8 @@ from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.labelled import Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import IS_ON, PRESSED_WITH
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from skillc_runtime.primitives.push_force import write_push_force
 from skillc_runtime.primitives.space_needs import Press, SpaceNeed
 from skillc_runtime.primitives.surface_location import write_surface_pose
 from skillc_runtime.primitives.time_limits import approach_limit_s
-from skillc_runtime.world.state.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import Quantity
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.arm_driver import ArmDriver

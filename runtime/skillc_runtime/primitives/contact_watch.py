@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.space.surfaces import least_contact_share, least_force_n
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.labelled import Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import CONTACT_SHARE
 
 if TYPE_CHECKING:

@@ -15,8 +15,8 @@ from skillc_runtime.world.space.whereabouts import (
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.evidence import describe_evidence, stated_fact
 from skillc_runtime.world.state.facts import RelationFact
-from skillc_runtime.world.state.labelled_text import format_fact
-from skillc_runtime.world.state.labelling import label_fact
+from skillc_runtime.world.state.labels.labelled_text import format_fact
+from skillc_runtime.world.state.labels.labelling import label_fact
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.model import WorldModel

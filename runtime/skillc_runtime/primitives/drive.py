@@ -25,8 +25,8 @@ from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.space.stands import read_stand, standing_pose
 from skillc_runtime.world.state.changes import AddRelation
-from skillc_runtime.world.state.labelled import Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import AT, HAS_ARM
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState

@@ -20,8 +20,8 @@ from skillc_runtime.world.state.changes import RemoveRelation
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
 from skillc_runtime.world.state.evidence import describe_evidence
 from skillc_runtime.world.state.facts import RelationFact
-from skillc_runtime.world.state.labelled_text import format_fact
-from skillc_runtime.world.state.labelling import label_fact
+from skillc_runtime.world.state.labels.labelled_text import format_fact
+from skillc_runtime.world.state.labels.labelling import label_fact
 from skillc_runtime.world.state.terms import ARRIVAL_TOLERANCE, AT, CONTAIN, END_EFFECTOR, MOBILE_ROBOT
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -16,19 +16,19 @@ from skillc_runtime.primitives.space_needs import Hold, Leave, SpaceNeed
 from skillc_runtime.primitives.support import SupportCheck
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.space.cargo import cargo_changes
-from skillc_runtime.world.space.chosen_places import end_of_reservation
 from skillc_runtime.world.space.frame_tree import FrameError, frame_tree_of
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
-from skillc_runtime.world.space.grasp_geometry import is_sideways
-from skillc_runtime.world.space.grasps import width_between
-from skillc_runtime.world.space.grip_force import mass_of
-from skillc_runtime.world.space.hand_shape import RELEASE_CLEARANCES_M, read_hand_shape
+from skillc_runtime.world.space.grasping.grasp_geometry import is_sideways
+from skillc_runtime.world.space.grasping.grasps import width_between
+from skillc_runtime.world.space.grasping.grip_force import mass_of
+from skillc_runtime.world.space.grasping.hand_shape import RELEASE_CLEARANCES_M, read_hand_shape
 from skillc_runtime.world.space.occupants import read_occupants
+from skillc_runtime.world.space.placing.chosen_places import end_of_reservation
 from skillc_runtime.world.space.whereabouts import holders_of
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
-from skillc_runtime.world.state.labelled import LabelledIri, Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import LabelledIri, Quantity
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, GRASP_WIDTH, HELD_SIDEWAYS, WIDTH_TOLERANCE
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState

@@ -9,8 +9,8 @@ from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure
 from skillc_runtime.primitives.space_needs import Open, SpaceNeed
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
-from skillc_runtime.world.state.labelled import LabelledIri, Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import LabelledIri, Quantity
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 

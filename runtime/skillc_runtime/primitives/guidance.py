@@ -13,8 +13,8 @@ from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.space.frames import relocation_changes
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.labelled import Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import IS_TAUGHT
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
-from skillc_runtime.world.state.labelled import Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import DEPTH, INSERTED_DEPTH, IS_SEATED
 
 if TYPE_CHECKING:

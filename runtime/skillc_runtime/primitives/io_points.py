@@ -5,8 +5,8 @@ from __future__ import annotations
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.labelled import LabelledIri, Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import LabelledIri, Quantity
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import LEVEL
 
 NEAR = 0.01

@@ -20,8 +20,8 @@ from skillc_runtime.world.space.frames import move_changes, pose
 from skillc_runtime.world.space.lying import lying_problem
 from skillc_runtime.world.space.whereabouts import holders_of, search_changes
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
-from skillc_runtime.world.state.labelled import LabelledIri, Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import LabelledIri, Quantity
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import CONTAIN, LOCATED
 from skillc_runtime.world.state.world_state import WorldState
 

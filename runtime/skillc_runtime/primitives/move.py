@@ -13,9 +13,9 @@ from msgspec.structs import replace
 
 from skillc_runtime.devices.arm_driver import MotionModel
 from skillc_runtime.kinematics.inverse import APART_RAD
-from skillc_runtime.motion.path import Path, join_segments, path_through
+from skillc_runtime.motion.paths.path import Path, join_segments, path_through
+from skillc_runtime.motion.paths.segments import MotionLimits, segment_between
 from skillc_runtime.motion.pose import Array, Pose, exp, log
-from skillc_runtime.motion.segments import MotionLimits, segment_between
 from skillc_runtime.primitives.arm_motion import ArmMotion
 from skillc_runtime.primitives.collision_free_motion import move_collision_free, move_tool_along
 from skillc_runtime.primitives.computation import Computing
@@ -27,7 +27,7 @@ from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
-from skillc_runtime.world.state.labelled import LabelledVector, Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledVector, Quantity
 from skillc_runtime.world.state.terms import HAS_GRIPPER, HAS_POSTURE, HAS_SHEET, IS_TAKEN, PLACING_POSE, POSTURE_NAME
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from skillc_runtime.motion.reference import Overlay
 from skillc_runtime.primitives.arm_motion import infeasible_motion
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.space_needs import SpaceNeed, Spread
-from skillc_runtime.world.state.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import Quantity
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell

@@ -7,8 +7,8 @@ from enum import Enum
 from types import MappingProxyType
 from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 
-from skillc_runtime.world.state.labelled import LabelledValue
-from skillc_runtime.world.state.labelling import make_recordable
+from skillc_runtime.world.state.labels.labelled import LabelledValue
+from skillc_runtime.world.state.labels.labelling import make_recordable
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell

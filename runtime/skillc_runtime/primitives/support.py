@@ -9,8 +9,8 @@ import numpy as np
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.compliance import Push, yield_along
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.world.state.labelled import Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelling import label
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell

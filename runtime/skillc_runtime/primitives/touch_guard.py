@@ -14,12 +14,12 @@ from skillc_runtime.primitives.primitive import SkillFailure, SpaceLacking
 from skillc_runtime.primitives.touched_obstacles import note_obstacle
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import size
-from skillc_runtime.world.space.hand_shape import read_hand_shape
+from skillc_runtime.world.space.grasping.hand_shape import read_hand_shape
 from skillc_runtime.world.space.occupants import read_occupants
-from skillc_runtime.world.space.oriented_box import CORNERS
+from skillc_runtime.world.space.shape.oriented_box import CORNERS
 from skillc_runtime.world.state.data_sheet import SheetError
-from skillc_runtime.world.state.labelled import LabelledValue, Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import LabelledValue, Quantity
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import HAS_GRIPPER, TOUCHED_OBSTACLE
 
 if TYPE_CHECKING:

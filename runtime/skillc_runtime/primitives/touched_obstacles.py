@@ -19,8 +19,8 @@ from skillc_runtime.world.space.bounding_boxes import bounding_box
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import placement_changes, pose
 from skillc_runtime.world.space.occupants import read_occupants
-from skillc_runtime.world.space.oriented_box import OrientedBox
-from skillc_runtime.world.space.solids import Solid
+from skillc_runtime.world.space.shape.oriented_box import OrientedBox
+from skillc_runtime.world.space.shape.solids import Solid
 from skillc_runtime.world.state.changes import AddIndividual, RemoveIndividual, SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.terms import ARM_DEVICE, HAS_GRIPPER, PERSON, SIZE, TOUCHED_OBSTACLE

@@ -13,8 +13,8 @@ from skillc_runtime.primitives.contradiction import contradict_place
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
-from skillc_runtime.world.state.labelled import LabelledIri, Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import LabelledIri, Quantity
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import CONTAIN, WEIGHT
 
 SETTLING_S, AVERAGING_S, PATIENCE_S = 0.2, 0.3, 5.0

@@ -6,7 +6,7 @@ from typing import Annotated, TypeAlias
 
 import msgspec
 
-from skillc_runtime.world.state.labelled import LabelledChange
+from skillc_runtime.world.state.labels.labelled import LabelledChange
 
 BreakpointText: TypeAlias = Annotated[str, msgspec.Meta(max_length=300)]
 

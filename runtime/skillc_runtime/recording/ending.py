@@ -11,8 +11,8 @@ import msgspec
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import TaskEnded
 from skillc_runtime.recording.failure import Failure
-from skillc_runtime.recording.history import RunHistory
-from skillc_runtime.recording.history_builder import HistoryBuilder, listen_to
+from skillc_runtime.recording.history.history import RunHistory
+from skillc_runtime.recording.history.history_builder import HistoryBuilder, listen_to
 from skillc_runtime.recording.reader import TraceReader
 
 

@@ -27,7 +27,7 @@ from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.facts import Evidence
-from skillc_runtime.world.state.labelled import LabelledChange, LabelledIri, LabelledValue
+from skillc_runtime.world.state.labels.labelled import LabelledChange, LabelledIri, LabelledValue
 
 FORMAT = 10
 """Raised with every change of the events or their meaning. Readers accept this format only."""

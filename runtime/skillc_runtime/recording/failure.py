@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc_rdf.vocabulary.types import Position
-from skillc_runtime.world.state.labelled import LabelledValue
+from skillc_runtime.world.state.labels.labelled import LabelledValue
 
 FailureKind: TypeAlias = Literal[
     "pre",

@@ -8,14 +8,14 @@ from typing import Literal, assert_never
 import msgspec
 from msgspec import structs
 
-from skillc_runtime.world.state.labelled import (
+from skillc_runtime.world.state.labels.labelled import (
     LabelledClass,
     LabelledFact,
     LabelledIdentity,
     LabelledProperty,
     LabelledRelation,
 )
-from skillc_runtime.world.state.labelled_text import format_fact
+from skillc_runtime.world.state.labels.labelled_text import format_fact
 
 UNVERIFIED = "finished, not verified"
 """The status of a task that succeeded if the facts hold that are only assumed or idealised."""

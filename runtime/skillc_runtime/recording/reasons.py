@@ -8,7 +8,7 @@ import msgspec
 
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.failure import Rejection
-from skillc_runtime.world.state.labelled import LabelledFact, LabelledIri, LabelledValue
+from skillc_runtime.world.state.labels.labelled import LabelledFact, LabelledIri, LabelledValue
 
 
 class DecidingCondition(msgspec.Struct, frozen=True, kw_only=True):

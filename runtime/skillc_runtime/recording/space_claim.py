@@ -6,7 +6,7 @@ from math import degrees
 
 import msgspec
 
-from skillc_runtime.world.state.labelled import LabelledIri, LabelledPose
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledPose
 
 
 class UnseenCall(msgspec.Struct, frozen=True):

@@ -43,7 +43,7 @@ from skillc_runtime.scene.violation_reports import (
     report_scene_violations,
 )
 from skillc_runtime.world.state.bulk import build_world_state
-from skillc_runtime.world.state.representatives import satisfies_axioms
+from skillc_runtime.world.state.consistency.representatives import satisfies_axioms
 from skillc_runtime.world.state.world_state import WorldState
 
 

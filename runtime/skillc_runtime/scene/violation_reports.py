@@ -18,12 +18,12 @@ from skillc_runtime.scene.checks.surface_regions import check_surface_regions
 from skillc_runtime.scene.mistakes import LocatedChange
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.violation import SceneViolation
-from skillc_runtime.world.state.axiom_violations import (
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
+from skillc_runtime.world.state.consistency.axiom_violations import (
     AxiomViolation,
     axiom_violations,
     standalone_violation,
 )
-from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.facts import IriTriple
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -11,10 +11,10 @@ import pyoxigraph as ox
 from skillc_rdf.vocabulary.types import ClassTerm, Vocabulary
 from skillc_runtime.store.literals import LiteralError, read_literal
 from skillc_runtime.store.triples import CLASS, PREFIX, SUBCLASS, TYPE
-from skillc_runtime.world.state.axiom_violations import axiom_violations
 from skillc_runtime.world.state.bulk import FactTables, build_world_state
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
-from skillc_runtime.world.state.representatives import satisfies_axioms
+from skillc_runtime.world.state.consistency.axiom_violations import axiom_violations
+from skillc_runtime.world.state.consistency.representatives import satisfies_axioms
 from skillc_runtime.world.state.transactions import StoreError
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
-from skillc_runtime.world.space.chosen_places import list_places
 from skillc_runtime.world.space.frames import pose, size
-from skillc_runtime.world.space.grasp_geometry import APPROACH_M
-from skillc_runtime.world.space.grasps import find_grasp, stated_pose
-from skillc_runtime.world.space.grip_force import grasp_force_n
-from skillc_runtime.world.space.held_load import pose_in_hand
+from skillc_runtime.world.space.grasping.grasp_geometry import APPROACH_M
+from skillc_runtime.world.space.grasping.grasps import find_grasp, stated_pose
+from skillc_runtime.world.space.grasping.grip_force import grasp_force_n
+from skillc_runtime.world.space.placing.chosen_places import list_places
+from skillc_runtime.world.space.placing.held_load import pose_in_hand
 from skillc_runtime.world.space.supports import clearance_m
 from skillc_runtime.world.state.terms import APPROACH_POSE, HELD_SIDEWAYS
 

@@ -18,15 +18,15 @@ from skillc.cli.layout import TerminalPage
 from skillc.contract.values import MAX_BODY_BYTES, check_name, check_why
 from skillc.errors import ServiceError
 from skillc.lsp.messages import MalformedMessage, MessageReader, MessageWriter
+from skillc.server.http.requests import decode_body
 from skillc.server.problems import ApiRefusal
-from skillc.server.requests import decode_body
-from skillc.services import compiled_libraries
-from skillc.services.breakpoints import parse_breakpoints
-from skillc.services.library_files import SHIPPED, find_library, is_vocabulary
+from skillc.services.library import compiled_libraries
+from skillc.services.library.files import SHIPPED, find_library, is_vocabulary
 from skillc.services.project.manifest import read_manifest
 from skillc.services.project.toml_text import LONGEST as LONGEST_TOML
 from skillc.services.robot_import.reader import read_robot
 from skillc.services.scenery.reading import read_scenery
+from skillc.services.tasks.breakpoints import parse_breakpoints
 from skillc_compiler.diagnostics.suppressions import find_suppressions
 from skillc_compiler.goals.parsing import LONGEST, parse_call, parse_goal
 from skillc_compiler.ide.analysis import AnalysisInput, analyse
@@ -46,8 +46,8 @@ from skillc_rdf.formats.read import UnreadableError, read_content
 from skillc_rdf.turtle.editing import Editor
 from skillc_rdf.turtle.parser import parse as parse_turtle
 from skillc_rdf.vocabulary.load import load
-from skillc_runtime.recording.history import RunHistory
-from skillc_runtime.recording.question import QuestionError, select_calls
+from skillc_runtime.recording.history.history import RunHistory
+from skillc_runtime.recording.history.question import QuestionError, select_calls
 from skillc_runtime.recording.reader import EnvelopeDecoder, TraceError
 from skillc_runtime.scene.documents import Document, SceneError
 from skillc_runtime.scene.load import load_in_bulk, read_documents

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from random import Random
 
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_rdf.turtle.tokens import tokens
 
 HEAD = """@prefix lab: <http://example.org/lab#> .

@@ -7,8 +7,8 @@ from random import Random
 
 from fuzz.kinds._lsp import Server
 from fuzz.kinds._texts import change, make_text
-from skillc.services import library_checks
-from skillc.services.library_files import find_library
+from skillc.services.check import library_checks
+from skillc.services.library.files import find_library
 
 EDITS = 20
 SECONDS = 60.0

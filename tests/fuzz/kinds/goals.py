@@ -8,8 +8,9 @@ from pathlib import Path
 from random import Random
 
 from fuzz.kinds._texts import make_text
-from skillc.services import compiled_libraries, task_scenes
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import compiled_libraries
+from skillc.services.library.files import SHIPPED, find_library
+from skillc.services.tasks import scenes as task_scenes
 from skillc_compiler.goals.parsing import parse_goal
 from skillc_dsl.diagnostics import Outcome
 from skillc_model.conditions import Condition

@@ -9,7 +9,7 @@ from random import Random
 import pyoxigraph as ox
 
 from fuzz.kinds._turtle import generated, mutated
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_ontology import catalogue
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary

@@ -11,13 +11,13 @@ from time import monotonic, sleep
 
 from robots.franka.running import Peer
 from robots.franka.things import SWITCHES_M
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.control_process.handshake import Patience
 from skillc_runtime.backends.control_process.opening import open_cell
-from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.franka.cell import make_devices
 from skillc_runtime.backends.franka.facts import describe
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell

@@ -11,14 +11,14 @@ import pytest
 
 from projects.folders import checked, write_project
 from robots.franka import limits
-from skillc.services import libraries
+from skillc.services.library import libraries
 from skillc_ontology import catalogue
 from skillc_runtime.backends.franka.cell import make_backend
 from skillc_runtime.backends.franka.facts import describe
 from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
 from skillc_runtime.control.kinematics import JOINT_RAMP_S
 from skillc_runtime.devices.backend import BackendStart, BackendUnavailable
-from skillc_runtime.motion.joint_path import joint_path
+from skillc_runtime.motion.paths.joint_path import joint_path
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.data_sheet import DataSheet, SheetError
 from skillc_runtime.world.state.model import WorldModel

@@ -31,15 +31,15 @@ from robots.priority import run_promptly
 from robots.ros2.channel import Channel, Options, Report
 from robots.ros2.controllers import Arm, Base, Hand
 from robots.ros2.panel import Panel
-from skillc.services.libraries import compile_library
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library.files import SHIPPED, find_library
+from skillc.services.library.libraries import compile_library
 from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.load import load
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.steps import InPython
-from skillc_runtime.backends.simulation.variation import exact_variation
+from skillc_runtime.backends.simulation.variation.variation import exact_variation
 from skillc_runtime.devices.arm import Command
 from skillc_runtime.motion.numerics.program import Part
 from skillc_runtime.scene.load import load_scene

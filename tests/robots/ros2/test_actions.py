@@ -12,10 +12,10 @@ from robots.ros2.nodes import spun, wait_until
 from robots.ros2.test_link import HOME, facts
 from skillc_ontology import catalogue
 from skillc_runtime.backends.control_process.link import make_command
+from skillc_runtime.backends.ros2.arms.tool_commands import make_commands
 from skillc_runtime.backends.ros2.facts import FOLLOW
 from skillc_runtime.backends.ros2.goal_client import GoalClient
 from skillc_runtime.backends.ros2.session import Session, find_message
-from skillc_runtime.backends.ros2.tool_commands import make_commands
 
 pytestmark = [
     pytest.mark.slow,

@@ -15,7 +15,7 @@ from robots.ros2.test_cell import LIMITS, advance_until, opened
 from simulation.cells import LAB
 from skillc_runtime.backends.ros2.session import Session, Subscription
 from skillc_runtime.devices.guarded_push import GuardedPush, Travel
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
 from skillc_runtime.motion.pose import Pose
 
 pytestmark = [pytest.mark.slow, pytest.mark.long]

@@ -20,9 +20,9 @@ from skillc_runtime.backends.ros2.cell import describe
 from skillc_runtime.backends.ros2.devices import make_devices
 from skillc_runtime.backends.ros2.session import Session
 from skillc_runtime.devices.backend import BackendBroken, StopPersists
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState

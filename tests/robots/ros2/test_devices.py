@@ -12,8 +12,9 @@ import pytest
 from robots.ros2.nodes import receiving, spun, wait_until
 from robots.ros2.test_link import SCENE
 from simulation.cells import LAB, vocabulary
+from skillc_runtime.backends.ros2.arms.controller_parameters import ask_controller
+from skillc_runtime.backends.ros2.arms.stiffness_parameters import NAMES, StiffnessParameters
 from skillc_runtime.backends.ros2.camera import IMAGE, INFO, Ros2Camera
-from skillc_runtime.backends.ros2.controller_parameters import ask_controller
 from skillc_runtime.backends.ros2.device_check import check_devices
 from skillc_runtime.backends.ros2.device_facts import Quality, Timing
 from skillc_runtime.backends.ros2.facts import ARRAY, CameraInterface, CleanShareTopic
@@ -21,9 +22,8 @@ from skillc_runtime.backends.ros2.inspection import SHARE, Ros2Inspection
 from skillc_runtime.backends.ros2.place_check import check_places
 from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.backends.ros2.session import Session, find_message
-from skillc_runtime.backends.ros2.stiffness_parameters import NAMES, StiffnessParameters
 from skillc_runtime.backends.ros2.transforms import Transforms
-from skillc_runtime.backends.simulation.camera_spec import CameraErrors, CameraSpec
+from skillc_runtime.backends.simulation.cameras.camera_spec import CameraErrors, CameraSpec
 from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
 from skillc_runtime.devices.device_map import NoSuchDevice
 from skillc_runtime.motion.pose import Pose

@@ -17,10 +17,16 @@ from robots.ros2.nodes import offer, spun
 from robots.ros2.running import Robot, robot
 from simulation.cells import vocabulary
 from skillc_ontology import catalogue
-from skillc_runtime.backends.control_process.link import KINDS, ControlRefused, LinkLost, make_command, make_state
-from skillc_runtime.backends.ros2.controller_parameters import ask_controller
+from skillc_runtime.backends.control_process.link import (
+    KINDS,
+    ControlRefused,
+    LinkLost,
+    make_command,
+    make_state,
+)
+from skillc_runtime.backends.ros2.arms.controller_parameters import ask_controller
+from skillc_runtime.backends.ros2.arms.link import Ros2Description, Ros2Link
 from skillc_runtime.backends.ros2.facts import ArmInterface, Services, read_arm
-from skillc_runtime.backends.ros2.link import Ros2Description, Ros2Link
 from skillc_runtime.backends.ros2.session import Session, find_message
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.devices.backend import BackendUnavailable

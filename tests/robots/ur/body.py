@@ -11,7 +11,7 @@ from robots.bodies import Opened, Task, TaskName, shipped_task
 from robots.truth import RemoteTruth
 from robots.ur.peer import running_peer
 from robots.ur.tasks import HERE, LAB, PATIENT, compiled, opened, with_peer
-from skillc.services.library_files import SHIPPED
+from skillc.services.library.files import SHIPPED
 from skillc_model.conditions import Holds, Individual
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.terms import CONTAIN, SKILLC

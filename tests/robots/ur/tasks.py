@@ -8,9 +8,9 @@ from pathlib import Path
 
 from robots.ur.emulator.grippers import WSG_PORT
 from robots.ur.peer import Peer
-from skillc.services import libraries
-from skillc.services.assignments import assign_call
-from skillc.services.library_files import find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import find_library
+from skillc.services.tasks.assignments import assign_call
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.control_process.handshake import Patience

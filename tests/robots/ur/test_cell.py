@@ -17,9 +17,9 @@ from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
 from skillc_runtime.devices.backend import BackendBroken, StopPersists
-from skillc_runtime.motion.path import path_through
+from skillc_runtime.motion.paths.path import path_through
+from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.motion.segments import MotionLimits
 from skillc_runtime.world.state.changes import AddIndividual, SetProperty
 from skillc_runtime.world.state.terms import INPUT_POINT, LEVEL, OUTPUT_POINT, UR
 from skillc_runtime.world.state.world_state import WorldState

@@ -15,9 +15,9 @@ from skillc.cli.console import print_labelled, print_remark
 from skillc.cli.settings import GroupedOption
 
 if TYPE_CHECKING:
-    from skillc.services.additions import Kind
     from skillc.services.project.project import Project
     from skillc.services.robot_import.add_robot import AddedRobot
+    from skillc.services.scaffolding.additions import Kind
 
 model_option = partial(click.option, cls=GroupedOption, group="Model file")
 MODELS = (".urdf", ".xml", ".mjcf", ".xacro", ".sdf")
@@ -90,8 +90,8 @@ def command(
     still to be stated is listed by `skillc check`.
     """
     from skillc.errors import RequestError
-    from skillc.services.additions import add_files, add_resized_tool
     from skillc.services.project.loading import find_project
+    from skillc.services.scaffolding.additions import add_files, add_resized_tool
 
     project = find_project(Path())
     if project is None:

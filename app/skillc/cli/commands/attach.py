@@ -20,7 +20,7 @@ def command(operation: str | None) -> int:
 
     `d` or Ctrl-C detaches, which changes nothing in the cell; `q` stops the operation.
     """
-    from skillc.cli.attached import attach
+    from skillc.cli.progress.attached import attach
 
     with connect_server() as server:
         found = server.operation(operation)

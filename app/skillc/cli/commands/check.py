@@ -14,12 +14,12 @@ import msgspec
 from skillc.cli.command import Command
 from skillc.cli.completions import complete_scene
 from skillc.cli.console import print_remark
-from skillc.cli.diagnostics_output import FORMS, JSON, exit_code, print_diagnostics
 from skillc.cli.options import BACKEND, PATH, json_option
+from skillc.cli.output.diagnostics import FORMS, JSON, exit_code, print_diagnostics
+from skillc.cli.progress.slow_notice import notice_if_slow
 from skillc.cli.serving import require_ros2
-from skillc.cli.slow_notice import notice_if_slow
 from skillc.cli.struct_options import struct_options
-from skillc.services.checking import (
+from skillc.services.check.checking import (
     STDIN,
     CheckRequest,
     CheckResult,
@@ -127,8 +127,8 @@ def _refuse_contradictions(asked: CheckOptions) -> None:
 def _check_connection(scene: Path | None) -> int:
     """Print where a scene and ROS 2 contradict each other; nothing is moved."""
     from skillc.cli.console import Terminal
-    from skillc.services.library_files import find_scene
-    from skillc.services.ros2_graph import find_contradictions
+    from skillc.services.library.files import find_scene
+    from skillc.services.run.ros2_graph import find_contradictions
 
     assert scene is not None, "it was required"
     require_ros2("--connect")
@@ -142,7 +142,7 @@ def _check_connection(scene: Path | None) -> int:
 
 def _make_request(asked: CheckOptions) -> CheckRequest:
     from skillc.cli.console import read_stdin
-    from skillc.services.library_files import find_scene
+    from skillc.services.library.files import find_scene
 
     scene = asked.scene and find_scene(asked.scene)
     stdin = StdinFile(asked.stdin_filename, read_stdin()) if STDIN in asked.paths else None
@@ -156,7 +156,7 @@ def _show(result: CheckResult, form: str) -> int:
 
 def _watch(request: CheckRequest, form: str) -> int:
     from skillc.cli.console import Terminal
-    from skillc.services.watching import watch_sources
+    from skillc.services.check.watching import watch_sources
 
     try:
         watch_sources(request, lambda result: print_diagnostics(*result, form), Terminal())
@@ -167,8 +167,8 @@ def _watch(request: CheckRequest, form: str) -> int:
 
 def _show_fixes(request: CheckRequest, unsafe: bool) -> int:
     """Print what would change; return 1 if something would, or if errors would remain."""
-    from skillc.services.fixing import find_fixes
-    from skillc.services.reporting import format_count
+    from skillc.services.check.fixing import find_fixes
+    from skillc.services.reporting.reporter import format_count
 
     fixes = find_fixes(request, unsafe)
     click.echo(fixes.diff(), nl=False)
@@ -179,8 +179,8 @@ def _show_fixes(request: CheckRequest, unsafe: bool) -> int:
 def _fix(request: CheckRequest, unsafe: bool, form: str) -> int:
     """Apply the fixes and print the remaining problems; a fixed standard input is printed to stdout."""
     from skillc.cli.console import Terminal
-    from skillc.services.fixing import find_fixes, write_fixes
-    from skillc.services.reporting import format_count
+    from skillc.services.check.fixing import find_fixes, write_fixes
+    from skillc.services.reporting.reporter import format_count
 
     fixes = find_fixes(request, unsafe)
     files = 0 if request.stdin else write_fixes(fixes)

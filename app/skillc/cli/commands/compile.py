@@ -19,7 +19,7 @@ from skillc.cli.options import FOLDER, PATH
 def command(path: Path, output: Path) -> None:
     """Compile the library at PATH, by default the project or folder here, into the folder OUTPUT."""
     from skillc.cli.console import Terminal
-    from skillc.services.artifacts import write_artifacts
+    from skillc.services.library.artifacts import write_artifacts
 
     for file in write_artifacts(path, output, Terminal()):
         click.echo(file)

@@ -20,7 +20,7 @@ from skillc.cli.command import Command
 from skillc.cli.completions import complete_scene
 from skillc.cli.console import find_display_obstacle, page_of, print_json, print_lines, print_remark
 from skillc.cli.options import BACKEND, PATH, json_option
-from skillc.cli.slow_notice import notice_if_slow
+from skillc.cli.progress.slow_notice import notice_if_slow
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.observed import CellObserver, ObservedCell
@@ -48,8 +48,8 @@ def command(scene: Path, backend: str, once: bool, as_json: bool) -> int:
     On a terminal the display is kept up to date; elsewhere it is printed again when a condition or a remark changes.
     """
     from skillc.cli.console import Terminal
-    from skillc.services.connecting import connected_scene
-    from skillc.services.library_files import find_scene
+    from skillc.services.library.files import find_scene
+    from skillc.services.run.connecting import connected_scene
 
     with ExitStack() as stack:
         with notice_if_slow("connecting to the devices .."):
@@ -89,8 +89,8 @@ def _show(observer: CellObserver) -> None:
     from rich.live import Live
     from rich.text import Text
 
-    from skillc.cli.connect_output import format_cell
     from skillc.cli.console import rich_console
+    from skillc.cli.output.connection import format_cell
 
     page, console = page_of(sys.stderr), rich_console(sys.stderr)
     with Live(console=console, auto_refresh=False, transient=False) as live:
@@ -113,7 +113,7 @@ def _print_changes(observer: CellObserver) -> None:
 
 
 def _print(seen: ObservedCell) -> None:
-    from skillc.cli.connect_output import format_cell
+    from skillc.cli.output.connection import format_cell
 
     print_lines([*format_cell(seen, page_of(sys.stdout)), ""])
     sys.stdout.flush()

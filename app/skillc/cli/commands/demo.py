@@ -16,7 +16,7 @@ from skillc.cli.command import Command
 from skillc.cli.run_options import run_options
 
 if TYPE_CHECKING:
-    from skillc.services.run_result import RunResult
+    from skillc.services.run.result import RunResult
     from skillc_runtime.recording.run_spec import RunSpec
 
 SEED = 1
@@ -39,12 +39,12 @@ TASKS = {"ur5e": "clean_whiteboard", "iiwa": "clean_table"}
 def command(spec: RunSpec, robot: str, as_json: bool) -> int:
     """Run the two shipped wiping tasks in simulation."""
     from skillc.cli.console import Terminal, print_json
-    from skillc.cli.film_progress import FilmProgress
-    from skillc.cli.run_output import print_results, run_with_progress
-    from skillc.services.files import check_writable
-    from skillc.services.picture_making import making_pictures
-    from skillc.services.running import RunOptions
-    from skillc.services.task_loading import load_task
+    from skillc.cli.progress.film import FilmProgress
+    from skillc.cli.progress.run_output import print_results, run_with_progress
+    from skillc.services.recording.picture_making import making_pictures
+    from skillc.services.reporting.files import check_writable
+    from skillc.services.run.running import RunOptions
+    from skillc.services.tasks.loading import load_task
 
     out = None if spec.out is None else Path(spec.out)
     check_writable(out)
@@ -69,7 +69,7 @@ def command(spec: RunSpec, robot: str, as_json: bool) -> int:
 
 def _compare(folder: Path, runs: Sequence[RunResult], quiet: bool) -> None:
     """Write the figure that compares the wipings of the runs, and say where unless `quiet`."""
-    from skillc.services.run_report import write_comparison
+    from skillc.services.run.report import write_comparison
 
     figure = write_comparison(folder, [drawing for run in runs for drawing in run.drawings])
     if figure is not None and not quiet:

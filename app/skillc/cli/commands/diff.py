@@ -33,7 +33,7 @@ def command(run: Path, other: Path, as_json: bool) -> None:
     import sys
 
     from skillc.cli.console import Terminal, page_of, print_json, print_lines, print_remark
-    from skillc.cli.diff_output import format_diff
+    from skillc.cli.output.diff import format_diff
     from skillc.services.run_diff.compare import compare_runs
     from skillc.services.run_diff.recorded import read_recorded_run
 

@@ -20,6 +20,6 @@ from skillc.cli.options import FOLDER, PATH
 def command(path: Path, output: Path) -> None:
     """Write the HTML reference of the library at PATH, by default the project or folder here, into OUTPUT."""
     from skillc.cli.console import Terminal
-    from skillc.services.artifacts import write_reference
+    from skillc.services.library.artifacts import write_reference
 
     click.echo(write_reference(path, output, Terminal()))

@@ -15,7 +15,7 @@ from skillc.cli.layout import Row, TableCell
 from skillc.cli.options import json_option
 
 if TYPE_CHECKING:
-    from skillc.services.environment import Finding
+    from skillc.services.reporting.environment import Finding
 
 
 @click.command(cls=Command)
@@ -25,7 +25,7 @@ def command(as_json: bool) -> int:
     import json
 
     from skillc.cli.console import page_of, print_lines
-    from skillc.services.environment import diagnose_environment
+    from skillc.services.reporting.environment import diagnose_environment
 
     found = diagnose_environment()
     if as_json:

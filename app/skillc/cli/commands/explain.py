@@ -19,7 +19,7 @@ from skillc.cli.completions import complete_diagnostic
 @click.option("--json", "as_json", is_flag=True, help="Print the page, or all pages, as JSON.")
 def command(name: str | None, as_json: bool) -> None:
     """Explain the diagnostic NAME, such as `unknown-class`; without NAME, list all diagnostics."""
-    from skillc.cli.manual_pages import format_contents, format_page
+    from skillc.cli.output.manual_pages import format_contents, format_page
     from skillc_compiler.manual import load_page, load_pages, page_names
     from skillc_dsl.spelling import did_you_mean
 

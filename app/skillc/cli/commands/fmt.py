@@ -13,7 +13,7 @@ from skillc.cli.console import print_error, print_remark
 from skillc.cli.options import PATH
 
 if TYPE_CHECKING:
-    from skillc.services.formatting import FormattedFile
+    from skillc.services.check.formatting import FormattedFile
 
 STDIN = Path("-")
 
@@ -31,7 +31,7 @@ def command(paths: tuple[Path, ...], check: bool, diff: bool, stdin_filename: Pa
     syntax errors are not changed; the errors are printed, with exit code 1.
     """
     from skillc.cli.console import read_stdin
-    from skillc.services.formatting import format_files, format_text
+    from skillc.services.check.formatting import format_files, format_text
 
     if stdin_filename and paths != (STDIN,):
         raise click.UsageError("--stdin-filename requires `-` as the only path")
@@ -51,7 +51,7 @@ def command(paths: tuple[Path, ...], check: bool, diff: bool, stdin_filename: Pa
 def _write(files: Sequence[FormattedFile]) -> int:
     """Write each file that changes, and print why others could not be formatted."""
     from skillc.errors import ServiceError
-    from skillc.services.reporting import format_count
+    from skillc.services.reporting.reporter import format_count
 
     failed = _show_problems(files)
     for file in files:
@@ -74,7 +74,7 @@ def _write(files: Sequence[FormattedFile]) -> int:
 def _show_problems(files: Sequence[FormattedFile]) -> int:
     """Print on stderr why files cannot be formatted."""
     from skillc.cli.console import Terminal
-    from skillc.cli.diagnostics_output import exit_code
+    from skillc.cli.output.diagnostics import exit_code
 
     problems = [problem for file in files for problem in file.problems]
     Terminal().show(problems, {file.source.path: file.source for file in files})
@@ -83,8 +83,8 @@ def _show_problems(files: Sequence[FormattedFile]) -> int:
 
 def _show_unformatted(files: Sequence[FormattedFile]) -> int:
     """List the unformatted files, and print why others cannot be formatted."""
-    from skillc.cli.diagnostics_output import render_diagnostics
-    from skillc.services.reporting import format_count
+    from skillc.cli.output.diagnostics import render_diagnostics
+    from skillc.services.reporting.reporter import format_count
     from skillc_dsl.formatting.formatter import check_layout
 
     warnings = [warning for file in files if (warning := check_layout(file.source)) is not None]

@@ -64,12 +64,12 @@ def command(
     Ctrl-C ends what runs; the same command goes on. With --apply, the values are written.
     """
     from skillc.cli.console import Terminal, page_of, print_json, print_result, remark_default
-    from skillc.cli.learning_output import format_learned
-    from skillc.cli.learning_progress import LearningProgress
+    from skillc.cli.output.learning import format_learned
+    from skillc.cli.progress.learning import LearningProgress
     from skillc.services.learning.coordinator import LearnRequest, learn
     from skillc.services.learning.page import write_page
     from skillc.services.learning.place import choose_place
-    from skillc.services.task_list import require_task
+    from skillc.services.tasks.listing import require_task
 
     chosen = require_task(task)
     remark_default(task, chosen)

@@ -42,7 +42,7 @@ def command(operation: str | None, follow: bool, after: int, as_json: bool, reco
         raise click.UsageError("--recording cannot be used with --follow, --after or --json")
     import msgspec
 
-    from skillc.cli.event_lines import EventLines
+    from skillc.cli.output.event_lines import EventLines
 
     lines = EventLines()
     with connect_server() as server:

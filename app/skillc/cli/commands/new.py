@@ -40,8 +40,8 @@ def command(name: Path | None, template: str, list_: bool) -> None:
 
     The last part of NAME, such as `press_button`, names the library and its task.
     """
-    from skillc.services.new_library import create_library
-    from skillc.services.project_templates import TEMPLATES
+    from skillc.services.scaffolding.new_library import create_library
+    from skillc.services.scaffolding.project_templates import TEMPLATES
 
     if list_:
         print_lines(page_of(sys.stdout).columns([(TableCell(each.name, "strong"), each.summary) for each in TEMPLATES]))

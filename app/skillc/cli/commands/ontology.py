@@ -29,16 +29,16 @@ def command(files: tuple[Path, ...], library: Path | None, align: bool, as_json:
     the skills.
     """
     from skillc.cli.console import print_json, print_result, print_text
-    from skillc.cli.ontology_output import format_descriptions
-    from skillc.services.library_files import find_library
-    from skillc.services.ontologies import describe_ontologies, open_ontologies
+    from skillc.cli.output.ontology import format_descriptions
+    from skillc.services.library.files import find_library
+    from skillc.services.library.ontologies import describe_ontologies, open_ontologies
     from skillc.services.project.loading import find_project
 
     own = find_library(library) if library else find_library(Path()) if find_project(Path()) else None
     opened = open_ontologies(files)
     described = describe_ontologies(opened, own)
     if align:
-        from skillc.services.ontology_alignment import format_proposals, propose_alignment
+        from skillc.services.library.ontology_alignment import format_proposals, propose_alignment
 
         proposals = propose_alignment(opened, described)
         if as_json:

@@ -13,14 +13,14 @@ import click
 
 from skillc.cli.command import Command
 from skillc.cli.options import PLANNING, grouped_option, json_option, store_options, task_arguments
+from skillc.cli.progress.slow_notice import notice_if_slow
 from skillc.cli.run_options import run_options
 from skillc.cli.server_access import cell_options, refuse_options
 from skillc.cli.server_completions import complete_asked_argument, complete_asked_task
 from skillc.cli.server_connection import asks_cell
-from skillc.cli.slow_notice import notice_if_slow
 
 if TYPE_CHECKING:
-    from skillc.services.planning import Measure
+    from skillc.services.planning.planning import Measure
     from skillc_runtime.planning.progress import PlanningProgress
     from skillc_runtime.recording.run_spec import RunSpec
 
@@ -61,11 +61,11 @@ def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, as_json:
     """
     from skillc.cli import cell_questions
     from skillc.cli.console import Terminal, print_text, remark_default
-    from skillc.services.plan_text import format_plan, plan_as_json
-    from skillc.services.planning import plan_goal, prepare_planners
-    from skillc.services.space_claims import plan_goal_in_space
-    from skillc.services.stores import StoreChoice
-    from skillc.services.task_loading import check_request, fill_in, load_task
+    from skillc.services.planning.plan_text import format_plan, plan_as_json
+    from skillc.services.planning.planning import plan_goal, prepare_planners
+    from skillc.services.scene.stores import StoreChoice
+    from skillc.services.space.claims import plan_goal_in_space
+    from skillc.services.tasks.loading import check_request, fill_in, load_task
     from skillc_runtime.cancellation import CancelToken
     from skillc_runtime.planning.plan import GaveUp, Unsolvable
     from skillc_runtime.planning.progress import describe_progress

@@ -21,7 +21,7 @@ LAST = 20
 def command(everything: bool, watch: bool, as_json: bool) -> None:
     """List the cells, and the operations that go on or wait: id, task, state, who submitted it."""
     from skillc.cli.console import print_json
-    from skillc.cli.server_output import print_cells, watch_cells
+    from skillc.cli.output.server import print_cells, watch_cells
 
     with connect_server() as server:
         if watch:

@@ -28,7 +28,7 @@ def command(operations: tuple[str, ...], cell: str | None, as_json: bool) -> Non
     their devices.
     """
     from skillc.cli.console import print_json
-    from skillc.cli.server_output import print_operations
+    from skillc.cli.output.server import print_operations
 
     with connect_server() as server:
         place = server.cell(cell)

@@ -36,7 +36,7 @@ skillc rehearse --goal "lab:Bin-A contain lab:Part-1" --seed 3
 def command(request: RehearsalRequest, cell: str | None, film_file: str | None, as_json: bool) -> int:
     """Do TASK of the cell's library in a simulated twin of the cell, and print how it ends."""
     from skillc.cli.console import page_of, print_remark, print_result
-    from skillc.cli.result_output import format_result
+    from skillc.cli.output.result import format_result
 
     with connect_server() as server:
         done = server.cell(cell).rehearse(

@@ -48,7 +48,7 @@ def command(run: Path, pace: Pace, check: bool, library: Path | None, as_json: b
     import sys
 
     from skillc.cli.console import Terminal, page_of, print_json, print_lines
-    from skillc.cli.replay_output import format_check
+    from skillc.cli.output.replay import format_check
 
     if not check:
         if library is not None:
@@ -67,9 +67,9 @@ def command(run: Path, pace: Pace, check: bool, library: Path | None, as_json: b
 def _play(run: Path, pace: Pace, as_json: bool) -> int:
     """Show a run, and print its result."""
     from skillc.cli.console import Terminal, print_json
-    from skillc.cli.replayed import play
-    from skillc.cli.run_output import print_results
-    from skillc.services.recordings import find_recording, read_envelopes, read_result
+    from skillc.cli.progress.replayed import play
+    from skillc.cli.progress.run_output import print_results
+    from skillc.services.recording.recordings import find_recording, read_envelopes, read_result
 
     path = find_recording(run)
     events = read_envelopes(path, Terminal())

@@ -40,10 +40,10 @@ def command(spec: RunSpec, run: Path, as_json: bool) -> int:
     another one then, there is no report.
     """
     from skillc.cli.console import Terminal, print_json
-    from skillc.cli.film_progress import FilmProgress
-    from skillc.cli.run_output import print_results
-    from skillc.services.files import check_writable
+    from skillc.cli.progress.film import FilmProgress
+    from skillc.cli.progress.run_output import print_results
     from skillc.services.replaying.report import report_recorded
+    from skillc.services.reporting.files import check_writable
 
     if spec.out is None and not run.is_dir():
         raise click.UsageError(f"{run} is no folder: name the folder of the report with --out")

@@ -56,14 +56,14 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     """
     with importing():
         from skillc.cli.console import Terminal, print_json, remark_default
-        from skillc.cli.film_progress import FilmProgress
-        from skillc.cli.run_output import check_operable, print_results, run_with_progress
-        from skillc.services.files import check_writable
-        from skillc.services.picture_making import making_pictures
-        from skillc.services.planning import prepare_planners
-        from skillc.services.running import RunOptions
-        from skillc.services.stores import StoreChoice
-        from skillc.services.task_loading import check_request, fill_in, load_task
+        from skillc.cli.progress.film import FilmProgress
+        from skillc.cli.progress.run_output import check_operable, print_results, run_with_progress
+        from skillc.services.planning.planning import prepare_planners
+        from skillc.services.recording.picture_making import making_pictures
+        from skillc.services.reporting.files import check_writable
+        from skillc.services.run.running import RunOptions
+        from skillc.services.scene.stores import StoreChoice
+        from skillc.services.tasks.loading import check_request, fill_in, load_task
 
     kept = StoreChoice(store, reset, writes=True)
     wanted = fill_in(spec, kept)

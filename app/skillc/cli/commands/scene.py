@@ -23,7 +23,7 @@ from skillc.cli.server_access import cell_options, refuse_options
 from skillc.cli.server_connection import asks_cell
 
 if TYPE_CHECKING:
-    from skillc.services.scene_things import PoseRequest
+    from skillc.services.scene.things import PoseRequest
     from skillc_runtime.world.state.world_state import WorldState
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -71,7 +71,7 @@ def pose_options(function: Function) -> Function:
 
 
 def _pose(given: dict[str, Any]) -> PoseRequest:
-    from skillc.services.scene_things import PoseRequest
+    from skillc.services.scene.things import PoseRequest
 
     at, at_z = given["at"] or (), given["at_z"]
     if at_z is not None:
@@ -87,8 +87,8 @@ def _pose(given: dict[str, Any]) -> PoseRequest:
 def _opened(scene: Path, library: Path | None) -> Iterator[tuple[Path, WorldState]]:
     """Load a scene file to be edited: yield its path and its world."""
     from skillc.cli.console import Terminal
-    from skillc.services import scenes
-    from skillc.services.stores import StoreChoice
+    from skillc.services.scene.stores import StoreChoice
+    from skillc.services.views import scenes
 
     with scenes.open_scene(scene, library, StoreChoice(None, False), False, Terminal()) as opened:
         assert opened.path is not None
@@ -126,7 +126,7 @@ def command() -> None:
 @file_only
 def new(scene: Path, arm: str | None) -> None:
     """Create the file SCENE: a workstation, and an arm if one is named."""
-    from skillc.services.new_scene import create_scene
+    from skillc.services.scaffolding.new_scene import create_scene
 
     create_scene(scene, arm)
     print_remark(f"{scene}: created")
@@ -153,7 +153,7 @@ def add(scene: Path, name: str, cls: str, library: Path | None, **given: Any) ->
 
     Without a prefix, NAME is in the namespace of the scene's other things, and CLASS any class of that name.
     """
-    from skillc.services.scene_things import ThingRequest, add_thing
+    from skillc.services.scene.things import ThingRequest, add_thing
 
     thing = ThingRequest(
         name,
@@ -178,7 +178,7 @@ def add(scene: Path, name: str, cls: str, library: Path | None, **given: Any) ->
 @file_only
 def move(scene: Path, name: str, library: Path | None, **given: Any) -> None:
     """Move the thing NAME of SCENE. What is not stated stays as it is written."""
-    from skillc.services.scene_things import move_thing
+    from skillc.services.scene.things import move_thing
 
     with _opened(scene, library) as (path, state):
         print_remark(f"{scene}: {move_thing(path, state, name, _pose(given))} moved")
@@ -191,7 +191,7 @@ def move(scene: Path, name: str, library: Path | None, **given: Any) -> None:
 @file_only
 def remove(scene: Path, names: tuple[str, ...], library: Path | None) -> None:
     """Remove things, and all statements about them, from SCENE."""
-    from skillc.services.scene_things import remove_things
+    from skillc.services.scene.things import remove_things
 
     with _opened(scene, library) as (path, state):
         print_remark(f"{scene}: {', '.join(remove_things(path, state, names))} removed")
@@ -214,7 +214,7 @@ def edit(scene: str | None, edits: tuple[str, ...], library: Path | None, why: s
     recorded, and who you are.
     """
     from skillc.cli import cell_questions
-    from skillc.services.scene_edit import edit_file
+    from skillc.services.scene.editing import edit_file
 
     if asks_cell():
         refuse_options(library=library)
@@ -275,9 +275,9 @@ def show(scene: Path | None, out: Path, library: Path | None, as_json: bool) -> 
     if scene is None:
         raise click.UsageError("name SCENE, or --cell")
     from skillc.cli.console import Terminal, page_of, print_result
-    from skillc.cli.scene_output import format_placed
-    from skillc.services import scene_show, scenes
-    from skillc.services.stores import StoreChoice
+    from skillc.cli.output.scene import format_placed
+    from skillc.services.scene.stores import StoreChoice
+    from skillc.services.views import scene_show, scenes
 
     with scenes.open_scene(scene, library, StoreChoice(None, False), False, Terminal()) as opened:
         print_result(format_placed(scene_show.list_placed(opened), as_json, page_of(sys.stdout)))

@@ -17,6 +17,6 @@ def command(name: str) -> None:
     It is that of library.json, of a line of events.jsonl, of result.json and `run --json`, of what `check --json`
     prints, of signals.json, or of skillc.toml.
     """
-    from skillc.services.schemas import read_schema
+    from skillc.services.library.schemas import read_schema
 
     click.echo(read_schema(name), nl=False)

@@ -20,8 +20,8 @@ from skillc.cli.struct_options import struct_options
 from skillc_dsl.importing import importing
 
 if TYPE_CHECKING:
-    from skillc.server.listening import Listening
-    from skillc.services.backends import BackendName
+    from skillc.server.http.listening import Listening
+    from skillc.services.project.backends import BackendName
 
 NETWORK = "Network"
 EXAMPLES = """
@@ -89,7 +89,7 @@ def command(
 
 
 def _make_listening(network: NetworkOptions) -> Listening:
-    from skillc.server.listening import Certificate, Listening
+    from skillc.server.http.listening import Certificate, Listening
 
     cert, key = network.tls_cert, network.tls_key
     if (cert is None) != (key is None):

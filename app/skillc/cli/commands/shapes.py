@@ -17,9 +17,9 @@ def command(path: Path | None) -> None:
 
     By default it is that of the project here, or else the shipped one. Other tools can check scenes with them.
     """
-    from skillc.services.compiled_libraries import compile_valid
-    from skillc.services.library_files import find_library
-    from skillc.services.task_list import default_library
+    from skillc.services.library.compiled_libraries import compile_valid
+    from skillc.services.library.files import find_library
+    from skillc.services.tasks.listing import default_library
     from skillc_runtime.scene.shapes import format_shapes
 
     library = compile_valid(find_library(path) if path else default_library())

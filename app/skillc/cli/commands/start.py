@@ -14,9 +14,9 @@ import click
 from msgspec import structs
 
 from skillc.cli.command import Command
-from skillc.cli.operation_remarks import remark_going_on, remark_status, remark_waiting
 from skillc.cli.options import EXECUTION, SHARE, grouped_option
 from skillc.cli.order_options import order_options
+from skillc.cli.output.operation_remarks import remark_going_on, remark_status, remark_waiting
 from skillc.cli.server_access import request_options
 from skillc.cli.server_completions import complete_breakpoint
 from skillc.cli.server_connection import connect_server, server_options
@@ -74,7 +74,7 @@ def command(
         started = place.start(**wanted, key=key)
         click.echo(started.id)
         if attach:
-            from skillc.cli.attached import attach as show
+            from skillc.cli.progress.attached import attach as show
 
             return show(place, started)
         return wait_for_end(started) if wait else 0

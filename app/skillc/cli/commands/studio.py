@@ -22,8 +22,8 @@ from skillc.cli.serving import DEFAULT_BIND, cell_options, parse_address, requir
 from skillc_dsl.importing import importing
 
 if TYPE_CHECKING:
-    from skillc.services.backends import BackendName
-    from skillc.services.studio_choice import StudioChoice
+    from skillc.services.project.backends import BackendName
+    from skillc.services.tasks.studio_choice import StudioChoice
 
 Show: TypeAlias = Callable[[str], None]
 EXAMPLES = """
@@ -58,7 +58,7 @@ def command(
     scenes of the tasks of the LIBRARY, by default of the project here, or of the shipped wiping library.
     """
     require_server()
-    from skillc.services.studio_choice import choose_studio
+    from skillc.services.tasks.studio_choice import choose_studio
 
     show = _print_address if no_browser else _open_browser
     choice = choose_studio(what, scenes)
@@ -99,7 +99,7 @@ def _serve(choice: StudioChoice, bind: str | None, state: Path, backend: Backend
         from skillc.client.address import ADMIN_TOKEN, read_token
         from skillc.server.cells import choose_cells
         from skillc.server.context import ServerContext
-        from skillc.server.listening import Listening
+        from skillc.server.http.listening import Listening
         from skillc.server.serve import serve
         from skillc.server.state import open_state
 

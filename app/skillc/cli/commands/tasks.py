@@ -15,8 +15,8 @@ def command(as_json: bool) -> None:
     from msgspec.structs import asdict
 
     from skillc.cli.console import print_json
-    from skillc.cli.task_output import print_tasks
-    from skillc.services.task_list import list_tasks
+    from skillc.cli.output.tasks import print_tasks
+    from skillc.services.tasks.listing import list_tasks
 
     tasks = list_tasks()
     if as_json:

@@ -47,7 +47,7 @@ def command(asked: TestOptions) -> int:
     A NAME may have `*` for any letters. Skills act by what they declare, in milliseconds: nothing is simulated. The
     exit code is 1 if a test fails.
     """
-    from skillc.cli.test_output import run_and_print, watch_and_print
+    from skillc.cli.output.tests import run_and_print, watch_and_print
 
     if asked.watch and asked.as_json:
         raise click.UsageError("--watch cannot be used with --json")

@@ -105,12 +105,12 @@ def command(asked: AskedTrials, as_json: bool) -> int:
     """
     from skillc.cli import cell_questions
     from skillc.cli.console import Terminal, is_unicode, page_of, print_json, print_result, remark_default
-    from skillc.cli.trial_progress import TrialProgress
-    from skillc.cli.trials_output import format_series
+    from skillc.cli.output.trials import format_series
+    from skillc.cli.progress.trials import TrialProgress
     from skillc.errors import RequestError
-    from skillc.services.task_list import require_task
-    from skillc.services.trial_executors import choose_executor
-    from skillc.services.trial_runs import TrialRequest, run_trials, write_page
+    from skillc.services.tasks.listing import require_task
+    from skillc.services.trials.executors import choose_executor
+    from skillc.services.trials.running import TrialRequest, run_trials, write_page
 
     def progress(name: str, done: int) -> TrialProgress:
         return TrialProgress(name, asked.disturb, asked.number, done, quiet=as_json)

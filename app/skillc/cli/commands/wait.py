@@ -8,7 +8,7 @@ from __future__ import annotations
 import click
 
 from skillc.cli.command import Command
-from skillc.cli.operation_remarks import remark_status
+from skillc.cli.output.operation_remarks import remark_status
 from skillc.cli.server_access import operation_argument
 from skillc.cli.server_connection import connect_server, server_options
 

@@ -28,8 +28,8 @@ def command(run: Path, question: str | None, as_json: bool) -> None:
     overview.
     """
     from skillc.cli.console import Terminal, print_json, print_text
-    from skillc.services.recordings import answer_question, read_run
-    from skillc.services.story_text import format_answer, format_overview
+    from skillc.services.recording.recordings import answer_question, read_run
+    from skillc.services.recording.story_text import format_answer, format_overview
 
     story = read_run(run, Terminal())
     answer = answer_question(story, question) if question is not None else None

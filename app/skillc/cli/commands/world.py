@@ -24,7 +24,7 @@ from skillc.cli.server_connection import asks_cell
 from skillc.cli.struct_options import struct_options
 
 if TYPE_CHECKING:
-    from skillc.services.scenes import OpenScene
+    from skillc.services.views.scenes import OpenScene
 
 FORMATS = ("turtle", "rdfxml", "jsonld", "ntriples", "trig")
 
@@ -118,8 +118,8 @@ def command(
     if asked.history:
         raise click.UsageError("--history requires --cell or --server")
     from skillc.cli.console import Terminal
-    from skillc.services import scenes
-    from skillc.services.stores import StoreChoice
+    from skillc.services.scene.stores import StoreChoice
+    from skillc.services.views import scenes
 
     with scenes.open_scene(scene, library, StoreChoice(store, reset), everything, Terminal()) as opened:
         _answer(opened, asked, everything, as_json)
@@ -146,7 +146,7 @@ def _ask_cell(asked: WorldOptions, everything: bool, as_json: bool) -> None:
 def _answer(opened: OpenScene, asked: WorldOptions, everything: bool, as_json: bool) -> None:
     """Answer a question about a scene."""
     from skillc.cli.console import print_result, print_text
-    from skillc.services import scenes
+    from skillc.services.views import scenes
 
     if asked.graph:
         scenes.draw_scene(opened, asked.graph)
@@ -160,7 +160,7 @@ def _answer(opened: OpenScene, asked: WorldOptions, everything: bool, as_json: b
 
 def _export(opened: OpenScene, form: str, output: Path | None, everything: bool) -> None:
     """Write a scene in an RDF format to a file, whose path is printed, or to the standard output."""
-    from skillc.services import scene_export
+    from skillc.services.views import scene_export
 
     if output is None:
         click.echo(scene_export.export_scene(opened, form, everything), nl=False)
@@ -171,9 +171,9 @@ def _export(opened: OpenScene, form: str, output: Path | None, everything: bool)
 
 def _format_view(opened: OpenScene, asked: WorldOptions, as_json: bool) -> str:
     """Return the answer to a query, the differences from another scene, or individuals: the named or the found ones."""
-    from skillc.cli import scene_output
     from skillc.cli.console import Terminal, page_of
-    from skillc.services import scenes
+    from skillc.cli.output import scene as scene_output
+    from skillc.services.views import scenes
 
     if asked.sparql is not None:
         return scene_output.format_answer(scenes.query_scene(opened, asked.sparql), as_json, page_of(sys.stdout))

@@ -10,13 +10,13 @@ import msgspec
 from starlette.websockets import WebSocket
 
 from skillc.contract.source import LanguageHello
-from skillc.server.authentication import make_credential
 from skillc.server.context import ServerContext
-from skillc.server.event_stream import BROKEN, HELLO_S, SILENCE_S, ClientSocket
+from skillc.server.http.authentication import make_credential
+from skillc.server.http.event_stream import BROKEN, HELLO_S, SILENCE_S, ClientSocket
+from skillc.server.http.sample_stream import closing_refused
 from skillc.server.language.process import LanguageServer, LanguageServerEnded, language_server
 from skillc.server.language.uris import TextUris, UnknownText
 from skillc.server.problems import ApiRefusal
-from skillc.server.sample_stream import closing_refused
 
 INVALID_PARAMS, METHOD_NOT_FOUND = -32602, -32601
 OTHER_METHODS = frozenset(

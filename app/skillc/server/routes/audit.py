@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from skillc.contract.audit import AuditEntry
-from skillc.server.api_call import ApiCall
+from skillc.server.http.api_call import ApiCall
 
 
 async def list_audit_entries(call: ApiCall) -> tuple[AuditEntry, ...]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from skillc.contract.cell import CellStatus
 from skillc.contract.messages import Acknowledge, Message, SetPace
-from skillc.server.api_call import ApiCall
-from skillc.server.outcome import command_cell
+from skillc.server.http.api_call import ApiCall
+from skillc.server.http.outcome import command_cell
 
 
 async def list_cells(call: ApiCall) -> tuple[CellStatus, ...]:

@@ -10,9 +10,9 @@ from skillc.cells.journal.reading import find_checkpoint
 from skillc.contract.cell import CellCheckpoint, CellStatus
 from skillc.contract.messages import CheckpointCommand, Forget, Reset, Restore, Save
 from skillc.errors import RequestError
-from skillc.server.api_call import ApiCall
 from skillc.server.context import open_journal
-from skillc.server.outcome import command_cell
+from skillc.server.http.api_call import ApiCall
+from skillc.server.http.outcome import command_cell
 from skillc.server.problems import ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 

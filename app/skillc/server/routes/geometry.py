@@ -7,9 +7,9 @@ import msgspec
 from skillc.contract.geometry import CellModel, Coverage, Poses
 from skillc.contract.jobs import ListPoses
 from skillc.contract.messages import TakeCoverage, TakeGeometry
-from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about
-from skillc.server.outcome import raise_refused
+from skillc.server.http.api_call import ApiCall
+from skillc.server.http.outcome import raise_refused
 
 POSES_S = 10.0
 """How long the computation of all poses may take."""

@@ -7,7 +7,7 @@ from http import HTTPStatus
 from skillc.contract.lease import Lease, LeaseRequest
 from skillc.server.access.leases import LeaseHeld
 from skillc.server.access.roles import includes
-from skillc.server.api_call import ApiCall
+from skillc.server.http.api_call import ApiCall
 from skillc.server.problems import LEASE_HELD, ApiRefusal
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from importlib.metadata import version
 
+from skillc.contract.api.version import VersionInfo
 from skillc.contract.device import Device, DeviceStatus
 from skillc.contract.jobs import ListDevices
 from skillc.contract.library import LibraryDescription, LibraryStatus
-from skillc.contract.version import VersionInfo
-from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about
-from skillc.server.openapi import VERSION
+from skillc.server.http.api_call import ApiCall
+from skillc.server.http.openapi import VERSION
 from skillc.server.routes.world import QUERY_S
 
 

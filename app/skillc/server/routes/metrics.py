@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from starlette.responses import Response
 
-from skillc.server.api_call import ApiCall
+from skillc.server.http.api_call import ApiCall
 from skillc.server.metrics import CONTENT_TYPE
 
 

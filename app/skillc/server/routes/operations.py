@@ -11,13 +11,13 @@ from msgspec import structs
 
 from skillc.cells.journal.reading import LATEST_NS
 from skillc.contract.commands import OperatorCommand
-from skillc.contract.history import HistoryPage
 from skillc.contract.messages import Give, Refused, Submit
 from skillc.contract.operation import OperationStatus
-from skillc.server.api_call import ApiCall
+from skillc.contract.runs.history import HistoryPage
 from skillc.server.context import open_journal
+from skillc.server.http.api_call import ApiCall
+from skillc.server.http.outcome import check_lease, command_cell, raise_refused, sign_request
 from skillc.server.idempotency import KeyReused
-from skillc.server.outcome import check_lease, command_cell, raise_refused, sign_request
 from skillc.server.problems import KEY_REUSED, ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 from skillc_runtime.recording import commands

@@ -10,12 +10,12 @@ from msgspec import structs
 from skillc.cells.database import transaction
 from skillc.contract.jobs import CheckOperation
 from skillc.contract.order import Order, OrderRequest
-from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about
+from skillc.server.http.api_call import ApiCall
+from skillc.server.http.outcome import sign_request
 from skillc.server.idempotency import KeyReused
 from skillc.server.orders.due import LATE_S
 from skillc.server.orders.store import TooManyOrders
-from skillc.server.outcome import sign_request
 from skillc.server.problems import KEY_REUSED, ApiRefusal
 from skillc.server.routes.world import QUERY_S
 from skillc_runtime.recording.envelope import make_run_id

@@ -7,8 +7,8 @@ from http import HTTPStatus
 from skillc.contract.jobs import Measure, PreviewPlan
 from skillc.contract.messages import TakeSnapshot
 from skillc.contract.plan import PlanPreview, PlanRequest
-from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about
+from skillc.server.http.api_call import ApiCall
 from skillc.server.problems import ApiRefusal
 
 GRACE_S = 10.0

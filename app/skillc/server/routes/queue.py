@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from skillc.contract.messages import Reorder
 from skillc.contract.operation import OperationStatus
-from skillc.server.api_call import ApiCall
-from skillc.server.outcome import command_cell
+from skillc.server.http.api_call import ApiCall
+from skillc.server.http.outcome import command_cell
 
 
 async def list_queue(call: ApiCall) -> tuple[OperationStatus, ...]:

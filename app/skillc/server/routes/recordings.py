@@ -10,12 +10,12 @@ from pathlib import Path
 
 from starlette.responses import Response
 
-from skillc.cells.recording_files import recording_file
-from skillc.contract.endpoints import BINARY
-from skillc.server.api_call import ApiCall
-from skillc.server.files import send_file
+from skillc.cells.operations.recording_files import recording_file
+from skillc.contract.api.endpoints import BINARY
+from skillc.server.http.api_call import ApiCall
+from skillc.server.http.files import send_file
 from skillc.server.problems import ApiRefusal
-from skillc.services.recordings import MCAP_MAGIC
+from skillc.services.recording.recordings import MCAP_MAGIC
 from skillc_runtime.recording.mcap.contents import CLOSE_S
 from skillc_runtime.recording.states import ENDS
 

@@ -7,12 +7,12 @@ from pathlib import Path
 
 from starlette.responses import Response
 
-from skillc.cells.recording_files import recording_file
+from skillc.cells.operations.recording_files import recording_file
 from skillc.contract.messages import TakeSnapshot
 from skillc.contract.report import REPORT_TYPES, OperationReport
-from skillc.server.api_call import ApiCall
-from skillc.server.files import send_file
-from skillc.server.outcome import raise_refused
+from skillc.server.http.api_call import ApiCall
+from skillc.server.http.files import send_file
+from skillc.server.http.outcome import raise_refused
 from skillc.server.problems import ApiRefusal
 from skillc.server.simulation_jobs import MAX_WAITING
 from skillc_runtime.recording.states import ENDS

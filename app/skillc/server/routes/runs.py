@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from skillc.cells.recording_files import recording_file
-from skillc.contract.explanation import RunExplanation
-from skillc.contract.run_diff import RunDiff
-from skillc.contract.run_jobs import CompareRuns, ExplainRun, ReadSignals, RunFiles, ShowTree
-from skillc.contract.run_tree import OperationTree
-from skillc.contract.signals import SignalPage, SignalRows
-from skillc.server.api_call import ApiCall
+from skillc.cells.operations.recording_files import recording_file
+from skillc.contract.runs.explanation import RunExplanation
+from skillc.contract.runs.run_diff import RunDiff
+from skillc.contract.runs.run_jobs import CompareRuns, ExplainRun, ReadSignals, RunFiles, ShowTree
+from skillc.contract.runs.run_tree import OperationTree
+from skillc.contract.runs.signals import SignalPage, SignalRows
 from skillc.server.asking import ask_about_run
+from skillc.server.http.api_call import ApiCall
 from skillc.server.routes.recordings import wait_until_complete
 from skillc_runtime.recording.states import ENDS
 

@@ -7,7 +7,7 @@ from http import HTTPStatus
 from starlette.responses import Response
 
 from skillc.contract.access import LoginCode, SessionInfo
-from skillc.server.api_call import ApiCall
+from skillc.server.http.api_call import ApiCall
 
 
 async def make_login_code(call: ApiCall) -> LoginCode:

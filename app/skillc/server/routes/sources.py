@@ -7,7 +7,7 @@ from http import HTTPStatus
 
 from skillc.contract.source import SourceInfo, SourceText
 from skillc.errors import ServiceError
-from skillc.server.api_call import ApiCall
+from skillc.server.http.api_call import ApiCall
 from skillc.server.library_sources import NotEditable, SourceChanged, list_sources, read_source, write_source
 from skillc.server.problems import ApiRefusal
 

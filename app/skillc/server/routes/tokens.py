@@ -6,7 +6,7 @@ from http import HTTPStatus
 
 from skillc.contract.access import MadeToken, TokenInfo
 from skillc.server.access.tokens import TokenExists
-from skillc.server.api_call import ApiCall
+from skillc.server.http.api_call import ApiCall
 from skillc.server.problems import ApiRefusal
 
 

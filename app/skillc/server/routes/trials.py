@@ -6,14 +6,14 @@ from http import HTTPStatus
 
 from starlette.responses import Response
 
-from skillc.contract.endpoints import BINARY
+from skillc.contract.api.endpoints import BINARY
 from skillc.contract.jobs import CheckTrials
 from skillc.contract.messages import TakeSnapshot
 from skillc.contract.trials import TrialReplay, TrialSeries, TrialsRequest
-from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about
-from skillc.server.files import send_file
-from skillc.server.outcome import raise_refused
+from skillc.server.http.api_call import ApiCall
+from skillc.server.http.files import send_file
+from skillc.server.http.outcome import raise_refused
 from skillc.server.problems import ApiRefusal
 from skillc.server.simulation_jobs import MAX_WAITING
 from skillc.server.trials.running import MAX_UNFINISHED

@@ -19,9 +19,9 @@ from skillc.contract.world import (
     WorldWrite,
     WritePage,
 )
-from skillc.server.api_call import ApiCall
 from skillc.server.asking import ask_about
-from skillc.server.outcome import command_cell
+from skillc.server.http.api_call import ApiCall
+from skillc.server.http.outcome import command_cell
 
 QUERY_S = 10.0
 """How long the answer to a query may take."""

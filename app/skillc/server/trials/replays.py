@@ -8,7 +8,7 @@ from pathlib import Path
 from skillc.contract.jobs import RecordTrial
 from skillc.contract.trials import TrialReplay, TrialSeries
 from skillc.server.simulation_jobs import SimulationJobs
-from skillc.services.recordings import RECORDING
+from skillc.services.recording.recordings import RECORDING
 
 
 @dataclass(frozen=True, slots=True)

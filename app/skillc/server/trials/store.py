@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 import msgspec
 
 from skillc.contract.trials import SeriesState, TrialSeries, TrialsRequest
-from skillc.services.assignments import write_call
+from skillc.services.tasks.assignments import write_call
 from skillc_runtime.evaluation.trials.judging import judge_series
 from skillc_runtime.evaluation.trials.series import Series
 from skillc_runtime.evaluation.trials.trial import Trial

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.grasps import grasp_problem
-from skillc_runtime.world.space.grip_force import GraspError
+from skillc_runtime.world.space.grasping.grasps import grasp_problem
+from skillc_runtime.world.space.grasping.grip_force import GraspError
 from skillc_runtime.world.space.occupants import Occupant
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.terms import CAN_GRASP, END_EFFECTOR, GRASP_WIDTH, MANIPULATABLE, SIZE, WEIGHT

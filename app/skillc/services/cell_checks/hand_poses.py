@@ -16,9 +16,9 @@ from skillc_runtime.world.handling import approach_pose
 from skillc_runtime.world.space.bodies import has_body, read_shape
 from skillc_runtime.world.space.bounding_boxes import bounding_box
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.grasps import WAYS, find_grasp
-from skillc_runtime.world.space.grip_force import GraspError
-from skillc_runtime.world.space.shapes import Bin
+from skillc_runtime.world.space.grasping.grasps import WAYS, find_grasp
+from skillc_runtime.world.space.grasping.grip_force import GraspError
+from skillc_runtime.world.space.shape.shapes import Bin
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.terms import CONTAINER, HAS_A, MANIPULATABLE, PLACING_POSE
 from skillc_runtime.world.state.world_state import WorldState

@@ -9,9 +9,9 @@ from typing import Final
 from skillc_dsl.diagnostics import Severity
 from skillc_model.conditions import Condition
 from skillc_runtime.scene.violation import SceneViolation
-from skillc_runtime.world.space.no_place import Lack, PlaceError
 from skillc_runtime.world.space.occupants import Occupant
-from skillc_runtime.world.space.place_foresight import find_place_problem, list_wanted, uses_place_pose
+from skillc_runtime.world.space.placing.no_place import Lack, PlaceError
+from skillc_runtime.world.space.placing.place_foresight import find_place_problem, list_wanted, uses_place_pose
 from skillc_runtime.world.state.terms import (
     CONTAINER,
     MANIPULATABLE,

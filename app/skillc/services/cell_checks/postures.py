@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 
 from skillc_runtime.control.inverse_kinematics import solve_inverse_kinematics
-from skillc_runtime.control.virtual_arm import VirtualArm, load_virtual_model
+from skillc_runtime.control.laws.virtual_arm import VirtualArm, load_virtual_model
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of

@@ -9,7 +9,7 @@ import msgspec
 from msgspec.structs import replace
 
 from skillc.services.cell_checks.verdicts import judge_cell
-from skillc.services.scene_diagnostics import with_shown_path
+from skillc.services.scene.diagnostics import with_shown_path
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 from skillc_model.conditions import Condition, Exists, Forall, Individual

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from skillc.services.cell_checks.report import ScenePlaces, grade, locate, used_individuals
 from skillc.services.cell_checks.verdicts import judge_state_once
-from skillc.services.reporting import Reporter, find_texts
-from skillc.services.task_loading import LoadedTask
+from skillc.services.reporting.reporter import Reporter, find_texts
+from skillc.services.tasks.loading import LoadedTask
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.scene.load import read_scene
 from skillc_runtime.scene.violation import SceneViolation

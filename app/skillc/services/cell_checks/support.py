@@ -11,8 +11,8 @@ from skillc.services.cell_checks.facts import ROUNDED_M, placing_fact, severity_
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.occupants import Occupant
-from skillc_runtime.world.space.oriented_box import OrientedBox
-from skillc_runtime.world.space.solids import Solid
+from skillc_runtime.world.space.shape.oriented_box import OrientedBox
+from skillc_runtime.world.space.shape.solids import Solid
 from skillc_runtime.world.state.world_state import WorldState
 
 GRID = np.linspace(-1.0, 1.0, 9)

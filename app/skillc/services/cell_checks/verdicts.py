@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import msgspec
 
-from skillc.services.cache_entries import describe_models, describe_scene, encode_meaning, find_entry
+from skillc.services.library.cache_entries import describe_models, describe_scene, encode_meaning, find_entry
 from skillc_dsl import cache
 from skillc_model.conditions import Condition
 from skillc_runtime.scene.load import Scene

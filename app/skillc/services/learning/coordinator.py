@@ -12,8 +12,7 @@ from typing import TypeAlias
 from msgspec import structs
 
 from skillc.errors import RequestError, ServiceError
-from skillc.services.files import rewrite_file, write_file
-from skillc.services.fixing import FileChange, unified_diff
+from skillc.services.check.fixing import FileChange, unified_diff
 from skillc.services.learning import result as results
 from skillc.services.learning.evidence import write_evidence
 from skillc.services.learning.expressions import check_expressions, read_expressions
@@ -27,14 +26,15 @@ from skillc.services.learning.search import Search, list_settings, try_fresh
 from skillc.services.learning.spec import LearnSpec
 from skillc.services.learning.study import Basis, Candidate, Study, StudySetup
 from skillc.services.learning.text import LearnedValue, change_texts, require_own
-from skillc.services.library_files import LibraryFiles
-from skillc.services.real_devices import require_reality
-from skillc.services.recordings import RECORDING, read_envelopes
-from skillc.services.reporting import Reporter
-from skillc.services.stores import load_world
-from skillc.services.task_list import split_reference
-from skillc.services.task_loading import find_task_in_scene
-from skillc.services.trial_runs import OpenExecutor, bind_trial_task, make_experiment
+from skillc.services.library.files import LibraryFiles
+from skillc.services.recording.recordings import RECORDING, read_envelopes
+from skillc.services.reporting.files import rewrite_file, write_file
+from skillc.services.reporting.reporter import Reporter
+from skillc.services.run.real_devices import require_reality
+from skillc.services.scene.stores import load_world
+from skillc.services.tasks.listing import split_reference
+from skillc.services.tasks.loading import find_task_in_scene
+from skillc.services.trials.running import OpenExecutor, bind_trial_task, make_experiment
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.trials import identity
 from skillc_runtime.evaluation.trials.content import Experiment, prepare_runner

@@ -10,10 +10,10 @@ from pathlib import Path
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from skillc.services.files import write_file
 from skillc.services.learning.evidence import format_seeds
 from skillc.services.learning.racing import Verdict
 from skillc.services.learning.result import DEFAULTS, Learned, Tried
+from skillc.services.reporting.files import write_file
 
 PAGE = "learned.html"
 WIDTH, HEIGHT, MARGIN = 420, 260, 12

@@ -8,7 +8,7 @@ from decimal import Decimal
 import msgspec
 
 from skillc.errors import RequestError
-from skillc.services.library_files import LibraryFiles
+from skillc.services.library.files import LibraryFiles
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 from skillc_dsl.syntax.declarations import ImplementationDeclaration, SkillDeclaration

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 
-from skillc.services.reporting import Reporter
-from skillc.services.trial_executors import choose_executor
-from skillc.services.trial_runs import OpenExecutor
+from skillc.services.reporting.reporter import Reporter
+from skillc.services.trials.executors import choose_executor
+from skillc.services.trials.running import OpenExecutor
 
 ON_WORKERS = 8
 """How many trials a scheduler has at the same time, unless it is said."""

@@ -10,8 +10,8 @@ from typing import assert_never
 import msgspec
 
 from skillc.errors import ServiceError
-from skillc.services.backends import DEFAULT_BACKEND
-from skillc.services.trial_recordings import record_in
+from skillc.services.project.backends import DEFAULT_BACKEND
+from skillc.services.trials.recordings import record_in
 from skillc_model import codec
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.evaluation.trials.content import Experiment, prepare_runner

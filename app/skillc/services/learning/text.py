@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from skillc.errors import RequestError, ServiceError
-from skillc.services.fixing import FileChange
+from skillc.services.check.fixing import FileChange
 from skillc.services.learning.parameters import Learnable, read_learnable_sources
-from skillc.services.library_files import SHIPPED, LibraryFiles
+from skillc.services.library.files import SHIPPED, LibraryFiles
 from skillc_dsl.formatting.formatter import format_source
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
@@ -149,7 +149,7 @@ def _keep_formatted(before: Source, text: str) -> str:
 
 def _check(files: LibraryFiles, library: SkillLibrary, changed: Mapping[str, str], settings: Sequence[Setting]) -> None:
     """Compile the changed library, and compare it with the one that was tried."""
-    from skillc.services.libraries import compile_library
+    from skillc.services.library.libraries import compile_library
 
     def replace(source: Source) -> Source:
         return source._replace(text=changed.get(source.path, source.text))

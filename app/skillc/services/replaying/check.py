@@ -9,10 +9,10 @@ from typing import Any
 import msgspec
 
 from skillc.errors import ServiceError
-from skillc.services.backends import make_backend
+from skillc.services.project.backends import make_backend
 from skillc.services.replaying.inputs import RunInputs, build_beginning, read_inputs
-from skillc.services.reporting import Reporter
-from skillc.services.run_recordings import find_obstacle
+from skillc.services.reporting.reporter import Reporter
+from skillc.services.run.recordings import find_obstacle
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.checkpoints import CheckpointError
 from skillc_runtime.execution.consistency import check_events

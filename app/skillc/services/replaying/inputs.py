@@ -10,13 +10,13 @@ from tempfile import TemporaryDirectory
 from msgspec import structs
 
 from skillc.errors import RequestError, ServiceError
-from skillc.services.backends import adapt_library
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.files import inspect_path
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import SHIPPED, find_library
+from skillc.services.project.backends import adapt_library
 from skillc.services.project.loading import find_project
-from skillc.services.recordings import find_mcap, find_recording, is_mcap, read_envelopes
-from skillc.services.reporting import Reporter
+from skillc.services.recording.recordings import find_mcap, find_recording, is_mcap, read_envelopes
+from skillc.services.reporting.files import inspect_path
+from skillc.services.reporting.reporter import Reporter
 from skillc_model.codec import LibraryError, loads
 from skillc_model.skills import Primitive, SkillLibrary
 from skillc_runtime.recording.events import Event, TaskStarted

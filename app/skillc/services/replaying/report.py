@@ -6,16 +6,16 @@ from contextlib import closing
 from pathlib import Path
 
 from skillc.errors import ServiceError
-from skillc.services.files import writing_to
-from skillc.services.picture_making import ShowProgress, making_pictures, no_progress
+from skillc.services.recording.picture_making import ShowProgress, making_pictures, no_progress
 from skillc.services.replaying.check import build_cell, repeat
 from skillc.services.replaying.inputs import read_inputs
-from skillc.services.reporting import Reporter
-from skillc.services.run_result import ReportDestination, RunResult, begin_film, check_film, make_samples, report_run
+from skillc.services.reporting.files import writing_to
+from skillc.services.reporting.reporter import Reporter
+from skillc.services.run.result import ReportDestination, RunResult, begin_film, check_film, make_samples, report_run
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.execute import describe_execution
 from skillc_runtime.execution.repeat import NotRepeatable
-from skillc_runtime.recording.history_builder import HistoryBuilder
+from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.recording.run_spec import RunSpec
 
 

@@ -12,7 +12,6 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from skillc.errors import RequestError
-from skillc.services.additions import add_device_files
 from skillc.services.project.manifest import NAME
 from skillc.services.project.project import Project
 from skillc.services.robot_import.comparison import POSTURES, Differences
@@ -23,6 +22,7 @@ from skillc.services.robot_import.reader import read_robot
 from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.sheet_writer import COMMON, CONTROLLERS, GAINS, TEXTS, SheetFacts, write_sheet
 from skillc.services.robot_import.shipped_sheet import ShippedSheet, read_shipped_sheet
+from skillc.services.scaffolding.additions import add_device_files
 from skillc_runtime.motion.pose import Array
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.control.virtual_arm import VirtualArm, load_virtual_model
+from skillc_runtime.control.laws.virtual_arm import VirtualArm, load_virtual_model
 from skillc_runtime.kinematics.inverse import find_posture
 from skillc_runtime.motion.pose import Array, Pose, exp
 

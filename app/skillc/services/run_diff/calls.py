@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import zip_longest
 
-from skillc.contract.run_diff import Difference, Leaf
+from skillc.contract.runs.run_diff import Difference, Leaf
 from skillc.services.run_diff.alignment import align
 from skillc.services.run_diff.difference import compare_mappings, find_difference
-from skillc_runtime.recording.history import Attempt, RecordedCall, RunHistory
-from skillc_runtime.world.state.labelled import LabelledValue
-from skillc_runtime.world.state.labelled_text import format_value
+from skillc_runtime.recording.history.history import Attempt, RecordedCall, RunHistory
+from skillc_runtime.world.state.labels.labelled import LabelledValue
+from skillc_runtime.world.state.labels.labelled_text import format_value
 
 CallPair = tuple[RecordedCall, RecordedCall]
 

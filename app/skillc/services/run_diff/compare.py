@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 
-from skillc.contract.run_diff import Difference, Leaf, Part, RunDiff
+from skillc.contract.runs.run_diff import Difference, Leaf, Part, RunDiff
 from skillc.services.run_diff.alignment import align
 from skillc.services.run_diff.calls import (
     compare_choices,
@@ -25,7 +25,7 @@ from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.recording.events import Disturbed, Requested, TaskStarted
 from skillc_runtime.recording.known_facts import format_status
 from skillc_runtime.recording.run_spec import RunRequest, TaskRequest
-from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelled import LabelledIri
 
 SETTINGS = tuple(
     each for each in RunRequest.__struct_fields__ if each not in (*TaskRequest.__struct_fields__, "step", "breakpoints")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TypeAlias
 
-from skillc.contract.run_diff import Difference, Leaf, Part
+from skillc.contract.runs.run_diff import Difference, Leaf, Part
 
 Pair: TypeAlias = tuple[Leaf, Leaf]
 

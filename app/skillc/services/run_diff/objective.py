@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import assert_never
 
-from skillc.contract.run_diff import Difference
+from skillc.contract.runs.run_diff import Difference
 from skillc.services.run_diff.alignment import align
 from skillc.services.run_diff.difference import find_difference
 from skillc_model.format_condition import format_condition, format_expression

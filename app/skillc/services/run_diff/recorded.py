@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from skillc.errors import ServiceError
-from skillc.services.recordings import (
+from skillc.services.recording.recordings import (
     find_mcap,
     find_recording,
     is_mcap,
@@ -19,14 +19,14 @@ from skillc.services.recordings import (
     read_result,
     read_signals,
 )
-from skillc.services.reporting import Reporter
-from skillc.services.signal_files import read_signal_dictionary
+from skillc.services.reporting.reporter import Reporter
+from skillc.services.run.signal_files import read_signal_dictionary
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import Event, TaskStarted
-from skillc_runtime.recording.history import RunHistory
-from skillc_runtime.recording.history_builder import read_history
+from skillc_runtime.recording.history.history import RunHistory
+from skillc_runtime.recording.history.history_builder import read_history
 from skillc_runtime.recording.signals.files import DICTIONARY
 from skillc_runtime.recording.signals.signal import CLOCK
 

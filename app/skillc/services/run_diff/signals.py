@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from skillc.contract.run_diff import Difference
+from skillc.contract.runs.run_diff import Difference
 from skillc.services.run_diff.difference import find_difference
 from skillc_runtime.motion.pose import Array
 

@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 
 from skillc.errors import ServiceError
-from skillc.services.files import inspect_path
+from skillc.services.reporting.files import inspect_path
 from skillc.services.scenery.sdf import read_sdf
 from skillc_runtime.motion.pose import Array, Pose
 

@@ -10,9 +10,9 @@ import numpy as np
 import pyoxigraph as ox
 
 from skillc.errors import RequestError, ServiceError
-from skillc.services.files import writing_to
-from skillc.services.scene_file import SceneFile
-from skillc.services.scene_things import Pairs, PoseRequest
+from skillc.services.reporting.files import writing_to
+from skillc.services.scene.scene_file import SceneFile
+from skillc.services.scene.things import Pairs, PoseRequest
 from skillc.services.scenery.reading import ImportedFile, ImportedMesh, ImportedSolid, read_scenery
 from skillc_rdf.turtle.terms import RDF_TYPE, XSD
 from skillc_runtime.motion.pose import Pose, angles_from_rotation, rotation_from_angles

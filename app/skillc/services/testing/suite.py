@@ -10,14 +10,14 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc.errors import DiagnosticsError, RequestError
-from skillc.services.compiled_libraries import compile_valid
-from skillc.services.files import inspect_path
-from skillc.services.libraries_below import find_libraries
-from skillc.services.library_files import SHIPPED, LibraryFiles, find_library
-from skillc.services.planning import prepare_planners
-from skillc.services.reporting import SilentReporter
-from skillc.services.stores import load_world
-from skillc.services.task_loading import find_scene_of
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import SHIPPED, LibraryFiles, find_library
+from skillc.services.library.libraries_below import find_libraries
+from skillc.services.planning.planning import prepare_planners
+from skillc.services.reporting.files import inspect_path
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.scene.stores import load_world
+from skillc.services.tasks.loading import find_scene_of
 from skillc.services.testing.coverage import Coverage
 from skillc.services.testing.failures import FAILED, find_failures
 from skillc.services.testing.running import TestRun, run_test

@@ -15,7 +15,7 @@ from skillc_runtime.evaluation.report.summary import summarise_recording
 from skillc_runtime.evaluation.report.write import write_report, write_result
 from skillc_runtime.platforms.watchdog_program import STATE, SharedState
 from skillc_runtime.recording.ending import end_recording
-from skillc_runtime.recording.history import RecordedCall, RunHistory
+from skillc_runtime.recording.history.history import RecordedCall, RunHistory
 from skillc_runtime.recording.reader import TraceError
 
 DESCRIPTION = "run.json"

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from skillc_runtime.backends.control_process.command_limits import CommandLimits
-from skillc_runtime.backends.control_process.facts import read_rate_limits
+from skillc_runtime.backends.control_process.periods.command_limits import CommandLimits
+from skillc_runtime.backends.control_process.periods.facts import read_rate_limits
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.devices.arm import ArmState, Command, Mode, command_values

@@ -10,8 +10,8 @@ from skillc_runtime.backends.control_process.fingers import find_fingers
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
+from skillc_runtime.backends.simulation.arms.start_postures import find_overlap
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
-from skillc_runtime.backends.simulation.start_postures import find_overlap
 from skillc_runtime.devices.command_record import ArmCommands
 from skillc_runtime.devices.observed import ObservedArm, ObservedCell
 from skillc_runtime.motion.pose import Array

@@ -11,11 +11,11 @@ import mujoco
 from skillc_runtime.backends.control_process.fingers import find_fingers
 from skillc_runtime.backends.control_process.placed_things import PlacedThings
 from skillc_runtime.backends.kinematic.riders import Riders
-from skillc_runtime.backends.simulation.drawing import ModelDrawing
-from skillc_runtime.backends.simulation.model_builder import build_model
+from skillc_runtime.backends.simulation.model.drawing import ModelDrawing
+from skillc_runtime.backends.simulation.model.model_builder import build_model
 from skillc_runtime.backends.simulation.names import base_body_name, part_name
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
-from skillc_runtime.backends.simulation.variation import exact_variation
+from skillc_runtime.backends.simulation.variation.variation import exact_variation
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.drawing import Posture
 from skillc_runtime.devices.gripper import Gripper

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from skillc_runtime.backends.control_process.link import LinkAbilities, LinkDescription
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
-from skillc_runtime.control.watchdog import HEARTBEAT_TIMEOUT_S
+from skillc_runtime.control.supervision.watchdog import HEARTBEAT_TIMEOUT_S
 from skillc_runtime.devices.arm import ArmLimits, Mode
 
 

@@ -10,19 +10,19 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.control_process.control_watch import find_control_state
 from skillc_runtime.backends.control_process.joint_doubts import (
     find_beyond,
     find_confusion,
     find_opposite_speeds,
     find_opposite_weights,
 )
-from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.control_process.remote.control_watch import find_control_state
+from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.real_time.device_cell import CellDevices
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
 from skillc_runtime.control.kinematics import Kinematics
+from skillc_runtime.control.laws.virtual_arm import load_virtual_model
 from skillc_runtime.control.measured import is_still
-from skillc_runtime.control.virtual_arm import load_virtual_model
 from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.devices.backend import DeviceStop
 from skillc_runtime.devices.observed import (

@@ -11,14 +11,14 @@ from time import monotonic
 from typing import TypeAlias
 
 from skillc_runtime import primitives
-from skillc_runtime.backends.control_process.cycle_feed import CycleFeed, FedArm
-from skillc_runtime.backends.control_process.facts import read_patience
 from skillc_runtime.backends.control_process.ghost import Ghost
 from skillc_runtime.backends.control_process.handshake import ControlTask, Patience
-from skillc_runtime.backends.control_process.host import ControlProcess
 from skillc_runtime.backends.control_process.link import ControlRefused, LinkDescription
 from skillc_runtime.backends.control_process.observing import DeviceObserver
-from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.control_process.periods.facts import read_patience
+from skillc_runtime.backends.control_process.remote.cycle_feed import CycleFeed, FedArm
+from skillc_runtime.backends.control_process.remote.host import ControlProcess
+from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.control_process.things import find_things
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec, read_scene_spec

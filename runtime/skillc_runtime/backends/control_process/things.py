@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import mujoco
 
-from skillc_runtime.backends.simulation.model_builder import build_model
+from skillc_runtime.backends.simulation.model.model_builder import build_model
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
-from skillc_runtime.backends.simulation.variation import exact_variation
+from skillc_runtime.backends.simulation.variation.variation import exact_variation
 from skillc_runtime.devices.arm import ArmLoad
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face

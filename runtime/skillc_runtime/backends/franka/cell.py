@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from contextlib import ExitStack
 
 from skillc_runtime.backends.control_process.opening import open_cell
-from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.franka.facts import describe, read_address
 from skillc_runtime.backends.franka.hand import FrankaHand
 from skillc_runtime.backends.franka.library import load_library

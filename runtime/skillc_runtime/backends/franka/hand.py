@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.devices.measured_gripper import MeasuredGripper
 from skillc_runtime.backends.franka.hand_client import HandClient
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec

@@ -8,9 +8,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.simulation.arm import ModelledArm
-from skillc_runtime.backends.simulation.arm_sensing import TOOL
-from skillc_runtime.backends.simulation.motors import ServoGains, Servos
+from skillc_runtime.backends.simulation.arms.arm import ModelledArm
+from skillc_runtime.backends.simulation.arms.motors import ServoGains, Servos
+from skillc_runtime.backends.simulation.arms.sensing import TOOL
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.devices.arm import ArmLimits, ArmState

@@ -10,17 +10,17 @@ from skillc_runtime.backends.kinematic.arm import KinematicArm
 from skillc_runtime.backends.kinematic.gripper import KinematicGripper
 from skillc_runtime.backends.kinematic.riders import Riders
 from skillc_runtime.backends.kinematic.touch import Touch
-from skillc_runtime.backends.simulation.camera import EXACT_INSPECTION, SimulatedCamera
+from skillc_runtime.backends.simulation.cameras.camera import EXACT_INSPECTION, SimulatedCamera
+from skillc_runtime.backends.simulation.cameras.pose_camera import SimulatedPoseCamera
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_checkpoint
-from skillc_runtime.backends.simulation.contact_bits import SOLID
-from skillc_runtime.backends.simulation.observer import Carrier
+from skillc_runtime.backends.simulation.model.contact_bits import SOLID
 from skillc_runtime.backends.simulation.parts import HeldTool
-from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
 from skillc_runtime.backends.simulation.saved_cell import read_scene_again
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.steps import InPython
-from skillc_runtime.backends.simulation.variation import Variation, exact_variation
+from skillc_runtime.backends.simulation.truth.observer import Carrier
+from skillc_runtime.backends.simulation.variation.variation import Variation, exact_variation
 from skillc_runtime.devices.backend import BackendStart
 from skillc_runtime.motion.numerics.program import Part
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.arms.arm import ModelledArm
 from skillc_runtime.backends.simulation.checkpoint import SavedGrip
 from skillc_runtime.backends.simulation.contacts import Contacts
-from skillc_runtime.backends.simulation.finger_sensor import FingerSensor
-from skillc_runtime.backends.simulation.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.hands.finger_sensor import FingerSensor
+from skillc_runtime.backends.simulation.hands.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
 from skillc_runtime.motion.arrays import OutVector, Vector

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from skillc_runtime.backends.simulation.bases.standing import find_standing
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
-from skillc_runtime.backends.simulation.standing import find_standing
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 
 

@@ -21,7 +21,7 @@ from skillc_runtime.backends.kinematic.contact import (
 )
 from skillc_runtime.backends.kinematic.contact_sensors import ContactSensors
 from skillc_runtime.backends.kinematic.yielding import YieldingParts
-from skillc_runtime.backends.simulation.contact_bits import HANDLE, PAD, WORKS
+from skillc_runtime.backends.simulation.model.contact_bits import HANDLE, PAD, WORKS
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.motion.arrays import OutVector

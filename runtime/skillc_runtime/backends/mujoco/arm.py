@@ -7,13 +7,13 @@ from math import inf
 
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.wrist import Wrist
-from skillc_runtime.backends.simulation.arm import ModelledArm, Payload
-from skillc_runtime.backends.simulation.brakes import Brakes
-from skillc_runtime.backends.simulation.command_link import find_greatest_delay, make_command_link
-from skillc_runtime.backends.simulation.joint_friction import make_joint_friction
+from skillc_runtime.backends.simulation.arms.arm import ModelledArm, Payload
+from skillc_runtime.backends.simulation.arms.brakes import Brakes
+from skillc_runtime.backends.simulation.arms.command_link import find_greatest_delay, make_command_link
+from skillc_runtime.backends.simulation.arms.joint_friction import make_joint_friction
+from skillc_runtime.backends.simulation.arms.whole_mass import WholeMass
 from skillc_runtime.backends.simulation.noise import make_joint_noise, make_wrist_noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
-from skillc_runtime.backends.simulation.whole_mass import WholeMass
 from skillc_runtime.devices.arm import NotOffered
 from skillc_runtime.devices.reality import NO_SIZES, Sizes
 from skillc_runtime.motion.pose import Array, Pose

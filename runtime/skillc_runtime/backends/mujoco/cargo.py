@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.backends.simulation.base import BaseStep
-from skillc_runtime.backends.simulation.base_drive import STEPS_PER_LOOK
+from skillc_runtime.backends.simulation.bases.base import BaseStep
+from skillc_runtime.backends.simulation.bases.base_drive import STEPS_PER_LOOK
 from skillc_runtime.backends.simulation.cargo import Cargo
 from skillc_runtime.backends.simulation.contacts import Contacts
-from skillc_runtime.backends.simulation.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.hands.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.motion.pose import Array, Pose, log
 

@@ -11,15 +11,15 @@ from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
 from skillc_runtime.backends.mujoco.parts import Drive, HalfStep, SlipWatch
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.stillness import lie_still
-from skillc_runtime.backends.simulation.brakes import Brakes
+from skillc_runtime.backends.simulation.arms.brakes import Brakes
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_checkpoint
-from skillc_runtime.backends.simulation.observer import Carrier
 from skillc_runtime.backends.simulation.parts import HeldTool
 from skillc_runtime.backends.simulation.saved_cell import read_scene_again
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.steps import ForItself, OnMemory
-from skillc_runtime.backends.simulation.variation import Variation, draw_variation
+from skillc_runtime.backends.simulation.truth.observer import Carrier
+from skillc_runtime.backends.simulation.variation.variation import Variation, draw_variation
 from skillc_runtime.devices.backend import BackendStart
 from skillc_runtime.motion.numerics.program import Part
 from skillc_runtime.world.state.model import WorldModel

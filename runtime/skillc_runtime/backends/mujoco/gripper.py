@@ -12,12 +12,12 @@ import numpy as np
 from skillc_runtime.backends.mujoco.grip import IS_DUE, SLIPS, Grip, make_grip
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.pressing_force import pressing_force
-from skillc_runtime.backends.simulation.arm import ModelledArm
-from skillc_runtime.backends.simulation.base import BaseStep
+from skillc_runtime.backends.simulation.arms.arm import ModelledArm
+from skillc_runtime.backends.simulation.bases.base import BaseStep
 from skillc_runtime.backends.simulation.checkpoint import SavedGrip
-from skillc_runtime.backends.simulation.finger_sensor import make_finger_sensor
-from skillc_runtime.backends.simulation.gripper import ModelledGripper
-from skillc_runtime.backends.simulation.loss_watch import LossWatch, may_be_lost
+from skillc_runtime.backends.simulation.hands.finger_sensor import make_finger_sensor
+from skillc_runtime.backends.simulation.hands.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.hands.loss_watch import LossWatch, may_be_lost
 from skillc_runtime.backends.simulation.names import part_name, weld_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
 from skillc_runtime.motion.numerics.compiled import Bound, bind

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
 from skillc_runtime.backends.mujoco.mirror import Half
 from skillc_runtime.backends.mujoco.physics import Physics
-from skillc_runtime.backends.simulation.base import SimulatedBase
+from skillc_runtime.backends.simulation.bases.base import SimulatedBase
 from skillc_runtime.backends.simulation.cargo import Cargo
 from skillc_runtime.motion.numerics.program import IDLE, Rows, join, row_of
 

@@ -20,14 +20,14 @@ from skillc_runtime.backends.mujoco.divergence import DivergenceMonitor
 from skillc_runtime.backends.mujoco.far_bodies import FarBodies, make_far_bodies
 from skillc_runtime.backends.mujoco.mirror import Half, Mirror, Pull
 from skillc_runtime.backends.mujoco.model_map import map_models
+from skillc_runtime.backends.simulation.arms.whole_mass import WholeMass
 from skillc_runtime.backends.simulation.contacts import Contacts
-from skillc_runtime.backends.simulation.hold import read_hold
 from skillc_runtime.backends.simulation.machine_code import address_of, has_room, row_calling, stop_timers
-from skillc_runtime.backends.simulation.model_builder import build_model
+from skillc_runtime.backends.simulation.model.hold import read_hold
+from skillc_runtime.backends.simulation.model.model_builder import build_model
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
-from skillc_runtime.backends.simulation.variation import Variation
-from skillc_runtime.backends.simulation.whole_mass import WholeMass
+from skillc_runtime.backends.simulation.variation.variation import Variation
 from skillc_runtime.motion.numerics.compiled import COMPILES
 from skillc_runtime.motion.numerics.program import IDLE, Rows, join, row_of
 from skillc_runtime.world.state.data_sheet import SheetError

@@ -8,7 +8,7 @@ from threading import Event, Thread
 from time import monotonic
 
 from skillc_runtime.backends.real_time.locked import DRIVER_PARTS, CellLock, locked
-from skillc_runtime.control.watchdog import HEARTBEAT_TIMEOUT_S, HeartbeatWatchdog
+from skillc_runtime.control.supervision.watchdog import HEARTBEAT_TIMEOUT_S, HeartbeatWatchdog
 from skillc_runtime.devices.arm_driver import ArmDriver
 from skillc_runtime.devices.backend import Backend, BackendBroken, DeviceStop, StopPersists
 from skillc_runtime.devices.base import MobileBase

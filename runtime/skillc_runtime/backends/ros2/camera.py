@@ -10,7 +10,7 @@ import numpy as np
 from skillc_runtime.backends.ros2.facts import CameraInterface
 from skillc_runtime.backends.ros2.receiver import Receiver, TopicFeed
 from skillc_runtime.backends.ros2.transforms import Transforms
-from skillc_runtime.backends.simulation.camera_spec import CameraSpec
+from skillc_runtime.backends.simulation.cameras.camera_spec import CameraSpec
 from skillc_runtime.devices.camera import PoseEstimate
 from skillc_runtime.motion.pose import Array
 

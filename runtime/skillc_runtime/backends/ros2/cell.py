@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from skillc_runtime.backends.control_process.opening import open_cell
+from skillc_runtime.backends.ros2.arms.link import Ros2Description
 from skillc_runtime.backends.ros2.devices import joints_of, make_devices
 from skillc_runtime.backends.ros2.facts import read_arm
-from skillc_runtime.backends.ros2.link import Ros2Description
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.control.gains import RobotGains, UnknownController, read_gains
 from skillc_runtime.devices.backend import Backend, BackendStart

@@ -9,7 +9,7 @@ from itertools import chain
 
 import mujoco
 
-from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.real_time.device_cell import CellDevices
 from skillc_runtime.backends.ros2.base import Ros2Base
 from skillc_runtime.backends.ros2.button import Ros2Button

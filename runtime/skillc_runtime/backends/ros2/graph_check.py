@@ -16,14 +16,14 @@ from skillc_runtime.backends.control_process.joint_doubts import (
     find_opposite_speeds,
     find_opposite_weights,
 )
+from skillc_runtime.backends.ros2.arms.joint_states import JointOrder
+from skillc_runtime.backends.ros2.arms.tool_commands import make_commands
 from skillc_runtime.backends.ros2.cell import describe
 from skillc_runtime.backends.ros2.description import Description
 from skillc_runtime.backends.ros2.device_check import check_devices, check_services
 from skillc_runtime.backends.ros2.facts import ArmInterface
-from skillc_runtime.backends.ros2.joint_states import JointOrder
 from skillc_runtime.backends.ros2.place_check import check_places
 from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
-from skillc_runtime.backends.ros2.tool_commands import make_commands
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.world_state import WorldState

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.devices.measured_gripper import MeasuredGripper
+from skillc_runtime.backends.ros2.arms.joint_states import JointOrder
 from skillc_runtime.backends.ros2.facts import GripperInterface
 from skillc_runtime.backends.ros2.finger_commands import make_finger_commands
-from skillc_runtime.backends.ros2.joint_states import JointOrder
 from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec
 

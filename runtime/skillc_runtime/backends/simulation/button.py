@@ -9,9 +9,9 @@ import msgspec
 import numpy as np
 
 from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec
-from skillc_runtime.backends.simulation.fixture_variation import FixtureVariation
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.steps import OnMemory
+from skillc_runtime.backends.simulation.variation.fixture_variation import FixtureVariation
 from skillc_runtime.motion.arrays import Vector
 from skillc_runtime.motion.numerics.compiled import bind, compiled
 from skillc_runtime.motion.pose import Array

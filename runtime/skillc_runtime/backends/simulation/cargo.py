@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from skillc_runtime.backends.simulation.base import BaseStep
+from skillc_runtime.backends.simulation.bases.base import BaseStep
+from skillc_runtime.backends.simulation.bases.standing import find_standing
 from skillc_runtime.backends.simulation.contacts import Contacts
-from skillc_runtime.backends.simulation.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.hands.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import base_body_name, part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
-from skillc_runtime.backends.simulation.standing import find_standing
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 
 

@@ -9,37 +9,37 @@ from typing import Any, Generic, TypeVar
 
 import mujoco
 
-from skillc_runtime.backends.simulation.arm import ModelledArm
-from skillc_runtime.backends.simulation.base import SimulatedBase
+from skillc_runtime.backends.simulation.arms.arm import ModelledArm
+from skillc_runtime.backends.simulation.arms.driver_factory import make_driver
+from skillc_runtime.backends.simulation.arms.stops import SimulatedStops
+from skillc_runtime.backends.simulation.bases.base import SimulatedBase
 from skillc_runtime.backends.simulation.button import SimulatedButton, make_buttons
-from skillc_runtime.backends.simulation.camera import SimulatedCamera
+from skillc_runtime.backends.simulation.cameras.camera import SimulatedCamera
+from skillc_runtime.backends.simulation.cameras.pose_camera import SimulatedPoseCamera
 from skillc_runtime.backends.simulation.cargo import Cargo
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, encode_checkpoint
-from skillc_runtime.backends.simulation.claims import find_false_claims
 from skillc_runtime.backends.simulation.contacts import Contacts
-from skillc_runtime.backends.simulation.disturber import SimulatedDisturber
-from skillc_runtime.backends.simulation.drawing import ModelDrawing
-from skillc_runtime.backends.simulation.driver_factory import make_driver
-from skillc_runtime.backends.simulation.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.hands.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.io_points import SimulatedPoint, make_points
 from skillc_runtime.backends.simulation.live_signals import make_live_signals
-from skillc_runtime.backends.simulation.model_builder import build_model
-from skillc_runtime.backends.simulation.mujoco_warnings import log_warnings
+from skillc_runtime.backends.simulation.model.drawing import ModelDrawing
+from skillc_runtime.backends.simulation.model.model_builder import build_model
+from skillc_runtime.backends.simulation.model.mujoco_warnings import log_warnings
 from skillc_runtime.backends.simulation.names import part_name
-from skillc_runtime.backends.simulation.observer import ToolObserver
 from skillc_runtime.backends.simulation.parts import ControlledArm, Listening
-from skillc_runtime.backends.simulation.person import make_people
-from skillc_runtime.backends.simulation.pose_camera import SimulatedPoseCamera
 from skillc_runtime.backends.simulation.saved_cell import read_posture, restore_cell, save_cell
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
 from skillc_runtime.backends.simulation.steps import Due, ForItself, InPython, OnMemory, Steps, is_due
-from skillc_runtime.backends.simulation.stops import SimulatedStops
-from skillc_runtime.backends.simulation.touch_recorder import TouchRecorder
-from skillc_runtime.backends.simulation.truth import SimulatedTruth
+from skillc_runtime.backends.simulation.truth.claims import find_false_claims
+from skillc_runtime.backends.simulation.truth.observer import ToolObserver
+from skillc_runtime.backends.simulation.truth.touch_recorder import TouchRecorder
+from skillc_runtime.backends.simulation.truth.truth import SimulatedTruth
 from skillc_runtime.backends.simulation.twin import keep_reported
-from skillc_runtime.backends.simulation.variation import Variation
+from skillc_runtime.backends.simulation.variation.disturber import SimulatedDisturber
+from skillc_runtime.backends.simulation.variation.person import make_people
+from skillc_runtime.backends.simulation.variation.variation import Variation
 from skillc_runtime.control.driver import CompliantArmDriver
-from skillc_runtime.control.watchdog import HeartbeatWatchdog
+from skillc_runtime.control.supervision.watchdog import HeartbeatWatchdog
 from skillc_runtime.devices.backend import BackendBroken, DeviceStop
 from skillc_runtime.devices.capabilities import BackendCapabilities
 from skillc_runtime.devices.device_map import DeviceMap

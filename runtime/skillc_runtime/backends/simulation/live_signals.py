@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from skillc_runtime.backends.simulation.arm import ModelledArm
+from skillc_runtime.backends.simulation.arms.arm import ModelledArm
 from skillc_runtime.backends.simulation.names import face_sensor_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.control.driver import CompliantArmDriver

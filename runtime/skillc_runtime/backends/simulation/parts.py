@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from skillc_runtime.backends.simulation.arm import ModelledArm
-from skillc_runtime.backends.simulation.arm_sensing import NOT_READY
-from skillc_runtime.backends.simulation.gripper import ModelledGripper
-from skillc_runtime.backends.simulation.observer import Carrier, ToolObserver
+from skillc_runtime.backends.simulation.arms.arm import ModelledArm
+from skillc_runtime.backends.simulation.arms.sensing import NOT_READY
+from skillc_runtime.backends.simulation.hands.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.truth.observer import Carrier, ToolObserver
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.motion.numerics.program import IDLE, Part, Rows, join, row_of
 

@@ -9,9 +9,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.simulation.base import SimulatedBase
+from skillc_runtime.backends.simulation.bases.base import SimulatedBase
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, PoseNumbers, list_numbers, make_pose
-from skillc_runtime.backends.simulation.gripper import ModelledGripper
+from skillc_runtime.backends.simulation.hands.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
 from skillc_runtime.motion.coverage import CoverageMap

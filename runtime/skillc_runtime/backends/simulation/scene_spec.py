@@ -8,8 +8,8 @@ from typing import Final
 
 import msgspec
 
-from skillc_runtime.backends.simulation.camera import EXACT_INSPECTION, InspectionSpec, read_inspection_camera
-from skillc_runtime.backends.simulation.camera_spec import CameraSpec, read_cameras
+from skillc_runtime.backends.simulation.cameras.camera import EXACT_INSPECTION, InspectionSpec, read_inspection_camera
+from skillc_runtime.backends.simulation.cameras.camera_spec import CameraSpec, read_cameras
 from skillc_runtime.backends.simulation.displacement import DisplacementRange, read_displacement_ranges
 from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec, read_fixtures
 from skillc_runtime.backends.simulation.friction import read_friction_range

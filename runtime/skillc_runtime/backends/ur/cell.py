@@ -9,7 +9,7 @@ from functools import partial
 
 from skillc_runtime.backends.control_process.handshake import USUAL_PATIENCE, Patience
 from skillc_runtime.backends.control_process.opening import open_cell
-from skillc_runtime.backends.control_process.remote_arm import RemoteArmDriver
+from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.devices.fingers import Fingers
 from skillc_runtime.backends.devices.gripper_facts import open_gripper
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell

@@ -10,7 +10,7 @@ from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import PressingWork, Work
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.data_sheet import number_of
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import BUTTON, PRESS_FORCE
 
 HELD_S = 0.1

@@ -11,7 +11,7 @@ from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.metrics.intervals import subtract_intervals, total_s
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.wiping import Wiping
-from skillc_runtime.recording.history import RecordedCall, RunHistory
+from skillc_runtime.recording.history.history import RecordedCall, RunHistory
 from skillc_runtime.world.state.world_state import WorldState
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import TeachingWork, Work
 from skillc_runtime.world.space.frames import pose
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import IS_TAUGHT, TAUGHT_POSE
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import InsertingWork, Work
 from skillc_runtime.world.state.data_sheet import number_of
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import CONTAIN, DEPTH, PEG, SOCKET
 
 

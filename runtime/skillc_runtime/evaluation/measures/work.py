@@ -7,7 +7,7 @@ from typing import TypeAlias
 import msgspec
 
 from skillc_runtime.evaluation.report.result import WipingResult
-from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelled import LabelledIri
 
 
 class WipingWork(msgspec.Struct, frozen=True, kw_only=True, tag="wiping"):

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.bodies import read_bodies
-from skillc_runtime.world.space.outlines import convex_hull, outline_points
-from skillc_runtime.world.state.labelled import display_name
+from skillc_runtime.world.space.shape.outlines import convex_hull, outline_points
+from skillc_runtime.world.state.labels.labelled import display_name
 from skillc_runtime.world.state.world_state import WorldState
 
 

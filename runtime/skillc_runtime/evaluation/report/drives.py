@@ -9,7 +9,7 @@ import numpy as np
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.work_result import DriveResult
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelling import label
 
 LEAST_M = 0.02
 """A base that moved less did not drive."""

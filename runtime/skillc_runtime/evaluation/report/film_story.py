@@ -9,9 +9,9 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.film.captions import Caption, FilmEnding
 from skillc_runtime.film.footage import Moment, Story
-from skillc_runtime.recording.history import RecordedCall, RunHistory
+from skillc_runtime.recording.history.history import RecordedCall, RunHistory
 from skillc_runtime.recording.known_facts import format_status
-from skillc_runtime.world.state.labelled import LabelledIri, display_name
+from skillc_runtime.world.state.labels.labelled import LabelledIri, display_name
 from skillc_runtime.world.state.terms import ARM_DEVICE, END_EFFECTOR, HAS_ARM
 from skillc_runtime.world.state.world_state import WorldState
 

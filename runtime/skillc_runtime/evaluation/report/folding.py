@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history.node_outcome import NodeOutcome
 
 MOST_ROWS, LAST_ROWS = 100, 10
 """Of longer tables the first and the last rows are shown, and those that did not succeed."""

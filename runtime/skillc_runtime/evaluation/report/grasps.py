@@ -8,7 +8,7 @@ from skillc_runtime.evaluation.report.handlings import Handling
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.work_result import GraspResult
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelling import label
 
 SETTLED_S = 0.2
 """How long after a grasp the grip is read."""

@@ -11,7 +11,7 @@ from skillc_runtime.evaluation.report.pushes import find_pushes
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.work_result import GuidanceResult
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import ARM_DEVICE
 
 LEAST_S = 0.5

@@ -17,8 +17,8 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import read_bodies, read_body
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
-from skillc_runtime.world.space.outlines import outline_points
-from skillc_runtime.world.state.labelled import display_name
+from skillc_runtime.world.space.shape.outlines import outline_points
+from skillc_runtime.world.state.labels.labelled import display_name
 from skillc_runtime.world.state.terms import CONTAINER, TOOL
 from skillc_runtime.world.state.world_state import WorldState
 

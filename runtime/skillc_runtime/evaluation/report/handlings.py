@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 import msgspec
 from msgspec.structs import replace
 
-from skillc_runtime.recording.history import RecordedCall, RunHistory
-from skillc_runtime.world.state.labelled import LabelledIri, LabelledPose
+from skillc_runtime.recording.history.history import RecordedCall, RunHistory
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledPose
 from skillc_runtime.world.state.terms import ARM_DEVICE, END_EFFECTOR
 from skillc_runtime.world.state.world_state import WorldState
 

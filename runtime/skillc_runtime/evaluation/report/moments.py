@@ -13,8 +13,8 @@ import numpy as np
 from skillc_runtime.devices.ground_truth import GroundTruth, Recording, join_recordings
 from skillc_runtime.evaluation.report.wiping import Wiping
 from skillc_runtime.film.footage import Moment
-from skillc_runtime.recording.history import RecordedCall, RunHistory
-from skillc_runtime.world.state.labelled import display_name
+from skillc_runtime.recording.history.history import RecordedCall, RunHistory
+from skillc_runtime.world.state.labels.labelled import display_name
 from skillc_runtime.world.state.terms import ARM_DEVICE
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -18,9 +18,9 @@ from skillc_runtime.evaluation.report.table import (
     split_placement,
 )
 from skillc_runtime.evaluation.report.work_figure import DrawnFigure
+from skillc_runtime.recording.history.node_outcome import NodeOutcome
 from skillc_runtime.recording.known_facts import format_false_claim, format_status, format_unverified, unverified_facts
-from skillc_runtime.recording.node_outcome import NodeOutcome
-from skillc_runtime.world.state.labelled_text import format_value
+from skillc_runtime.world.state.labels.labelled_text import format_value
 
 if TYPE_CHECKING:
     from skillc_runtime.film.footage import FilmFiles

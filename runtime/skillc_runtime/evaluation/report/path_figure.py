@@ -13,7 +13,7 @@ from matplotlib.patheffects import withStroke
 from skillc_runtime.evaluation.report.figure_style import DIM, GRID, INK, PAPER, SHADE, TRUTH, WIDTH_IN, thin_rows
 from skillc_runtime.evaluation.report.handling_drawing import DrawnBody, HandlingDrawing, Role, choose_axes, find_extent
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.space.outlines import convex_hull
+from skillc_runtime.world.space.shape.outlines import convex_hull
 
 EMPTY, LOADED = DIM, TRUTH
 """Colours of the path of an empty hand and of one with a thing."""

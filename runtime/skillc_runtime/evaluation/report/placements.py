@@ -17,7 +17,7 @@ from skillc_runtime.world.space.frame_tree import FrameError, frame_tree_of
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.evidence import DecidingWrite, describe_evidence
 from skillc_runtime.world.state.facts import PropertyFact, RelationFact
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, MANIPULATABLE, POSITION
 from skillc_runtime.world.state.world_state import WorldState

@@ -13,9 +13,9 @@ from skillc_runtime.evaluation.report.arm_trace import ArmPath
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.work_result import ForceSource, PushResult
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.recording.history import RecordedCall
-from skillc_runtime.world.state.labelled import LabelledIri, LabelledVector, Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.recording.history.history import RecordedCall
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledVector, Quantity
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import ARM_DEVICE, BUTTON, END_EFFECTOR, FIXTURE, LOCATION, ROBOT, SURFACE
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -9,11 +9,11 @@ import msgspec
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.work_result import WorkResult
 from skillc_runtime.recording.failure import Failure, Rejection
-from skillc_runtime.recording.history import LoopRound
+from skillc_runtime.recording.history.history import LoopRound
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.recording.states import EndState
-from skillc_runtime.world.state.labelled import LabelledIri, LabelledValue
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledValue
 
 
 class StepResult(msgspec.Struct, frozen=True, kw_only=True):

@@ -15,7 +15,7 @@ from skillc_runtime.evaluation.report.handlings import Handling, find_handlings
 from skillc_runtime.evaluation.report.run_trace import RunTrace
 from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
 from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_wiping_drawing
-from skillc_runtime.recording.history import RunHistory
+from skillc_runtime.recording.history.history import RunHistory
 from skillc_runtime.world.state.terms import ARM_DEVICE, CONTAIN, FORCE_TORQUE_SENSOR, HAS_GRIPPER, HAS_SENSOR
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -12,7 +12,7 @@ from skillc_runtime.evaluation.report.pushes import PushRecord, find_pushes
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.work_result import SearchResult
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelling import label
 
 WORLD = ("x in the world", "y in the world")
 LEVEL_COSINE = 0.99

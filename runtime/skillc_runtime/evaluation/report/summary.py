@@ -23,10 +23,10 @@ from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
 from skillc_runtime.evaluation.report.work_result import WorkResult
 from skillc_runtime.execution.execute import Execution
 from skillc_runtime.recording.failure_text import describe_failure
-from skillc_runtime.recording.history import Attempt, RecordedCall, RunHistory
+from skillc_runtime.recording.history.history import Attempt, RecordedCall, RunHistory
 from skillc_runtime.recording.states import EndState
-from skillc_runtime.world.state.labelled import LabelledIri
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_ARM
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -14,7 +14,7 @@ from skillc_runtime.evaluation.report.result import (
 from skillc_runtime.evaluation.report.work_rows import list_work_rows, shorten_rows
 from skillc_runtime.recording.failure_text import list_details
 from skillc_runtime.recording.known_facts import format_evidence
-from skillc_runtime.world.state.labelled_text import format_fact
+from skillc_runtime.world.state.labels.labelled_text import format_fact
 
 
 def list_failure_details(result: TaskResult) -> list[str]:

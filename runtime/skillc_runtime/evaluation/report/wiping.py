@@ -11,11 +11,11 @@ from skillc_runtime.evaluation.metrics.intervals import Interval, exclude_pauses
 from skillc_runtime.evaluation.metrics.wiping import WipingSetup, measure_wiping
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.primitives.primitive import Activity
-from skillc_runtime.recording.history import RecordedCall, RunHistory
+from skillc_runtime.recording.history.history import RecordedCall, RunHistory
 from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.space.surfaces import least_force_n, surface_layout
-from skillc_runtime.world.state.labelled import Quantity
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import ARM_DEVICE, SURFACE, TOOL
 from skillc_runtime.world.state.world_state import WorldState
 

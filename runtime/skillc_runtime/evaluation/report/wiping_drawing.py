@@ -14,7 +14,7 @@ from skillc_runtime.evaluation.metrics.lane_dwell import DWELL_SHARE, find_lane_
 from skillc_runtime.evaluation.metrics.wiping import measure_coverage
 from skillc_runtime.evaluation.report.wiping import Wiping, wiping_setup
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.state.labelled import display_name
+from skillc_runtime.world.state.labels.labelled import display_name
 from skillc_runtime.world.state.world_state import WorldState
 
 DECIMATION = 5

@@ -17,7 +17,7 @@ from skillc_runtime.evaluation.report.search_drawing import make_search_drawing
 from skillc_runtime.evaluation.report.searches import find_searches
 from skillc_runtime.evaluation.report.work_figure import WorkFigure
 from skillc_runtime.evaluation.report.work_kinds import find_other_pushes
-from skillc_runtime.world.state.labelled import display_name
+from skillc_runtime.world.state.labels.labelled import display_name
 
 MOST_FIGURES = 8
 """At most so many figures of one kind are drawn; the numbers of all work are in the result."""

@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelled import LabelledIri
 
 ForceSource: TypeAlias = Literal["sensor", "estimate"]
 """What an arm knows a force from: a force-torque sensor, or an estimate from its motors."""

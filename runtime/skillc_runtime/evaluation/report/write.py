@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from skillc_runtime.evaluation.report.figure_files import FigureFiles, render_figure
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.work_figure import DrawnFigure, WorkFigure, number_files
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history.node_outcome import NodeOutcome
 
 if TYPE_CHECKING:
     from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing

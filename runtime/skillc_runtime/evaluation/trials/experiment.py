@@ -30,11 +30,11 @@ from skillc_runtime.execution.assignment import (
 )
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.events import Listener
-from skillc_runtime.recording.history_builder import HistoryBuilder
+from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.recording.known_facts import unverified_facts
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
-from skillc_runtime.world.state.labelled_text import format_fact
+from skillc_runtime.world.state.labels.labelled_text import format_fact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import ARM_DEVICE, CONTACT_FORCE_LIMIT, SURFACE, TOOL
 from skillc_runtime.world.state.world_state import WorldState

@@ -7,7 +7,7 @@ from typing import assert_never
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
-from skillc_runtime.backends.simulation.variation import (
+from skillc_runtime.backends.simulation.variation.variation import (
     Variation,
     add_obstacles,
     draw_variation,

@@ -11,8 +11,8 @@ from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.grounds import find_grounds
 from skillc_runtime.world.state.facts import Fact
-from skillc_runtime.world.state.labelled_text import format_fact
-from skillc_runtime.world.state.labelling import label_fact
+from skillc_runtime.world.state.labels.labelled_text import format_fact
+from skillc_runtime.world.state.labels.labelling import label_fact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.python_calls import EvaluationError
 

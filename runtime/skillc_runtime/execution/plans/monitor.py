@@ -9,7 +9,7 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.plans.progress import Progress, invalidation_reason, measure_progress
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history.node_outcome import NodeOutcome
 from skillc_runtime.world.state.changes import named_individuals
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.transactions import ChangeEvent

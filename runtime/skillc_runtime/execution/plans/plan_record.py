@@ -13,8 +13,8 @@ from skillc_runtime.planning.plan import LeftOut, Optimal, Plan, Solved, Step
 from skillc_runtime.primitives.planned_postures import PlannedPosture
 from skillc_runtime.recording.events import ArrivedPlan, PartLeftOut, PlanStep, StepGroup
 from skillc_runtime.recording.space_claim import SpaceClaim
-from skillc_runtime.world.state.labelled import LabelledIri
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelling import label
 
 
 def record_steps(plan: Plan, library: SkillLibrary) -> tuple[PlanStep, ...]:

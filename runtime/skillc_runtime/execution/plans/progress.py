@@ -11,7 +11,7 @@ from skillc_runtime.execution.plans.plan_body import achieved_condition
 from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.validation import PlanError, apply_effects, apply_step, check_goal_reached
-from skillc_runtime.recording.node_outcome import NodeOutcome
+from skillc_runtime.recording.history.node_outcome import NodeOutcome
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.python_calls import EvaluationError

@@ -24,7 +24,7 @@ def name_goal_places(answer: T, goal: Condition, state: WorldState) -> T | GaveU
     if not isinstance(answer, GaveUp):
         return answer
     # Whoever only plans needs no numpy.
-    from skillc_runtime.world.space.place_foresight import find_place_problem, list_wanted, uses_place_pose
+    from skillc_runtime.world.space.placing.place_foresight import find_place_problem, list_wanted, uses_place_pose
 
     if not uses_place_pose(state):
         return answer

@@ -41,12 +41,12 @@ from skillc_runtime.primitives.space_needs import (
     Take,
 )
 from skillc_runtime.world.space.cargo import cargo_changes, lies_on
-from skillc_runtime.world.space.chosen_places import end_of_reservation
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
-from skillc_runtime.world.space.grasp_geometry import is_sideways
+from skillc_runtime.world.space.grasping.grasp_geometry import is_sideways
 from skillc_runtime.world.space.hollow import gap_below
 from skillc_runtime.world.space.occupants import read_occupants
+from skillc_runtime.world.space.placing.chosen_places import end_of_reservation
 from skillc_runtime.world.space.whereabouts import holders_of
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.terms import HELD_SIDEWAYS

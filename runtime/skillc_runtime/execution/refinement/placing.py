@@ -11,9 +11,9 @@ from skillc_model.conditions import Expression, Invoke
 from skillc_model.skills import Let
 from skillc_runtime.execution.refinement.situation import ChosenPlace, Situation
 from skillc_runtime.world.eval.expressions import value_of
-from skillc_runtime.world.space.chosen_places import at_support, list_places, reservation_changes
-from skillc_runtime.world.space.place_foresight import PLACE_POSE
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.space.placing.chosen_places import at_support, list_places, reservation_changes
+from skillc_runtime.world.space.placing.place_foresight import PLACE_POSE
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.values import Value
 
 MOST: Final = 64

@@ -16,7 +16,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.standing_bases import leaving_changes
 from skillc_runtime.world.state.changes import AddRelation, Change
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
-from skillc_runtime.world.state.labelled import LabelledIri
+from skillc_runtime.world.state.labels.labelled import LabelledIri
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import ARM_DEVICE, AT, HAS_GRIPPER
 from skillc_runtime.world.state.world_state import WorldState

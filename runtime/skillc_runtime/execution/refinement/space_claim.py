@@ -16,7 +16,7 @@ from skillc_runtime.recording.space_claim import (
     UnseenCall,
     WayAround,
 )
-from skillc_runtime.world.state.labelling import label, label_pose
+from skillc_runtime.world.state.labels.labelling import label, label_pose
 
 if TYPE_CHECKING:
     from skillc_rdf.vocabulary.types import Vocabulary

@@ -16,7 +16,7 @@ from skillc_runtime.world.space.frames import placement_changes, pose
 from skillc_runtime.world.space.occupants import near_pairs, read_occupants
 from skillc_runtime.world.space.stands import read_stand, stand_changes, standing_pose
 from skillc_runtime.world.state.changes import AddRelation
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import AT
 from skillc_runtime.world.state.world_state import WorldState
 

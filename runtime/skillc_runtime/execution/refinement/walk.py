@@ -30,8 +30,8 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.effects import changes_of
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.grip_force import GraspError
-from skillc_runtime.world.space.no_place import PlaceError
+from skillc_runtime.world.space.grasping.grip_force import GraspError
+from skillc_runtime.world.space.placing.no_place import PlaceError
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS, EvaluationError

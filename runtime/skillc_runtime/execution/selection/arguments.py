@@ -7,9 +7,9 @@ from skillc_model.rounding import is_above
 from skillc_model.skills import Parameter
 from skillc_rdf.vocabulary.types import THING, ClassType, DirectionType, ValueType, Vocabulary, local_name
 from skillc_runtime.motion.arrays import np
-from skillc_runtime.world.state.labelled_text import format_value
-from skillc_runtime.world.state.labelling import label_value
-from skillc_runtime.world.state.value_types import is_of_type
+from skillc_runtime.world.state.consistency.value_types import is_of_type
+from skillc_runtime.world.state.labels.labelled_text import format_value
+from skillc_runtime.world.state.labels.labelling import label_value
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.vectors import is_vector
 from skillc_runtime.world.state.world_state import WorldState

@@ -15,8 +15,8 @@ from skillc_runtime.recording.failure import Rejection, Stage
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import value_of
-from skillc_runtime.world.state.labelled_text import format_value
-from skillc_runtime.world.state.labelling import label_bindings
+from skillc_runtime.world.state.labels.labelled_text import format_value
+from skillc_runtime.world.state.labels.labelling import label_bindings
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 

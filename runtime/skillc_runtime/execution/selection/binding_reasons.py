@@ -9,7 +9,7 @@ from skillc_model.traversal import free_variables
 from skillc_runtime.execution.selection.binding import BoundImplementation
 from skillc_runtime.recording.reasons import DecidingCondition, ParameterReason
 from skillc_runtime.world.eval.deciding_facts import deciding_facts
-from skillc_runtime.world.state.labelling import label
+from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -7,19 +7,25 @@ from typing import assert_never
 from msgspec.structs import replace
 
 from skillc_model import tree
-from skillc_runtime.execution.tree.call_node import CallNode
+from skillc_runtime.execution.tree.calls.call_node import CallNode
 from skillc_runtime.execution.tree.context import TreeContext
-from skillc_runtime.execution.tree.decorators import InvertNode, OnceNode, TimeoutNode, TryNode
-from skillc_runtime.execution.tree.if_node import IfNode
-from skillc_runtime.execution.tree.leaf_nodes import ApplyNode, CheckNode, WaitNode, WaitUntilNode
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
-from skillc_runtime.execution.tree.loop_nodes import ForEachNode, RepeatNode, RetryNode, WhileNode
 from skillc_runtime.execution.tree.node import Node
-from skillc_runtime.execution.tree.parallel import ParallelAll, ParallelAny, ParallelLead, ParallelNode, ParallelRace
-from skillc_runtime.execution.tree.selector import ReactiveSelectorNode, SelectorNode
-from skillc_runtime.execution.tree.sequence import ReactiveSequenceNode, SequenceNode
+from skillc_runtime.execution.tree.nodes.decorators import InvertNode, OnceNode, TimeoutNode, TryNode
+from skillc_runtime.execution.tree.nodes.if_node import IfNode
+from skillc_runtime.execution.tree.nodes.leaf_nodes import ApplyNode, CheckNode, WaitNode, WaitUntilNode
+from skillc_runtime.execution.tree.nodes.loop_nodes import ForEachNode, RepeatNode, RetryNode, WhileNode
+from skillc_runtime.execution.tree.nodes.parallel import (
+    ParallelAll,
+    ParallelAny,
+    ParallelLead,
+    ParallelNode,
+    ParallelRace,
+)
+from skillc_runtime.execution.tree.nodes.selector import ReactiveSelectorNode, SelectorNode
+from skillc_runtime.execution.tree.nodes.sequence import ReactiveSequenceNode, SequenceNode
+from skillc_runtime.execution.tree.nodes.with_node import WithNode
 from skillc_runtime.execution.tree.undo_stack import UndoStack
-from skillc_runtime.execution.tree.with_node import WithNode
 
 _PARALLEL: dict[str, type[ParallelNode]] = {
     "all": ParallelAll,

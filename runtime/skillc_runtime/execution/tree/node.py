@@ -14,7 +14,7 @@ from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.recording.events import NodeEnded, NodeStarted
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.reasons import FailedCallContext
-from skillc_runtime.world.state.labelled import LabelledValue
+from skillc_runtime.world.state.labels.labelled import LabelledValue
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 RUNNING, SUCCESS, FAILURE, HALTED = Status.RUNNING, Status.SUCCESS, Status.FAILURE, Status.HALTED

@@ -9,7 +9,7 @@ from skillc_model import tree
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.build import build_node
-from skillc_runtime.execution.tree.call_node import CallNode
+from skillc_runtime.execution.tree.calls.call_node import CallNode
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import LexicalScope
 from skillc_runtime.execution.tree.node import Node

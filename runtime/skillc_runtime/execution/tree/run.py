@@ -13,10 +13,10 @@ from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.success_facts import Claim
 from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.build import build_node
-from skillc_runtime.execution.tree.call_node import CallNode
+from skillc_runtime.execution.tree.calls.call_node import CallNode
+from skillc_runtime.execution.tree.calls.event_factory import make_change_event
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import make_error
-from skillc_runtime.execution.tree.event_factory import make_change_event
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.lexical_scope import CallFailures, LexicalScope
 from skillc_runtime.execution.tree.locks import DeviceLocks
@@ -30,8 +30,8 @@ from skillc_runtime.primitives.standing_bases import place_standing_bases
 from skillc_runtime.recording.contact import Contact
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.failure import Failure
+from skillc_runtime.recording.history.node_outcome import NodeOutcome
 from skillc_runtime.recording.listeners import Listeners
-from skillc_runtime.recording.node_outcome import NodeOutcome
 from skillc_runtime.recording.run_spec import AS_USUAL, RunSpec
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 from skillc_runtime.world.state.transactions import ChangeEvent

@@ -10,8 +10,8 @@ from skillc_runtime.execution.tree.lexical_scope import Frame
 from skillc_runtime.world.eval.grounds import Ground, find_grounds
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.evidence import DecidingWrite, stated_fact
-from skillc_runtime.world.state.labelled_text import format_fact
-from skillc_runtime.world.state.labelling import label_fact
+from skillc_runtime.world.state.labels.labelled_text import format_fact
+from skillc_runtime.world.state.labels.labelling import label_fact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.values import are_equal
 

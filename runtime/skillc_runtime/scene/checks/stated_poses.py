@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_runtime.scene.violation import SceneViolation
-from skillc_runtime.world.space.shapes import SHELF_BOARDS
+from skillc_runtime.world.space.shape.shapes import SHELF_BOARDS
 from skillc_runtime.world.state.terms import (
     ANCHOR,
     ANGLES,

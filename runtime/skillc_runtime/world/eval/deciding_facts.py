@@ -30,8 +30,8 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import iri_of
 from skillc_runtime.world.eval.identity_cache import IdentityCache
 from skillc_runtime.world.eval.quantifiers import candidates
-from skillc_runtime.world.state.labelled import LabelledClass, LabelledFact, LabelledIdentity
-from skillc_runtime.world.state.labelling import label, label_property, label_relation
+from skillc_runtime.world.state.labels.labelled import LabelledClass, LabelledFact, LabelledIdentity
+from skillc_runtime.world.state.labels.labelling import label, label_property, label_relation
 from skillc_runtime.world.state.properties import property_of, value_at
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.values import Value

@@ -21,9 +21,9 @@ from skillc_model.format_type import format_type
 from skillc_rdf.vocabulary.types import ValueType, Vocabulary, local_name
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.world.eval.identity_cache import IdentityCache
+from skillc_runtime.world.state.consistency.value_types import is_of_type
 from skillc_runtime.world.state.properties import property_of, value_from_python
 from skillc_runtime.world.state.python_calls import EvaluationError
-from skillc_runtime.world.state.value_types import is_of_type
 from skillc_runtime.world.state.values import Value, show
 from skillc_runtime.world.state.world_state import WorldState
 

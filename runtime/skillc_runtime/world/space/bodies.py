@@ -10,11 +10,11 @@ from msgspec.structs import replace
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.drawers import Slide, read_slide
-from skillc_runtime.world.space.extents import FRAME_HEIGHT
 from skillc_runtime.world.space.frame_tree import Unplaced
 from skillc_runtime.world.space.frames import pose, relative_pose, size
-from skillc_runtime.world.space.mesh_file import read_mesh
-from skillc_runtime.world.space.shapes import (
+from skillc_runtime.world.space.shape.extents import FRAME_HEIGHT
+from skillc_runtime.world.space.shape.mesh_file import read_mesh
+from skillc_runtime.world.space.shape.shapes import (
     BIN_WALL_M,
     SHELF_BOARDS,
     SHELF_WALL_M,
@@ -31,7 +31,7 @@ from skillc_runtime.world.space.shapes import (
     Table,
     solids_of,
 )
-from skillc_runtime.world.space.solids import Size, Solid, centre_of
+from skillc_runtime.world.space.shape.solids import Size, Solid, centre_of
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, text_of
 from skillc_runtime.world.state.terms import (
     AREA,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.space.extents import LocalBox
 from skillc_runtime.world.space.frame_tree import FrameTree, frame_tree_of
-from skillc_runtime.world.space.oriented_box import OrientedBox
+from skillc_runtime.world.space.shape.extents import LocalBox
+from skillc_runtime.world.space.shape.oriented_box import OrientedBox
 from skillc_runtime.world.state.terms import SIZE
 from skillc_runtime.world.state.world_state import WorldState
 

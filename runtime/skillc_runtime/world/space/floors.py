@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from skillc_runtime.motion.arrays import np
-from skillc_runtime.world.space.extents import LocalBox
-from skillc_runtime.world.space.shapes import Bin, ShapeError, Shelf, solids_of
+from skillc_runtime.world.space.shape.extents import LocalBox
+from skillc_runtime.world.space.shape.shapes import Bin, ShapeError, Shelf, solids_of
 
 
 def bin_floor(shape: Bin) -> LocalBox:

@@ -12,10 +12,10 @@ from weakref import WeakKeyDictionary, ref
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose, rotation_from_angles, rotation_from_quaternion
-from skillc_runtime.world.space.extents import LocalBox, Spot, contact_pose
 from skillc_runtime.world.space.floors import bin_floor, shelf_board
-from skillc_runtime.world.space.oriented_box import OrientedBox
-from skillc_runtime.world.space.shapes import BIN_WALL_M, SHELF_BOARDS, SHELF_WALL_M, Bin, ShapeError, Shelf
+from skillc_runtime.world.space.shape.extents import LocalBox, Spot, contact_pose
+from skillc_runtime.world.space.shape.oriented_box import OrientedBox
+from skillc_runtime.world.space.shape.shapes import BIN_WALL_M, SHELF_BOARDS, SHELF_WALL_M, Bin, ShapeError, Shelf
 from skillc_runtime.world.state.python_calls import InsufficientFacts
 from skillc_runtime.world.state.terms import (
     ANCHOR,

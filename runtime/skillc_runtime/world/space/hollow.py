@@ -6,8 +6,8 @@ from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.bodies import RigidBody, has_body, read_body
 from skillc_runtime.world.space.bounding_boxes import TOUCH_M, bounding_box, solid_box
-from skillc_runtime.world.space.oriented_box import OrientedBox
-from skillc_runtime.world.space.shapes import Bin
+from skillc_runtime.world.space.shape.oriented_box import OrientedBox
+from skillc_runtime.world.space.shape.shapes import Bin
 from skillc_runtime.world.state.terms import CONTAINER, SHAPE
 from skillc_runtime.world.state.world_state import WorldState
 

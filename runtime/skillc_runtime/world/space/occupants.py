@@ -14,8 +14,8 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import REGIONS, RigidBody, has_body, read_body
 from skillc_runtime.world.space.bounding_boxes import solid_box
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.oriented_box import OrientedBox
-from skillc_runtime.world.space.solids import Solid
+from skillc_runtime.world.space.shape.oriented_box import OrientedBox
+from skillc_runtime.world.space.shape.solids import Solid
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.terms import ARM_DEVICE, END_EFFECTOR, MANIPULATABLE, PERSON, SENSOR, SIZE
 from skillc_runtime.world.state.world_state import WorldState

@@ -9,7 +9,7 @@ from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.space.bodies import read_body
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.oriented_box import OrientedBox
+from skillc_runtime.world.space.shape.oriented_box import OrientedBox
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.terms import SHAPE
 from skillc_runtime.world.state.world_state import WorldState

@@ -10,7 +10,7 @@ from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bounding_boxes import solid_box
 from skillc_runtime.world.space.frame_tree import frame_tree_of
-from skillc_runtime.world.space.oriented_box import CORNERS
+from skillc_runtime.world.space.shape.oriented_box import CORNERS
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
 from skillc_runtime.world.state.python_calls import InsufficientFacts
 from skillc_runtime.world.state.terms import HAND_LENGTH, HAS_GRIPPER, HAS_SHEET, SURFACE

@@ -12,7 +12,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import read_shape
 from skillc_runtime.world.space.bounding_boxes import bounding_box
 from skillc_runtime.world.space.floors import shelf_board
-from skillc_runtime.world.space.shapes import Bin, Shelf
+from skillc_runtime.world.space.shape.shapes import Bin, Shelf
 from skillc_runtime.world.state.terms import CONTAIN, FURNITURE, SIZE
 from skillc_runtime.world.state.world_state import WorldState
 

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from threading import RLock
 
-from skillc_runtime.world.state.axiom_violations import axiom_violations, unknown_term
 from skillc_runtime.world.state.changes import (
     AddIndividual,
     AddRelation,
@@ -16,6 +15,7 @@ from skillc_runtime.world.state.changes import (
     RemoveRelation,
     SetProperty,
 )
+from skillc_runtime.world.state.consistency.axiom_violations import axiom_violations, unknown_term
 from skillc_runtime.world.state.difference import changes_back
 from skillc_runtime.world.state.evidence import DecidingWrite, EvidenceLedger, EvidenceRule
 from skillc_runtime.world.state.facts import Evidence, Fact

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from skillc_runtime.world.state.axiom_violations import unknown_term
 from skillc_runtime.world.state.changes import (
     AddIndividual,
     AddRelation,
@@ -12,6 +11,7 @@ from skillc_runtime.world.state.changes import (
     RemoveRelation,
     SetProperty,
 )
+from skillc_runtime.world.state.consistency.axiom_violations import unknown_term
 from skillc_runtime.world.state.names import expand_name
 from skillc_runtime.world.state.templates import Templates
 from skillc_runtime.world.state.values import Value

@@ -18,8 +18,8 @@ from robots.ur.emulator.panel import Panel
 from robots.ur.emulator.plant import STEP_S, Plant
 from robots.ur.emulator.rtde import RtdePort
 from robots.ur.emulator.text_ports import Dashboard, ScriptPort
-from skillc.services import libraries
-from skillc.services.library_files import SHIPPED, find_library
+from skillc.services.library import libraries
+from skillc.services.library.files import SHIPPED, find_library
 from skillc.world import load_scene, load_vocabulary
 from skillc_rdf.vocabulary.types import Vocabulary
 

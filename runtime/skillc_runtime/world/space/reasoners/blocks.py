@@ -7,7 +7,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from skillc_runtime.world.space.frame_tree import Unplaced
-from skillc_runtime.world.space.grasps import leaves_room
+from skillc_runtime.world.space.grasping.grasps import leaves_room
 from skillc_runtime.world.space.reasoners.rests_on import RestsOn
 from skillc_runtime.world.space.whereabouts import holders_of, unknown_place
 from skillc_runtime.world.state.data_sheet import SheetError

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from skillc_runtime.world.space.grasps import grasp_problem
+from skillc_runtime.world.space.grasping.grasps import grasp_problem
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.python_calls import InsufficientFacts
 

@@ -1,0 +1,1 @@
+"""The API itself: its endpoints as data, with examples, problems and versions."""

@@ -1,0 +1,49 @@
+"""Examples for the OpenAPI document: bodies of requests by endpoint, and values of the parameters of paths."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+
+import msgspec
+
+from skillc.contract import commands
+from skillc.contract.access import NewToken
+from skillc.contract.api import endpoints
+from skillc.contract.cell import PaceSetting
+from skillc.contract.lease import LeaseRequest
+from skillc.contract.operation import OperationRequest
+from skillc.contract.order import OrderRequest
+from skillc.contract.plan import PlanRequest
+from skillc.contract.rehearsal import RehearsalRequest
+from skillc.contract.report import ReportRequest
+from skillc.contract.source import SourceChange
+from skillc.contract.stopping import StopReason
+from skillc.contract.trials import TrialsRequest
+from skillc.contract.world import WorldEdit, WorldPlacement, WorldQuery
+from skillc_runtime.devices.disturbances import Push
+
+_TASK, _SURFACE, _STOP = "clean", {"surface": "lab:Table-1"}, StopReason("a person is in the cell")
+
+EXAMPLES: dict[str, msgspec.Struct] = {
+    endpoints.SET_PACE.name: PaceSetting(1.0),
+    endpoints.STOP_CELL.name: _STOP,
+    endpoints.DISTURB_CELL.name: Push("lab:Arm-1", (0.0, 20.0, 0.0)),
+    endpoints.TAKE_LEASE.name: LeaseRequest(600.0),
+    endpoints.SUBMIT_OPERATION.name: OperationRequest(task=_TASK, arguments=_SURFACE),
+    endpoints.GIVE_COMMAND.name: commands.Pause("somebody looks at it"),
+    endpoints.STOP_OPERATION.name: _STOP,
+    endpoints.ADD_ORDER.name: OrderRequest(
+        OperationRequest(task=_TASK, arguments=_SURFACE), datetime(2026, 1, 31, 18, tzinfo=UTC), every_s=86_400.0
+    ),
+    endpoints.QUERY_WORLD.name: WorldQuery("SELECT ?thing WHERE { lab:Table-1 skiros:contain ?thing }"),
+    endpoints.EDIT_WORLD.name: WorldEdit(("lab:Table-1 wiping:isClean false",), "it was spilled on"),
+    endpoints.PLACE_THING.name: WorldPlacement("lab:Table-1", (0.6, 0.0, 0.4, 1.0, 0.0, 0.0, 0.0), "it was moved"),
+    endpoints.PREVIEW_PLAN.name: PlanRequest(goal="wiping:isClean of lab:Table-1"),
+    endpoints.REHEARSE.name: RehearsalRequest(task=_TASK, arguments=_SURFACE),
+    endpoints.MAKE_REPORT.name: ReportRequest(film=False),
+    endpoints.CHANGE_LIBRARY_SOURCE.name: SourceChange("## Nothing yet.\n", 64 * "0"),
+    endpoints.ADD_TOKEN.name: NewToken("line-3", "operate"),
+    endpoints.RUN_TRIALS.name: TrialsRequest(task=_TASK, arguments=_SURFACE, number=20),
+}
+OPERATION = "clean-20260131T120000Z-1f0c9a"
+PATH_EXAMPLES = {"cell": "cell", "operation": OPERATION, "file": "report.html", "library": "wiping", "seed": "1"}

@@ -1,0 +1,1 @@
+"""What is asked about recorded runs, and what is answered."""

@@ -1,0 +1,216 @@
+"""Checks tasks in their scenes before they run: unreachable goals, calls that cannot start.
+
+Diagnostics have displayable paths, and labels at the individuals that a message names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from skillc.extras import install_command, missing_extras
+from skillc.services.cell_checks.report import CellJudge, CellProblem, cell_problems, used_individuals
+from skillc.services.cell_checks.verdicts import judge_cell
+from skillc.services.check.angle_checks import check_angles
+from skillc.services.scene import diagnostics as scene_diagnostics
+from skillc.services.tasks import value_checks
+from skillc.services.tasks.diagnostics import DisplayPath, TaskDiagnostics
+from skillc.services.tasks.scenes import TaskScenes
+from skillc.services.tasks.space_problems import OutOfTime, SpaceJudge, SpaceProblem
+from skillc_compiler.program.typed import Program
+from skillc_dsl.diagnostics import Diagnostic, Label, Outcome
+from skillc_dsl.source import Span
+from skillc_model.conditions import Condition
+from skillc_model.declared import act_as_declared
+from skillc_model.skills import SkillLibrary, Task
+from skillc_rdf.turtle.terms import RDF_TYPE
+from skillc_runtime.execution.selection.initial_calls import initial_call_refusals
+from skillc_runtime.execution.selection.preflight import preflight
+from skillc_runtime.execution.selection.refusal import Origin
+from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual, unsupported_individuals
+from skillc_runtime.planning.reachability import UnreachableGoal, explain_unreachable
+from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.statements import iri_of
+from skillc_runtime.scene.violation import SceneViolation
+
+LONGEST_TASK = 10
+"""The most lines between the name of a task and its goal."""
+
+
+def check_tasks_in_scenes(
+    compiled: Outcome[SkillLibrary],
+    program: Program,
+    scenes: TaskScenes,
+    display_path: DisplayPath,
+    judge: CellJudge | None = None,
+    look: SpaceJudge | None = None,
+) -> list[Diagnostic]:
+    """Return the diagnostics of tasks that cannot succeed, individuals without implementations, and unusable arms.
+
+    What tasks with parameters do depends on their arguments, and is checked when they run. What is wrong in a cell is
+    reported there, with the tasks that it stops, and not at these again.
+
+    `program` is the compiled program, `judge` may be a cached `judge_cell`. `look` looks in space at tasks of which
+    nothing else is reported, and no error in their scenes. Libraries and scenes with errors are skipped, and so is what
+    compiling has reported. What affects several tasks is reported at the first. Of tasks in cells without bodies only
+    facts are asked.
+    """
+    if not compiled.ok:
+        return []
+    library = act_as_declared(compiled.value) if scenes.symbolic else compiled.value
+    errors: list[Diagnostic] = []
+    fine: list[TaskDiagnostics] = []
+    places = value_checks.value_places(program)
+    known = {name: task for name, task in library.tasks.items() if not task.parameters}
+    with_bodies = {path: scene for path, scene in scenes.valid.items() if not scene.state.vocabulary.symbolic}
+    unchecked = list(_unchecked(with_bodies))
+    judge = _judge_nothing if unchecked else judge or judge_cell
+    cells = {path: list(_of_cell(path, scenes, known, judge)) for path in with_bodies}
+    stopped: dict[CellProblem, list[Label]] = {}
+    for name, path in scenes.files.items():
+        if path in scenes.valid and name in known:
+            of_task = TaskDiagnostics(display_path, scenes.valid[path], known[name])
+            found = list(_of_task(of_task, library, cells.get(path, ()), places, stopped))
+            errors += (each for each in found if not _is_reported(each, compiled.diagnostics))
+            broken = any(each.diagnostic.severity == "error" for each in cells.get(path, ()))
+            fine += [] if found or broken or path not in with_bodies else [of_task]
+    errors = list({(each.span, each.name, each.message): each for each in reversed(errors)}.values())[::-1]
+    labelled = {(label.span.path, label.span.line) for each in errors for label in each.labels}
+    valid = [(scene, str(path)) for path, scene in with_bodies.items()]
+    others = [] if unchecked else [each for scene, path in valid for each in _of_devices(scene, path)]
+    others += (each for path, scene in scenes.valid.items() for each in _of_individuals(library, scene, str(path)))
+    others += (each for scene, path in valid for each in check_angles(scene, path))
+    others = [each for each in others if (each.span.path, each.span.line) not in labelled]
+    unusable = {each.span.path for each in others if each.severity == "error"}
+    usable = [each for each in fine if str(scenes.files[each.task.name]) not in unusable]
+    told = {path: [each.violation.individual for each in found] for path, found in cells.items()}
+    seen = [] if look is None or unchecked else _in_space(usable, library, look, lambda name: told[scenes.files[name]])
+    cell = (_with_tasks(each, stopped) for found in cells.values() for each in found)
+    return [*errors, *others, *unchecked, *seen, *cell]
+
+
+def _unchecked(scenes: Mapping[Path, Scene]) -> Iterator[Diagnostic]:
+    """Yield a note, in the first of the scenes, if what looks at space and devices is not installed."""
+    if scenes and missing_extras("run"):
+        first = next(iter(scenes))
+        message = "the numbers of this scene were compared; space, and the Python of primitives, were not looked at"
+        help_ = f"install what looks at them: {install_command('run')}"
+        yield Diagnostic("unchecked-space", Span(str(first), 1, 1, 1, 1), message, help_, "note")
+
+
+def _in_space(
+    tasks: Iterable[TaskDiagnostics], library: SkillLibrary, look: SpaceJudge, told: Callable[[str], Sequence[str]]
+) -> Iterator[Diagnostic]:
+    """Yield the diagnostics of steps that do not go in space, and a note if there is no time for all tasks.
+
+    `told` returns the individuals of a task's scene of which something is reported: a step that names one is not.
+    """
+    late: list[Diagnostic] = []
+    for each in tasks:
+        match look(library, each.scene, each.task):
+            case SpaceProblem() as found if not each.names(found, told(each.task.name)):
+                yield each.infeasible(found)
+            case OutOfTime() as given_up:
+                late.append(each.unlooked(given_up))
+            case _:
+                pass
+    yield from late[:1]
+
+
+def _judge_nothing(scene: Scene, goals: Sequence[Condition]) -> tuple[SceneViolation, ...]:
+    """Stand for the judge of cells where there is none."""
+    return ()
+
+
+def _of_devices(scene: Scene, path: str) -> Iterator[Diagnostic]:
+    """Yield the diagnostics of controllers and data sheets of the arms in a scene."""
+    # It needs the simulator, which is slow to import and not always installed.
+    from skillc.services.check.device_checks import check_controllers, check_sheets
+
+    yield from check_controllers(scene, path)
+    yield from check_sheets(scene, path)
+
+
+def _of_cell(path: Path, scenes: TaskScenes, known: Mapping[str, Task], judge: CellJudge) -> Iterator[CellProblem]:
+    """Yield what is wrong in the cell of a scene, with regard to the tasks in it."""
+    tasks = [known[name] for name, file in scenes.files.items() if file == path and name in known]
+    goals = [each.goal for each in tasks if each.goal is not None]
+    yield from cell_problems(scenes.valid[path], str(path), _used_in(tasks, scenes.valid[path]), goals, judge)
+
+
+def _with_tasks(problem: CellProblem, stopped: Mapping[CellProblem, Sequence[Label]]) -> Diagnostic:
+    """Return the diagnostic of a problem: an error with labels at the tasks that it stops, if there are any."""
+    if problem not in stopped:
+        return problem.diagnostic
+    labels = (*problem.diagnostic.labels, *stopped[problem])
+    return replace(problem.diagnostic, severity="error", labels=labels)
+
+
+def _used_in(tasks: Sequence[Task], scene: Scene) -> frozenset[str]:
+    """Return the individuals that tasks use in their scene."""
+    items = [item for task in tasks for item in (task.goal, task.body) if item is not None]
+    return frozenset[str]().union(*(used_individuals(item, scene.state) for item in items))
+
+
+def _is_reported(problem: Diagnostic, compiled: Sequence[Diagnostic]) -> bool:
+    """Whether compiling has reported, in the same task, that no skill achieves the goal."""
+    goals = [each.span for each in compiled if each.name == "unachievable-goal"]
+    first = problem.span
+    return problem.name == "unreachable-goal" and any(
+        goal.path == first.path and 0 <= goal.line - first.line <= LONGEST_TASK for goal in goals
+    )
+
+
+def _of_task(
+    of_task: TaskDiagnostics,
+    library: SkillLibrary,
+    cell: Sequence[CellProblem],
+    places: Mapping[Origin, Span],
+    stopped: dict[CellProblem, list[Label]],
+) -> Iterator[Diagnostic]:
+    """Yield the diagnostics of a task in its scene; `places` are the spans of values in the source.
+
+    If it is stopped by problems of the cell, labels for these are added to `stopped` instead.
+    """
+    task, scene = of_task.task, of_task.scene
+    if task.goal is not None:
+        found = explain_unreachable(library, scene.state, task.goal)
+        causes = [] if found is None else _find_causes(found, cell)
+        for each in causes:
+            stopped.setdefault(each, []).append(of_task.stopped())
+        if found is not None and not causes:
+            yield of_task.unreachable(found)
+    if task.body is not None:
+        refusals = preflight(task.body, library, scene.state)
+        for refusal in refusals:
+            yield from of_task.misnamed(refusal, places) if refusal.unknown_names else (of_task.refusal(refusal),)
+        if not refusals:
+            yield from (of_task.cannot_start(each) for each in initial_call_refusals(task.body, library, scene.state))
+
+
+def _find_causes(found: UnreachableGoal, cell: Sequence[CellProblem]) -> list[CellProblem]:
+    """Return the problems of a cell because of which a goal is unreachable; none if they do not explain all of it."""
+    explained = [[each for each in cell if each.explains(obstacle)] for obstacle in found.obstacles]
+    return list(dict.fromkeys(each for causes in explained for each in causes)) if all(explained) else []
+
+
+def _of_individuals(library: SkillLibrary, scene: Scene, path: str) -> Iterator[Diagnostic]:
+    """Yield the diagnostics of individuals in the scene file at `path` that no implementation of a skill accepts."""
+    own = {iri_of(each.subject): each for each in reversed(scene.said) if each.predicate == RDF_TYPE}
+    here = {iri: each for iri, each in own.items() if each.lines.path == path}
+    for each in unsupported_individuals(library, scene.state, frozenset(here)):
+        statement = here[each.individual]
+        span = scene_diagnostics.with_shown_path(statement.object_place)
+        yield Diagnostic("no-implementation-fits", span, _unfit(each, scene), _accepted(each, scene), "warning")
+
+
+def _unfit(each: UnsupportedIndividual, scene: Scene) -> str:
+    short = scene.state.vocabulary.short
+    classes = " and a ".join(sorted(map(short, scene.state.types(each.individual))))
+    return f"no implementation of {', '.join(sorted(each.skills))} fits {short(each.individual)}, a {classes}"
+
+
+def _accepted(each: UnsupportedIndividual, scene: Scene) -> str:
+    classes = sorted({scene.state.vocabulary.short(cls) for accepted in each.skills.values() for cls in accepted})
+    return f"there are implementations for {', '.join(classes)}; or add `impl .. of {min(each.skills)}`"

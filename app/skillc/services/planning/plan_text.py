@@ -1,0 +1,149 @@
+"""The answer of a planner, as text and as JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from typing import assert_never
+
+import msgspec
+
+from skillc.services.planning.planning import Answer
+from skillc.services.reporting.reporter import format_count
+from skillc.services.tasks.loading import LoadedTask
+from skillc_runtime.planning.plan import GaveUp, Solved, Step, Unsolvable, describe_quality
+from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.recording.space_claim import SpaceClaim
+
+NAMED = 3
+"""How many of the things that a planner left out are named in text."""
+
+
+def format_plan(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None = None) -> str:
+    """Return the steps, one per line (those of a schedule with their times), or why there is no plan.
+
+    `space` is what is known about them in space.
+    """
+    text = _format(answer, loaded)
+    return text if space is None else f"{text}\n{space.text}"
+
+
+def _format(answer: Answer, loaded: LoadedTask) -> str:
+    match answer:
+        case Solved(plan=plan, planner=planner):
+            lines = [f"{number}  {_call(step, loaded)}" for number, step in enumerate(plan.steps, 1)]
+            steps = format_count(len(plan.steps), "step")
+            total = f"{steps}, {plan.duration_s:g} s expected, {_quality(answer)} ({planner})"
+            return "\n".join([*lines, total, *_assumed(answer), *_left_out(answer, loaded)])
+        case Scheduled():
+            return _schedule_text(answer, loaded)
+        case Unsolvable() | GaveUp():
+            return f"{answer.message}\n{answer.why}" if answer.causes else answer.message
+        case _:
+            assert_never(answer)
+
+
+def _schedule_text(answer: Scheduled, loaded: LoadedTask) -> str:
+    timed = answer.schedule.steps
+    lines = [f"{each.start_s:7.1f} s  {each.duration_s:6.1f} s  {_call(each.step, loaded)}" for each in timed]
+    over = f"over after {answer.schedule.makespan_s:g} s with {answer.plan.duration_s:g} s of work"
+    lines.append(f"{format_count(len(timed), 'step')}, {over}, {_quality(answer)} ({answer.planner})")
+    lines += [f"times: {answer.times}", *_assumed(answer), *_left_out(answer, loaded)]
+    return "\n".join(lines if answer.note is None else [*lines, f"note: {answer.note}"])
+
+
+def _quality(answer: Solved | Scheduled) -> str:
+    return describe_quality(answer.optimal, answer.left_out, answer.at_least_s)
+
+
+def _assumed(answer: Solved | Scheduled) -> Iterator[str]:
+    """Yield the durations that were assumed because they are known only after execution."""
+    yield from (f"assumed: {each}" for each in answer.assumptions)
+
+
+def _left_out(answer: Solved | Scheduled, loaded: LoadedTask) -> Iterator[str]:
+    """Yield what the planner left out, unless that can be proved to make no difference."""
+    short = loaded.assignment.state.vocabulary.short
+    for each in answer.left_out:
+        if not each.harmless:
+            more = len(each.what) - NAMED
+            names = ", ".join(short(iri) for iri in each.what[:NAMED]) + (f" and {more} more" if more > 0 else "")
+            them = "it" if len(each.what) == 1 else "them"
+            needed = "yet no better plan needs" if answer.optimal == "proven" else "a better plan may need"
+            yield f"planned without {names}: {each.why}; {needed} {them}"
+
+
+def plan_as_json(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None = None) -> str:
+    """Return `describe_answer` as one JSON object, with the names that people type in place of IRIs."""
+    return json.dumps(_name(describe_answer(answer, loaded, space)), indent=2)
+
+
+def describe_answer(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None) -> dict[str, object]:
+    """Return status, steps with source lines, optimality, planner and space, or the reason, as plain data."""
+    described = _describe(answer, loaded)
+    return described if space is None else {**described, "space": msgspec.to_builtins(space)}
+
+
+def _name(described: object) -> object:
+    """Return plain data with the names of individuals that people type, in place of their IRIs with labels."""
+    match described:
+        case {"iri": str(), "label": str(label)}:
+            return label
+        case dict():
+            return {name: _name(each) for name, each in described.items()}
+        case list() | tuple():
+            return [_name(each) for each in described]
+        case _:
+            return described
+
+
+def _describe(answer: Answer, loaded: LoadedTask) -> dict[str, object]:
+    match answer:
+        case Solved(plan=plan):
+            steps = [_step(step, loaded) for step in plan.steps]
+            return {**_solved(answer, steps, loaded), "duration_s": plan.duration_s, "planner": answer.planner}
+        case Scheduled(schedule=schedule, plan=plan):
+            steps = [
+                {**_step(each.step, loaded), "start_s": each.start_s, "duration_s": each.duration_s}
+                for each in schedule.steps
+            ]
+            times = {"makespan_s": schedule.makespan_s, "duration_s": plan.duration_s}
+            notes = {"planner": answer.planner, "times": answer.times, "note": answer.note}
+            return {**_solved(answer, steps, loaded), **times, **notes}
+        case Unsolvable(why=why, causes=causes):
+            return {"status": "unsolvable", "failure": why, "causes": list(causes)}
+        case GaveUp(why=why, causes=causes):
+            return {"status": "gave-up", "failure": why, "causes": list(causes), "searched": answer.searched}
+        case _:
+            assert_never(answer)
+
+
+def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]], loaded: LoadedTask) -> dict[str, object]:
+    short = loaded.assignment.state.vocabulary.short
+    return {
+        "status": "solved",
+        "plan": steps,
+        "plan_optimal": answer.optimal == "proven",
+        "optimal": answer.optimal,
+        "at_least_s": answer.at_least_s,
+        "quality": _quality(answer),
+        "assumptions": list(answer.assumptions),
+        "left_out": [
+            {"kind": each.kind, "what": [short(iri) for iri in each.what], "why": each.why, "harmless": each.harmless}
+            for each in answer.left_out
+        ],
+    }
+
+
+def _step(step: Step, loaded: LoadedTask) -> dict[str, object]:
+    source = str(loaded.library.skills[step.skill].source)
+    return {"skill": step.skill, "arguments": _arguments(step, loaded), "source": source}
+
+
+def _call(step: Step, loaded: LoadedTask) -> str:
+    return f"{step.skill}({', '.join(f'{name}: {value}' for name, value in _arguments(step, loaded).items())})"
+
+
+def _arguments(step: Step, loaded: LoadedTask) -> dict[str, str]:
+    short = loaded.assignment.state.vocabulary.short
+    return {name: short(iri) for name, iri in step.arguments.items()}

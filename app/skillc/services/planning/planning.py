@@ -1,0 +1,81 @@
+"""Plans for the goal of a task, with the installed planners and a cache of their answers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Literal, TypeAlias
+
+from msgspec.structs import replace
+
+from skillc.errors import RequestError
+from skillc.services.tasks.loading import LoadedTask
+from skillc_dsl import cache
+from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.execution.assignment import AchieveGoal
+from skillc_runtime.planning.makespan.minimise import minimise_makespan
+from skillc_runtime.planning.plan import Excluded, PlanResult
+from skillc_runtime.planning.planners import Planners, find_planners
+from skillc_runtime.planning.problem.neighbourhood import NARROW, PROVING
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress
+from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.solve import solve
+
+Answer: TypeAlias = PlanResult | Scheduled
+Measure: TypeAlias = Literal["work", "proven work", "makespan"]
+MOST_PLANS = 500
+"""The most answers in the plan cache."""
+
+
+class FolderPlanCache:
+    """A plan cache as files in a folder, which several processes can share."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def get(self, key: str) -> bytes | None:
+        """Return the content stored under a key, None if there is none or it is damaged."""
+        return cache.load(self._folder / key)
+
+    def put(self, key: str, content: bytes) -> None:
+        """Store content under a key, and delete the oldest entries beyond MOST_PLANS."""
+        cache.store(self._folder / key, content)
+        cache.delete_oldest(self._folder, MOST_PLANS, MOST_PLANS)
+
+
+def prepare_planners(use_cache: bool) -> Planners:
+    """Return the installed planners, with the plan cache in the user's cache folder if `use_cache`."""
+    folder = cache.cache_folder() if use_cache else None
+    return find_planners(None if folder is None else FolderPlanCache(folder / "plans"))
+
+
+def plan_goal(
+    loaded: LoadedTask,
+    measure: Measure,
+    planners: Planners,
+    cancel: CancelToken,
+    report: ReportProgress = ignore_progress,
+    without: Sequence[Excluded] = (),
+) -> Answer:
+    """Plan for the goal of a task: with little work, with work proved minimal in the whole scene, or a short makespan.
+
+    `without` are steps that the plan may not contain. RequestError if the task has a body instead of a goal.
+    """
+    library, assignment = loaded.library, loaded.assignment
+    if not isinstance(assignment.objective, AchieveGoal):
+        name = assignment.name
+        shown = f"`skillc graph PATH {name}` shows its steps, `skillc run` runs them"
+        raise RequestError(f"the task `{name}` has a body, not a goal, so there is nothing to plan: {shown}")
+    goal = assignment.objective.goal
+    if measure == "makespan":
+        return minimise_makespan(library, assignment.state, goal, planners, cancel, without, report)
+    size = PROVING if measure == "proven work" else NARROW
+    return solve(library, assignment.state, goal, planners.for_work, cancel, without, size=size, report=report)
+
+
+def with_minimal_makespan(loaded: LoadedTask) -> LoadedTask:
+    """Return the task with the objective of a minimal makespan; RequestError if it has no goal."""
+    assignment = loaded.assignment
+    if not isinstance(assignment.objective, AchieveGoal):
+        raise RequestError(f"`{assignment.name}` has a body, not a goal: there is no plan to minimise")
+    return replace(loaded, assignment=replace(assignment, objective=AchieveGoal(assignment.objective.goal, "makespan")))

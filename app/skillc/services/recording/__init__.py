@@ -1,0 +1,1 @@
+"""Recordings that were made: how they are read, explained and drawn."""

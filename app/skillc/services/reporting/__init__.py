@@ -1,0 +1,1 @@
+"""What services need to report, whatever they do: messages, files, internal errors, the environment."""

@@ -1,0 +1,1 @@
+"""Runs of tasks: in simulation, on real devices, recorded and reported."""

@@ -1,0 +1,1 @@
+"""What `skillc new` and `skillc add` write: projects, scenes, and copies of shipped things."""

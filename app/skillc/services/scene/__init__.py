@@ -1,0 +1,1 @@
+"""Scenes as files and stores: how they are opened, edited and written."""

@@ -1,1 +1,0 @@
-"""Tasks looked at in space before they run: the step that does not go, and why."""

@@ -1,0 +1,1 @@
+"""Tasks, goals and calls: how they are found, loaded and assigned to the world of a scene."""

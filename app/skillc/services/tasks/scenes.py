@@ -1,0 +1,143 @@
+"""Reads the scenes of a library's tasks: their files, individuals and diagnostics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+import msgspec
+
+from skillc.services.library.files import LibraryFiles
+from skillc.services.reporting.files import inspect_path
+from skillc.services.scene import diagnostics as scene_diagnostics
+from skillc.services.tasks.missing_terms import find_missing_terms, select_problems
+from skillc.services.tasks.named_scenes import default_scene, resolve_scene, why_missing
+from skillc_dsl import syntax as s
+from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.spelling import did_you_mean
+from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.types import Vocabulary
+from skillc_runtime.scene.documents import Document, SceneError
+from skillc_runtime.scene.load import Scene, read_with_sheets
+from skillc_runtime.world.state.world_state import WorldState
+
+if TYPE_CHECKING:
+    from skillc_compiler.program.typed import Program
+
+Individuals: TypeAlias = dict[str, list[str]]
+"""The IRIs of a scene with their classes."""
+ReadScene: TypeAlias = Callable[[Path, Vocabulary], Outcome[Scene | None]]
+"""Reads a scene file with the terms of a vocabulary; None, with diagnostics, if it cannot be read."""
+
+
+class SceneTexts(msgspec.Struct, frozen=True):
+    """Maps the paths of a library to files on disk and to displayable paths; the scene of tasks that name none.
+
+    `symbolic`: its tasks run in cells without bodies.
+    """
+
+    place: Callable[[str], Path]
+    shown: Callable[[str], str]
+    default: Path | None = None
+    symbolic: bool = False
+
+    @staticmethod
+    def of(files: LibraryFiles) -> SceneTexts:
+        """Return those of a library on disk."""
+        default = default_scene(files.project) if files.project else None
+        return SceneTexts(files.places.__getitem__, files.display_path, default, files.is_symbolic)
+
+
+class TaskScenes(msgspec.Struct, frozen=True):
+    """The scenes of tasks, and others: `files` by task, `valid` scenes without errors by file, and diagnostics.
+
+    `individuals` are those in each task's scene, by task. `symbolic`: the tasks run in cells without bodies.
+    """
+
+    files: Mapping[str, Path]
+    valid: Mapping[Path, Scene]
+    individuals: Mapping[str, Individuals]
+    problems: tuple[Diagnostic, ...]
+    symbolic: bool = False
+
+
+def read_scene(path: Path, vocabulary: Vocabulary, text: str | None = None) -> Outcome[Scene | None]:
+    """Read a scene file, or `text` in its place."""
+    try:
+        document = Document.read(path) if text is None else Document.of(str(path), text)
+        scene = read_with_sheets(document, vocabulary)
+    except SceneError as error:
+        return Outcome(None, tuple(scene_diagnostics.with_shown_paths(error.problems)))
+    return Outcome(scene, tuple(scene_diagnostics.with_shown_paths(scene.problems)))
+
+
+def read_task_scenes(
+    program: Program, texts: SceneTexts, others: Collection[Path] = (), read: ReadScene = read_scene
+) -> TaskScenes:
+    """Read the scenes of a program's own tasks, or the `others` alone; `read` may be a cached `read_scene`."""
+    written = list(_written(program))
+    found = {task: resolve_scene(text.value, texts.place(text.span.path).parent) for task, text in written}
+    files = {task: path for task, path in found.items() if path is not None}
+    if texts.default is not None:
+        files |= dict.fromkeys(_without_scene(program), texts.default)
+    if others:
+        chosen = {scene.resolve() for scene in others}
+        files = {task: path for task, path in files.items() if path.resolve() in chosen}
+    tested = frozenset() if others else _only_tested(program, files)
+    without_bodies = msgspec.structs.replace(program.vocabulary, symbolic=True)
+    scenes = {
+        path: read(path, without_bodies if texts.symbolic or path in tested else program.vocabulary)
+        for path in sorted({*files.values(), *others})
+    }
+    valid = {path: scene.value for path, scene in scenes.items() if scene.ok and scene.value}
+    known = {path: classes_by_individual(scene.state, program.vocabulary) for path, scene in valid.items()}
+    missing = (_missing(text, texts) for task, text in written if found[task] is None and not others)
+    lacking = find_missing_terms(program)
+    wrong = (problem for scene in scenes.values() for problem in select_problems(scene, lacking))
+    individuals = {task: known[path] for task, path in files.items() if path in known}
+    return TaskScenes(files, valid, individuals, tuple(dict.fromkeys((*missing, *wrong))), texts.symbolic)
+
+
+def classes_by_individual(state: WorldState, vocabulary: Vocabulary) -> Individuals:
+    """Return the individuals of a world with their classes that the library's vocabulary has, or the nearest above."""
+    known = vocabulary.classes.keys()
+    above = state.vocabulary.ancestors
+    return {
+        iri: sorted({each for cls in state.types(iri) for each in ({cls} if cls in known else above[cls] & known)})
+        for iri in state.individuals
+    }
+
+
+def _only_tested(program: Program, files: Mapping[str, Path]) -> frozenset[Path]:
+    """Return the scenes of tests that no task is in: these run in cells without bodies."""
+    declared = (each for unit in program.files for each in unit.file.declarations)
+    tests = {each.name.text for each in declared if isinstance(each, s.TestDeclaration)}
+    return frozenset(files.values()) - {path for name, path in files.items() if name not in tests}
+
+
+def _without_scene(program: Program) -> Iterator[str]:
+    """Yield the names of the library's own tasks that name no scene."""
+    for unit in program.files:
+        for declaration in unit.file.declarations:
+            if isinstance(declaration, s.TaskDeclaration) and not declaration.scene and unit.library == program.name:
+                yield declaration.name.text
+
+
+def _written(program: Program) -> Iterator[tuple[str, s.Text]]:
+    """Yield the name of each of the library's own tasks with its scene as written."""
+    for unit in program.files:
+        for declaration in unit.file.declarations:
+            if isinstance(declaration, s.TaskDeclaration) and declaration.scene and unit.library == program.name:
+                yield declaration.name.text, declaration.scene
+
+
+def _missing(scene: s.Text, texts: SceneTexts) -> Diagnostic:
+    """Return the diagnostic of a scene that does not exist or is not a file."""
+    beside = texts.place(scene.span.path).parent
+    message = f'the scene "{scene.value}" {why_missing(scene.value, beside)}'
+    span = scene.span._replace(path=texts.shown(scene.span.path))
+    if inspect_path(beside / scene.value).kind != "missing":
+        return Diagnostic("unreadable-scene", span, message)
+    known = (*catalogue.scene_names(), *(file.name for file in beside.glob("*.ttl")))
+    return Diagnostic("unknown-scene", span, message, did_you_mean(scene.value, known))

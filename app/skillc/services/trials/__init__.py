@@ -1,0 +1,1 @@
+"""Series of trials: where they run, and what is kept of each."""

@@ -1,0 +1,60 @@
+"""Makes pictures of skills, tasks and plans, as nested boxes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import assert_never
+
+from skillc.errors import RequestError
+from skillc.services.library.artifacts import parse_files
+from skillc.services.library.compiled_libraries import compile_valid
+from skillc.services.library.files import find_library
+from skillc.services.reporting.reporter import Reporter
+from skillc.services.tasks.loading import load_task
+from skillc_compiler.emit.picture.boxes import PictureBox
+from skillc_compiler.emit.picture.drawing import list_drawable, make_picture
+from skillc_dsl.spelling import did_you_mean
+from skillc_runtime.execution.assignment import AchieveGoal
+from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
+from skillc_runtime.planning.solve import solve
+from skillc_runtime.recording.run_spec import RunSpec
+
+
+def draw_declaration(path: Path, name: str) -> PictureBox:
+    """Return the picture of a skill or task of the library at `path`. RequestError if it has no such declaration."""
+    library = find_library(path)
+    compile_valid(library)
+    files = parse_files(library)
+    box = make_picture(name, files)
+    if box is None:
+        names = list_drawable(files)
+        hint = did_you_mean(name, names) or (f"there is {', '.join(names)}" if names else "it has none")
+        raise RequestError(f"there is no skill or task `{name}` in {library.name}; {hint}")
+    return box
+
+
+def draw_plan(path: Path, task: str, reporter: Reporter) -> PictureBox | Unsolvable | GaveUp:
+    """Plan for a task of the library at `path` and return the picture of the plan. RequestError without a goal."""
+    library = compile_valid(find_library(path))
+    if task in library.skills and task not in library.tasks:
+        raise RequestError(f"`{task}` is a skill, and plans are for goals of tasks; draw it without --plan")
+    with load_task(RunSpec(task=f"{path}:{task}"), reporter) as loaded:
+        aim, state = loaded.assignment.objective, loaded.assignment.state
+        if not isinstance(aim, AchieveGoal):
+            raise RequestError(f"the task `{task}` has a body, not a goal; draw it without --plan")
+        answer = solve(loaded.library, state, aim.goal)
+    match answer:
+        case Solved(plan=plan):
+            good = describe_quality(answer.optimal, answer.left_out, answer.at_least_s)
+            steps = (_step(step.skill, step.arguments, state.vocabulary.short) for step in plan.steps)
+            return PictureBox("flow", "→", "plan", (f"{plan.duration_s:g} s expected, {good}",), tuple(steps))
+        case Unsolvable() | GaveUp():
+            return answer
+        case _:
+            assert_never(answer)
+
+
+def _step(skill: str, arguments: Mapping[str, str], short: Callable[[str], str]) -> PictureBox:
+    bound = ", ".join(f"{name}: {short(iri)}" for name, iri in arguments.items())
+    return PictureBox("call", "▶", skill, (bound,) if bound else (), (), skill)

@@ -1,0 +1,82 @@
+"""The classes of the individuals that names denote, and which names can never denote the same individual."""
+
+from __future__ import annotations
+
+import msgspec
+
+from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
+from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
+from skillc_model.conditions import Individual, IsA, Same, Variable
+from skillc_rdf.vocabulary.types import THING, Vocabulary
+
+ANY_PREFIX = "?"
+
+
+class AliasTypes(msgspec.Struct, frozen=True):
+    """The class of each name, as far as known. A name with ANY_PREFIX is any individual of the class after it."""
+
+    vocabulary: Vocabulary
+    axioms: CanonicalAxioms
+    classes: dict[str, str] = msgspec.field(default_factory=dict)
+
+    def class_of(self, thing: IndividualTerm) -> str:
+        """Return the declared class of a name; `owl:Thing` for a named individual."""
+        if isinstance(thing, Individual):
+            return THING
+        return thing.name[1:] if thing.name.startswith(ANY_PREFIX) else self.classes.get(thing.name, THING)
+
+    def is_computed(self, relation: str) -> bool:
+        """Whether a relation is computed from other facts."""
+        return relation in self.vocabulary.relations and self.vocabulary.is_computed(relation)
+
+    def depends_on(self, relation: str, written: frozenset[str]) -> bool:
+        """Whether a computed relation may change with one of these relations (canonical IRIs) and properties."""
+        if not self.is_computed(relation):
+            return False
+        known = self.vocabulary.relations[relation].computed_from
+        return not known or not written.isdisjoint(self.axioms.canonical.get(each, (each, False))[0] for each in known)
+
+    def is_a(self, state: State, thing: IndividualTerm, cls: str) -> bool | None:
+        """Whether the individual is of the class; None if unknown."""
+        if self.vocabulary.is_a(self.class_of(thing), cls):
+            return True
+        known = state.facts.get(IsA(thing, cls))
+        if known is not None:
+            return known
+        if any(self.vocabulary.is_a(each, cls) for each in self._classes(state, thing)):
+            return True
+        if any(self.vocabulary.disjoint(each, cls) for each in self._classes(state, thing)):
+            return False
+        return None
+
+    def are_distinct(self, state: State, one: IndividualTerm, other: IndividualTerm) -> bool:
+        """Whether the two are certainly different individuals."""
+        if one == other:
+            return False
+        if isinstance(one, Individual) and isinstance(other, Individual):
+            return True
+        if state.facts.get(same_individual(one, other)) is False:
+            return True
+        return any(
+            self.vocabulary.disjoint(mine, yours)
+            for mine in self._classes(state, one)
+            for yours in self._classes(state, other)
+        )
+
+    def _classes(self, state: State, thing: IndividualTerm) -> list[str]:
+        return [self.class_of(thing), *state.classes.get(thing, ())]
+
+
+def same_individual(one: IndividualTerm, other: IndividualTerm) -> Same:
+    """Return the condition that both are the same individual, in canonical order."""
+    first, second = sorted((one, other), key=_order)
+    return Same(first, second)
+
+
+def any_individual(cls: str) -> Variable:
+    """Return a name for any individual of a class."""
+    return Variable(ANY_PREFIX + cls)
+
+
+def _order(thing: IndividualTerm) -> tuple[bool, str]:
+    return (False, thing.iri) if isinstance(thing, Individual) else (True, thing.name)

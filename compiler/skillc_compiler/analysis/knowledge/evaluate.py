@@ -1,0 +1,271 @@
+"""Whether a condition holds in a state: true, false, or None if what is known leaves it open."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import lru_cache
+from typing import assert_never
+
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, same_individual
+from skillc_compiler.analysis.knowledge.quantifiers import (
+    is_bound_variable,
+    is_ruled_out,
+    normalise_quantifier,
+    possible_witnesses,
+)
+from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
+from skillc_compiler.logic.bounds import MIRRORED, Bound, are_disjoint, compare_constants
+from skillc_model.conditions import (
+    And,
+    Anything,
+    Compare,
+    Condition,
+    Exists,
+    Expression,
+    Forall,
+    Given,
+    HasProperty,
+    Holds,
+    Individual,
+    IsA,
+    Literal,
+    Not,
+    Or,
+    PropertyOf,
+    Same,
+    Variable,
+)
+from skillc_model.rewriting import substitute
+from skillc_model.traversal import walk
+
+
+def evaluate(types: AliasTypes, state: State, condition: Condition) -> bool | None:
+    """Return whether the condition holds in every world that agrees with the state; None if open."""
+    return _evaluate(types, state, canonical_condition(types, state, condition))
+
+
+def canonical_condition(types: AliasTypes, state: State, condition: Condition) -> Condition:
+    """Return the canonical form of a condition: one name for each individual and each relation."""
+    if state.aliases:
+        condition = substitute(condition, state.aliases)
+    match condition:
+        case Holds(subject=subject, relation=relation, object=object_):
+            name, turned = types.axioms.canonical.get(relation, (relation, False))
+            return Holds(object_, name, subject) if turned else Holds(subject, name, object_)
+        case Not(body=body):
+            return Not(canonical_condition(types, state, body))
+        case And(parts=parts):
+            return And(tuple(canonical_condition(types, state, part) for part in parts))
+        case Or(parts=parts):
+            return Or(tuple(canonical_condition(types, state, part) for part in parts))
+        case Same(left=Variable() | Individual() as left, right=Variable() | Individual() as right):
+            return same_individual(left, right)
+        case Compare(left=left, operator=sign, right=right) if _is_constant(left) and not _is_constant(right):
+            return Compare(right, MIRRORED[sign], left)
+        case Exists() | Forall():
+            return normalise_quantifier(types, condition, lambda body: canonical_condition(types, state, body))
+    return condition
+
+
+def _evaluate(types: AliasTypes, state: State, condition: Condition) -> bool | None:
+    match condition:
+        case Holds():
+            return _evaluate_relation(types, state, condition)
+        case Not(body=body):
+            inner = _evaluate(types, state, body)
+            return None if inner is None else not inner
+        case And(parts=parts):
+            return _conjoin(state.facts.get(condition), [_evaluate(types, state, part) for part in parts])
+        case Or(parts=parts):
+            known = state.facts.get(condition)
+            turned = _conjoin(
+                None if known is None else not known, [_evaluate_negation(types, state, part) for part in parts]
+            )
+            return None if turned is None else not turned
+        case Same(left=left, right=right):
+            return _evaluate_same(types, state, left, right)
+        case IsA(subject=Variable() | Individual() as subject, cls=cls):
+            return types.is_a(state, subject, cls)
+        case Compare():
+            return _evaluate_comparison(types, state, condition)
+        case HasProperty(subject=subject, property=iri):
+            return (
+                None
+                if isinstance(subject, Anything)
+                else _evaluate_has(types, state, condition, PropertyOf(subject, iri))
+            )
+        case Exists():
+            return _evaluate_exists(types, state, condition)
+        case Forall() | Given() | IsA():
+            return state.facts.get(condition)
+        case _:
+            assert_never(condition)
+
+
+def _evaluate_negation(types: AliasTypes, state: State, condition: Condition) -> bool | None:
+    inner = _evaluate(types, state, condition)
+    return None if inner is None else not inner
+
+
+def _conjoin(known: bool | None, parts: Iterable[bool | None]) -> bool | None:
+    found = list(parts)
+    if False in found:
+        return False
+    return known if None in found else True
+
+
+def _evaluate_same(types: AliasTypes, state: State, left: object, right: object) -> bool | None:
+    if not isinstance(left, Variable | Individual) or not isinstance(right, Variable | Individual):
+        return None
+    if left == right:
+        return True
+    return False if types.are_distinct(state, left, right) else None
+
+
+def _evaluate_relation(types: AliasTypes, state: State, asked: Holds) -> bool | None:
+    known = state.facts.get(asked)
+    if known is not None:
+        return known
+    if is_ruled_out(types, state, asked):
+        return False
+    match asked.subject, asked.object:
+        case Anything(), Anything():
+            return True if any(_known_relations(state, asked.relation)) else None
+        case Anything(), (Variable() | Individual()) as end:
+            return _evaluate_related_to_any(state, asked.relation, end, False)
+        case (Variable() | Individual()) as start, Anything():
+            return _evaluate_related_to_any(state, asked.relation, start, True)
+        case (Variable() | Individual()) as start, (Variable() | Individual()) as end:
+            return False if _is_excluded(types, state, asked.relation, start, end) else None
+    return None
+
+
+def _evaluate_related_to_any(state: State, relation: str, thing: IndividualTerm, is_subject: bool) -> bool | None:
+    if any((fact.subject if is_subject else fact.object) == thing for fact in _known_relations(state, relation)):
+        return True
+    others = state.possible.get((relation, thing, is_subject))
+    if others is None:
+        return None
+    facts = (Holds(thing, relation, each) if is_subject else Holds(each, relation, thing) for each in others)
+    return False if all(state.facts.get(fact) is False for fact in facts) else None
+
+
+def _is_excluded(types: AliasTypes, state: State, relation: str, start: IndividualTerm, end: IndividualTerm) -> bool:
+    """Whether the possible values of either side, or an axiom, rule out the relation between the two."""
+    axioms = types.axioms
+    if start == end and relation in axioms.irreflexive:
+        return True
+    if relation in axioms.asymmetric and state.facts.get(Holds(end, relation, start)):
+        return True
+    for side, other in (((relation, start, True), end), ((relation, end, False), start)):
+        rest = state.possible.get(side)
+        if rest is not None and all(types.are_distinct(state, other, each) for each in rest):
+            return True
+    for fact in _known_relations(state, relation):
+        if relation in axioms.single_object and fact.subject == start and _are_distinct(types, state, fact.object, end):
+            return True
+        if (
+            relation in axioms.single_subject
+            and fact.object == end
+            and _are_distinct(types, state, fact.subject, start)
+        ):
+            return True
+    return False
+
+
+def _are_distinct(types: AliasTypes, state: State, one: object, other: IndividualTerm) -> bool:
+    return isinstance(one, Variable | Individual) and types.are_distinct(state, one, other)
+
+
+def _known_relations(state: State, relation: str) -> Iterable[Holds]:
+    return (f for f, true in state.facts.items() if true and isinstance(f, Holds) and f.relation == relation)
+
+
+def _evaluate_exists(types: AliasTypes, state: State, condition: Exists) -> bool | None:
+    known = state.facts.get(condition)
+    if known is not None:
+        return known
+
+    def of(thing: IndividualTerm) -> bool | None:
+        return _evaluate(
+            types, state, canonical_condition(types, state, substitute(condition.body, {condition.variable: thing}))
+        )
+
+    if any(types.is_a(state, thing, condition.cls) and of(thing) for thing in known_individuals(state)):
+        return True
+    return (
+        False if any(all(of(one) is False for one in group) for group in possible_witnesses(state, condition)) else None
+    )
+
+
+def known_individuals(state: State) -> tuple[IndividualTerm, ...]:
+    """Return the individuals of which something is known, in the order in which it became known."""
+    return tuple(dict.fromkeys(thing for fact in state.facts for thing in _individuals_in(fact)))
+
+
+@lru_cache(maxsize=4096)
+def _individuals_in(fact: Condition) -> tuple[IndividualTerm, ...]:
+    terms = (part for part in walk(fact) if isinstance(part, Variable | Individual))
+    return tuple(dict.fromkeys(term for term in terms if not is_bound_variable(term)))
+
+
+def _evaluate_comparison(types: AliasTypes, state: State, asked: Compare) -> bool | None:
+    known = state.facts.get(asked)
+    if known is not None:
+        return known
+    if isinstance(asked.left, Literal) and isinstance(asked.right, Literal):
+        return compare_constants(asked.operator, asked.left.value, asked.right.value)
+    if is_ruled_out(types, state, asked):
+        return False
+    if asked.left == asked.right and isinstance(asked.left, Variable):
+        return asked.operator in ("==", "<=", ">=")
+    if _is_missing(state, asked.left):
+        return False
+    if not _is_single(types, asked.left):
+        return None
+    for fact, true in state.facts.items():
+        if isinstance(fact, Compare) and fact.left == asked.left:
+            answer = _infer_comparison(fact, true, asked)
+            if answer is not None:
+                return answer
+    return None
+
+
+def _is_missing(state: State, value: Expression) -> bool:
+    match value:
+        case PropertyOf(of=Variable() | Individual() as of, property=iri):
+            return state.facts.get(HasProperty(of, iri)) is False
+    return False
+
+
+def _is_single(types: AliasTypes, value: Expression) -> bool:
+    """Whether the expression has one value; comparisons of a property with several values are independent."""
+    if not isinstance(value, PropertyOf):
+        return True
+    term = types.vocabulary.properties.get(value.property)
+    return term is not None and term.functional
+
+
+def _evaluate_has(types: AliasTypes, state: State, asked: HasProperty, value: PropertyOf) -> bool | None:
+    known = state.facts.get(asked)
+    if known is not None:
+        return known
+    if is_ruled_out(types, state, asked):
+        return False
+    compared = (true and fact.left == value for fact, true in state.facts.items() if isinstance(fact, Compare))
+    return True if any(compared) else None
+
+
+def _infer_comparison(known: Compare, true: bool, asked: Compare) -> bool | None:
+    """Return what one comparison of a value with a constant implies for another, or None."""
+    if not isinstance(known.right, Literal) or not isinstance(asked.right, Literal) or not true:
+        return None
+    one = Bound(known.left, known.operator, known.right.value)
+    other = Bound(asked.left, asked.operator, asked.right.value)
+    if are_disjoint(one, other):
+        return False
+    return True if are_disjoint(one, other.opposite()) else None
+
+
+def _is_constant(expression: Expression) -> bool:
+    return isinstance(expression, Literal)

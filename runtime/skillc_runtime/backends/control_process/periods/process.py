@@ -1,0 +1,59 @@
+"""The program of a control process: it builds the arm, connects to its device, and runs the loop.
+
+It is started with the numbers of a connected socket and of the memory that it shares. The first message is the path of
+modules, the second a `ControlTask`; the answer is `Connected`, or the error for which there can be no cell.
+"""
+
+from __future__ import annotations
+
+import signal
+import socket
+import sys
+
+from skillc_runtime.backends.control_process.calls import Mailbox
+from skillc_runtime.backends.control_process.handshake import Connected, ControlTask
+from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
+from skillc_runtime.backends.control_process.message_socket import MessageSocket
+from skillc_runtime.backends.control_process.periods.controlled_arm import ControlledArm
+from skillc_runtime.backends.control_process.periods.loop import ControlLoop
+from skillc_runtime.backends.control_process.periods.rehearsal import rehearse
+from skillc_runtime.backends.control_process.shared_memory import map_memory
+from skillc_runtime.motion.numerics.compiled import compile_imported
+from skillc_runtime.platforms.real_time import run_in_real_time
+
+START_S = 60.0
+"""How long the other process may take to say what is to be done, in s."""
+
+
+def main(messages: MessageSocket, memory_file: int) -> int:
+    """Run a control process; return its exit code."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    sys.path[:] = messages.receive(START_S)
+    memory = map_memory(memory_file)
+    try:
+        task: ControlTask = messages.receive(START_S)
+        plan = MemoryPlan(task.facts.home.size)
+        compile_imported()
+        link = task.description.make_link()
+        link.connect()
+        try:
+            arm = ControlledArm(task.facts, task.names, link.abilities, link.period_s)
+            rehearse(task.facts, task.names, link)
+        except BaseException:
+            link.close()
+            raise
+    except Exception as error:  # noqa: BLE001  the boundary to the other process, which raises it
+        messages.send(error)
+        return 1
+    mailbox = Mailbox(messages)
+    loop = ControlLoop(link, arm, mailbox, plan, memory, task.patience)
+    signal.signal(signal.SIGTERM, lambda *_: mailbox.close())  # The loop stops the arm between two periods.
+    real_time = run_in_real_time()
+    loop.begin()
+    messages.send(Connected(link.period_s, link.abilities, arm.mode, arm.arm.limits, real_time))
+    loop.run()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(MessageSocket(socket.socket(fileno=int(sys.argv[1]))), int(sys.argv[2])))

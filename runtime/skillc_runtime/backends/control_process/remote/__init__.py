@@ -1,0 +1,1 @@
+"""A controlled arm as the process of the tree sees it."""

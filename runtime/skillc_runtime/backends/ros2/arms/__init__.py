@@ -1,0 +1,1 @@
+"""Arms that ROS 2 drives."""

@@ -1,0 +1,128 @@
+"""Publishes what a Cartesian controller on the robot's side shall do: target pose, stiffness and wrench."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from skillc_runtime.backends.control_process.link import CommandKind, CommandView, Condition
+from skillc_runtime.backends.ros2.arms.arm_commands import ArmCommands, CommandTopic
+from skillc_runtime.backends.ros2.arms.flange import FlangeModel
+from skillc_runtime.backends.ros2.arms.joint_commands import make_joint_commands
+from skillc_runtime.backends.ros2.arms.stiffness_parameters import StiffnessParameters
+from skillc_runtime.backends.ros2.facts import ArmInterface, ToolTopics
+from skillc_runtime.backends.ros2.pose_message import write_pose
+from skillc_runtime.backends.ros2.session import Session
+from skillc_runtime.motion.arrays import OutVector
+from skillc_runtime.motion.pose import Array, Pose, rotation_from_quaternion
+
+OBLIQUE = 0.05
+"""A stiffness may have this share of its greatest part off the axes in which the controller takes it."""
+
+POSE, WRENCH = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/WrenchStamped"
+
+
+class ToolCommands:
+    """Implements `ArmCommands` for an arm whose own law holds the tool.
+
+    A motion of the joints is commanded to `joints`, the topic of joint commands; where there is none, to the pose that
+    the flange has in that posture.
+    """
+
+    def __init__(
+        self, facts: ArmInterface, tool: ToolTopics, joints: ArmCommands | None, flange: FlangeModel, session: Session
+    ) -> None:
+        reliable = facts.quality.reliable_commands
+        self._tool, self._joints, self._flange = tool, joints, flange
+        self._pose = CommandTopic(session, tool.pose, POSE, reliable)
+        self._stiffness: CommandTopic | StiffnessParameters | None = None
+        if tool.stiffness_node:
+            self._stiffness = StiffnessParameters(session, tool.stiffness_node)
+        elif tool.stiffness:
+            self._stiffness = CommandTopic(session, tool.stiffness, WRENCH, reliable)
+        self._wrench = CommandTopic(session, tool.wrench, WRENCH, reliable) if tool.wrench else None
+        self._pose.message.header.frame_id = tool.frame
+        for target in (self._stiffness, self._wrench):
+            if isinstance(target, CommandTopic):
+                target.message.header.frame_id = tool.flange if tool.along_flange else tool.frame
+        self._on_flange: Pose | None = None
+
+    def fit(self) -> str | None:
+        """Ask the controller of the joints, if there is one; return why it is not the right one, or None."""
+        return None if self._joints is None else self._joints.fit()
+
+    def begin(self, q: Array) -> None:
+        """Push with nothing, and hold the flange where it is, with the joints at q (nv,) in rad."""
+        self._send_six(self._wrench, np.zeros(6))
+        self._send_posture(q)
+
+    def send(self, kind: CommandKind, command: CommandView) -> str | None:
+        """Publish a command; return why the controller cannot yield like that, or None."""
+        self._on_flange = in_flange = Pose.of(command.on_flange[:3], command.on_flange[3:])
+        if kind != "tool":
+            self._send_six(self._wrench, np.zeros(6))
+            if self._joints is not None:
+                return self._joints.send(kind, command)
+            self._send_posture(command.values)
+            return None
+        tool = Pose.of(command.pose[:3], command.pose[3:])
+        flange = tool @ in_flange.inverse()
+        self._send_pose(flange if self._tool.of_flange else tool)
+        axes = self._message_axes(flange).T @ rotation_from_quaternion(command.axes)
+        stiffness = [axes @ np.diag(part) @ axes.T for part in (command.stiffness[:3], command.stiffness[3:])]
+        force, moment = axes @ command.push[:3], axes @ command.push[3:]
+        if self._tool.of_flange:
+            lever = self._message_axes(flange).T @ (tool.position - flange.position)
+            moment = moment + np.cross(lever, force)
+        diagonals = np.concatenate([np.diag(each) for each in stiffness])
+        if isinstance(self._stiffness, StiffnessParameters):
+            self._stiffness.send(diagonals)
+        else:
+            self._send_six(self._stiffness, diagonals)
+        self._send_six(self._wrench, np.concatenate([force, moment]))
+        if any(np.abs(each - np.diag(np.diag(each))).max() > OBLIQUE * each.max() for each in stiffness):
+            axes_of = self._tool.flange if self._tool.along_flange else self._tool.frame
+            return f"{self._tool.pose} takes a stiffness along the axes of {axes_of}, not across them"
+        return None
+
+    def rest(self, q: Array) -> None:
+        """Push with nothing, and hold the flange where it is, with the joints at q (nv,) in rad."""
+        self.begin(q)
+
+    def find_obstacle(self) -> Condition | None:
+        """Return why commands would have no effect, or contend with those of others."""
+        targets = [each for each in (self._pose, self._stiffness, self._wrench, self._joints) if each is not None]
+        return next((found for each in targets if (found := each.find_obstacle()) is not None), None)
+
+    def _message_axes(self, flange: Pose) -> Array:
+        """Return the axes (3, 3), in base, along which stiffness and wrench are published."""
+        return flange.rotation if self._tool.along_flange else np.eye(3)
+
+    def _send_posture(self, q: Array) -> None:
+        """Publish the pose that the flange has with the joints at q (nv,) in rad."""
+        flange = self._flange.find(q)
+        if self._tool.of_flange:
+            self._send_pose(flange)
+        elif self._on_flange is not None:
+            self._send_pose(flange @ self._on_flange)
+
+    def _send_pose(self, pose: Pose) -> None:
+        write_pose(pose, self._pose.message.pose)
+        self._pose.publisher.publish(self._pose.message)
+
+    def _send_six(self, target: CommandTopic | None, six: OutVector) -> None:
+        if target is None:
+            return
+        part: Any = target.message.wrench
+        part.force.x, part.force.y, part.force.z, part.torque.x, part.torque.y, part.torque.z = six.tolist()
+        target.publisher.publish(target.message)
+
+
+def make_commands(facts: ArmInterface, model: str, session: Session) -> ArmCommands:
+    """Return what an arm is commanded through; `model` is the file of its model."""
+    joints = make_joint_commands(facts, session) if facts.command else None
+    if facts.tool is not None:
+        return ToolCommands(facts, facts.tool, joints, FlangeModel(model), session)
+    assert joints is not None, "an arm without a Cartesian controller has a topic for its joints"
+    return joints

@@ -1,0 +1,1 @@
+"""Simulated arms: motors, sensors, friction, brakes, and the line to their controller."""

@@ -1,0 +1,86 @@
+"""Creates the driver of a simulated arm from its specification."""
+
+from __future__ import annotations
+
+from math import inf
+
+from msgspec import structs
+
+from skillc_runtime.backends.simulation.arms.arm import ModelledArm
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
+from skillc_runtime.control.driver import CompliantArmDriver
+from skillc_runtime.control.gains import LawGains, RobotGains, UnknownController, read_gains
+from skillc_runtime.control.laws.virtual_arm import load_virtual_model
+from skillc_runtime.control.setup import ArmSetup
+from skillc_runtime.control.supervision.safety import SafetyLimits, Workspace
+from skillc_runtime.devices.arm import ModeRefused
+from skillc_runtime.world.space.frames import relative_pose, size
+from skillc_runtime.world.state.data_sheet import SheetError, number_of
+from skillc_runtime.world.state.terms import (
+    COLLISION_TORQUE,
+    CONTACT_FORCE_LIMIT,
+    HAS_SENSOR,
+    HAS_WORKSPACE,
+    JERK_LIMIT,
+    TOOL_SPEED_LIMIT,
+)
+
+
+def make_driver(facts: ArmSpec, arm: ModelledArm, period_s: float) -> CompliantArmDriver:
+    """Return the driver of an arm with the controller its facts name.
+
+    SheetError if it or a gain is missing, or the arm is outside its workspace.
+    """
+    driver = CompliantArmDriver(read_setup(facts, arm, period_s))
+    if driver.outside_workspace_m > 0.0:
+        raise SheetError(
+            f"the tool of {facts.sheet.state.vocabulary.short(facts.individual)} starts "
+            f"{1e3 * driver.outside_workspace_m:.0f} mm outside the arm's workspace; enlarge that, or start elsewhere"
+        )
+    return driver
+
+
+def read_setup(facts: ArmSpec, arm: ModelledArm, period_s: float) -> ArmSetup:
+    """Return what the driver of an arm needs, and let the arm take the commands of its law.
+
+    SheetError if a fact is missing, or the arm cannot do what its law needs.
+    """
+    jerk_limit = number_of(facts.sheet.state, facts.sheet.individual, JERK_LIMIT, inf)
+    try:
+        chosen = read_gains(facts.controller, facts.sheet.number)
+    except UnknownController as error:
+        raise SheetError(f"{facts.sheet.state.vocabulary.short(facts.individual)}: {error}") from error
+    chosen = structs.replace(chosen, limits=structs.replace(chosen.limits, jerk_m_s3=jerk_limit))
+    _switch_mode(facts, arm, chosen.law)
+    virtual, limits = load_virtual_model(facts.model), read_safety_limits(facts)
+    return ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.live_base, period_s, limits)
+
+
+def _switch_mode(facts: ArmSpec, arm: ModelledArm, law: LawGains) -> None:
+    """Switch the arm to the commands of the law; SheetError if it cannot, or has no force sensor that the law needs."""
+    short = facts.sheet.state.vocabulary.short
+    if isinstance(law, RobotGains) and not arm.has_own_law:
+        raise SheetError(
+            f"{short(facts.individual)} has the controller {facts.controller!r}, which runs on the robot's side: only "
+            "a back end of robots with Cartesian controllers has that"
+        )
+    try:
+        arm.switch(law.mode)
+    except ModeRefused as refusal:
+        raise SheetError(f"{short(facts.individual)} has the controller {facts.controller!r}: {refusal}") from refusal
+    if law.needs_force and not arm.capabilities.feels_force:
+        raise SheetError(
+            f"{short(facts.individual)} has the controller {facts.controller!r}, which needs a force/torque sensor: "
+            f"it has none ({short(HAS_SENSOR)})"
+        )
+
+
+def read_safety_limits(facts: ArmSpec) -> SafetyLimits:
+    """Return the safety limits of an arm: those of its sheet, and its workspace, which moves with its base."""
+    state, sheet = facts.sheet.state, facts.sheet.individual
+    force, torque, speed = (
+        number_of(state, sheet, limit, inf) for limit in (CONTACT_FORCE_LIMIT, COLLISION_TORQUE, TOOL_SPEED_LIMIT)
+    )
+    spaces = sorted(state.objects(facts.individual, HAS_WORKSPACE))
+    space = Workspace(relative_pose(state, facts.individual, spaces[0]), size(state, spaces[0])) if spaces else None
+    return SafetyLimits(force, torque, speed, space)

@@ -1,0 +1,1 @@
+"""Simulated mobile bases: how they drive, what they carry, what they run into."""

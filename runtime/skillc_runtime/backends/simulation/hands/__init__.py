@@ -1,0 +1,1 @@
+"""Simulated grippers: fingers, what they touch, and what they hold."""

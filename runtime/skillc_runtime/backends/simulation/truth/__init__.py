@@ -1,0 +1,1 @@
+"""What really happens in a simulated cell: contacts, touches, motion of tools; for reports and trials."""

@@ -1,0 +1,1 @@
+"""How reality differs from the world model: places, people, measurements, disturbances."""

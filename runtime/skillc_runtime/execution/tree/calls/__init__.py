@@ -1,0 +1,1 @@
+"""Calls of skills: selection, locks, effects, failures, undo."""

@@ -1,0 +1,263 @@
+"""One run of one implementation: its frame, locks, holds, body and effects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Literal, TypeAlias, assert_never, cast
+
+from skillc_model import tree
+from skillc_model.skills import Compound, Declared, Implementation, Primitive, Skill
+from skillc_runtime.execution.broken_calls import BrokenCall
+from skillc_runtime.execution.selection.arguments import check_value
+from skillc_runtime.execution.selection.binding import BoundImplementation, describe_unmet_condition
+from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_matching_primitive
+from skillc_runtime.execution.tree.calls.declared_run import DeclaredRun
+from skillc_runtime.execution.tree.calls.inverse_changes import inverse_changes
+from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
+from skillc_runtime.execution.tree.locks import Holders
+from skillc_runtime.execution.tree.node import Node
+from skillc_runtime.execution.tree.nodes.primitive_node import PrimitiveNode
+from skillc_runtime.execution.tree.sensing import drop_sensed_changes, explain_not_sensed
+from skillc_runtime.execution.tree.verify_monitor import find_violation, monitored_properties
+from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.recording.failure import Failure, FailureKind, Rejection, Stage
+from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.effects import changes_of
+from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
+from skillc_runtime.world.state.values import Value
+from skillc_runtime.world.state.world_state import WorldState
+
+BuildNode: TypeAlias = Callable[[tree.Node, TreeContext, LexicalScope], Node]
+
+
+class Activation:
+    """An implementation that runs for a call; the call owns the locks. `body` is the node, initially not started.
+
+    `holds_checked_in` is the last snapshot in which all holds were true; they are not evaluated in it again.
+    """
+
+    __slots__ = (
+        "_context",
+        "_holder",
+        "_state_at_start",
+        "_writes_at_start",
+        "body",
+        "bound",
+        "frame",
+        "holds_checked_in",
+        "implementation",
+        "skill",
+    )
+
+    def __init__(
+        self, context: TreeContext, skill: Skill, bound: BoundImplementation, holder: object, body: Node, writes: int
+    ) -> None:
+        self.bound = bound
+        self.implementation = bound.implementation
+        self.skill = skill
+        self.frame: Frame = bound.bindings
+        self.body = body
+        self.holds_checked_in: WorldState = context.state
+        self._state_at_start, self._writes_at_start = context.state, writes
+        self._context = context
+        self._holder = holder
+
+    def check_holds(self) -> Failure | None:
+        """Return the failure of the first hold that is false in this tick's state, or None if all are true."""
+        state = self._context.state
+        for hold in self.implementation.hold:
+            if not evaluate(hold.condition, state, self.frame):
+                message = describe_unmet_condition(self.implementation, hold, "hold", self.frame, state)
+                return Failure(kind="hold", message=message, source=hold.source, skill=self.skill.name)
+        self.holds_checked_in = state
+        return None
+
+    @property
+    def needs_monitoring(self) -> bool:
+        """Whether holds or `verify` lines must be checked in each tick."""
+        return bool(self.implementation.hold) or bool(monitored_properties(self.implementation))
+
+    def check_properties(self) -> Failure | None:
+        """Return the failure of the first `verify` line that is violated now, if any."""
+        context = self._context
+        return find_violation(self.implementation, context.cell, context.library.vocabulary, context.state, self.frame)
+
+    def apply_results(self) -> Failure | None:
+        """Read a primitive's outputs, write its posts and check the results of the body; return the failure."""
+        self._context.refresh_state()
+        if isinstance(self.body, PrimitiveNode):
+            problem = self._read_outputs(self.body.outputs)
+            if problem is not None:
+                return problem
+            self._write_posts(self.body)
+        return self._check_outputs() or self._check_posts()
+
+    def release_locks(self) -> None:
+        """Release the locks of the call."""
+        self._context.locks.release(self._holder)
+
+    def broken(self, status: Literal["failed", "halted"]) -> BrokenCall:
+        """Return what is remembered of this run, once it has ended without success and all is undone."""
+        named = frozenset(each for each in self.frame.values() if isinstance(each, str))
+        return BrokenCall(status, self._writes_at_start, self._context.cell.world.ledger.count, named)
+
+    def posts_hold(self) -> bool:
+        """Whether all posts are true in this tick's state."""
+        return _posts_hold(self.implementation, self._context.state, self.frame)
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """The names of the output parameters."""
+        return tuple(parameter.name for parameter in self.implementation.parameters if parameter.direction == "out")
+
+    def _read_outputs(self, outputs: Mapping[str, object]) -> Failure | None:
+        """Copy the primitive's outputs to the frame; return the failure of the first invalid one, if any."""
+        for parameter in self.implementation.parameters:
+            if parameter.direction == "out" and parameter.name in outputs:
+                value = cast("Value", outputs[parameter.name])
+                problem = check_value(parameter, value, self._context.state)
+                if problem is not None:
+                    return self._failure("error", f"output `{parameter.name}` {problem}")
+                self.frame[parameter.name] = value
+        return None
+
+    def _write_posts(self, body: PrimitiveNode) -> None:
+        effects = tuple(e for post in self.implementation.post if not post.sensed for e in post.effects)
+        before = self._context.state
+        changes = changes_of(effects, before, self.frame)
+        assumed = drop_sensed_changes(changes, self._context.cell.world, self._writes_at_start)
+        if assumed:
+            self._context.write_assumed(assumed, self.skill.name)
+        if changes:
+            start, after = before if assumed == changes else self._state_at_start, self._context.state
+            body.undo_posts = partial(_undo_posts, self._context, self.skill.name, changes, start, after)
+
+    def _check_outputs(self) -> Failure | None:
+        missing = [name for name in self.outputs if name not in self.frame]
+        if not missing:
+            return None
+        return self._failure("body", f"{self.skill.name} succeeded without assigning `{missing[0]}`")
+
+    def _failure(self, kind: FailureKind, message: str) -> Failure:
+        return Failure(kind=kind, message=message, source=self.implementation.source, skill=self.skill.name)
+
+    def _check_posts(self) -> Failure | None:
+        state = self._context.state
+        for post in self.implementation.post:
+            if not evaluate(post.condition, state, self.frame):
+                message = describe_unmet_condition(self.implementation, post, "post", self.frame, state)
+                return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
+            if post.sensed:
+                reason = explain_not_sensed(post, self._context.cell.world, self.frame, self._writes_at_start)
+                if reason is not None:
+                    message = f"{self.skill.name}: {reason}"
+                    return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
+        return None
+
+
+def activate(
+    context: TreeContext,
+    skill: Skill,
+    bound: BoundImplementation,
+    holder: object,
+    scope: LexicalScope,
+    build: BuildNode,
+) -> Activation | Rejection:
+    """Acquire the locks, compute the lets and build the body; a rejection leaves nothing locked.
+
+    Raises EvaluationError if a let cannot be evaluated.
+    """
+    locked = context.locks.acquire(_used_devices(skill, bound), holder, scope.calls)
+    if locked is not None:
+        reason = f"{context.library.vocabulary.short(locked)} is in use by another skill"
+        return _reject(bound.implementation, "lock", reason)
+    try:
+        body = _build_body(context, skill, bound, holder, scope, build)
+    except PrimitiveError as error:
+        context.locks.release(holder)
+        return _reject(bound.implementation, "start", str(error))
+    except FOREIGN_ERRORS:
+        context.locks.release(holder)
+        raise
+    return Activation(context, skill, bound, holder, body, context.cell.world.ledger.count)
+
+
+def foresee_activation(
+    context: TreeContext,
+    skill: Skill,
+    bound: BoundImplementation,
+    holder: object,
+    scope: LexicalScope,
+    build: BuildNode,
+    freed: Holders,
+) -> Status | None:
+    """Return how an implementation would begin if the calls `freed` held no locks; None if others hold one it needs.
+
+    Nothing is locked or started.
+
+    Raises EvaluationError if a let cannot be evaluated.
+    """
+    if context.locks.find_conflict(_used_devices(skill, bound), scope.calls, freed) is not None:
+        return None
+    status = _build_body(context, skill, bound, holder, scope, build).dry_start(freed)
+    if status is Status.SUCCESS and not _posts_hold(bound.implementation, context.state, bound.bindings):
+        return Status.FAILURE
+    return status
+
+
+def _used_devices(skill: Skill, bound: BoundImplementation) -> list[str]:
+    return [str(bound.bindings[name]) for name in skill.uses if name in bound.bindings]
+
+
+def _posts_hold(implementation: Implementation, state: WorldState, frame: Frame) -> bool:
+    return all(evaluate(post.condition, state, frame) for post in implementation.post)
+
+
+def _build_body(
+    context: TreeContext,
+    skill: Skill,
+    bound: BoundImplementation,
+    holder: object,
+    scope: LexicalScope,
+    build: BuildNode,
+) -> Node:
+    """Compute the lets and build the body; nothing starts."""
+    implementation, frame = bound.implementation, bound.bindings
+    for let in implementation.lets:
+        frame[let.name] = value_of(let.value, context.state, frame)
+    match implementation.body:
+        case Compound(node=node):
+            calls, writes = (*scope.calls, holder), context.cell.world.ledger.count
+            inside = LexicalScope(
+                scope.undo, frame, implementation, calls, writes_at_start=writes, lets_read=context.state
+            )
+            return build(node, context, inside)
+        case Primitive(python=python):
+            cls = import_matching_primitive(python, implementation.parameters)
+            names = [p.name for p in implementation.parameters if p.direction != "out"]
+            make = partial(cls, context.run_cell, **{name: frame.get(name) for name in names})
+            undo = scope.undo if skill.scoped else None
+            return PrimitiveNode(context, implementation.source, python.partition(":")[2], make, undo)
+        case Declared():
+            claim = partial(DeclaredRun, context, skill, implementation, frame)
+            undo = scope.undo if skill.scoped else None
+            return PrimitiveNode(context, implementation.source, skill.name, claim, undo)
+        case _:
+            assert_never(implementation.body)
+
+
+def _undo_posts(
+    context: TreeContext, skill: str, changes: tuple[Change, ...], before: WorldState, after: WorldState
+) -> None:
+    context.refresh_state()
+    inverse = inverse_changes(changes, before, after, context.state)
+    if inverse:
+        context.write_assumed(inverse, f"{skill} undone")
+
+
+def _reject(implementation: Implementation, stage: Stage, reason: str) -> Rejection:
+    return Rejection(implementation=implementation.name, stage=stage, reason=reason, source=implementation.source)

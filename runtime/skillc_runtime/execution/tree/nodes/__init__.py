@@ -1,0 +1,1 @@
+"""The nodes of bodies: sequences, selectors, loops, decorators, leaves."""

@@ -1,0 +1,1 @@
+"""Paths, their segments and their profiles over time."""

@@ -1,0 +1,1 @@
+"""Grasps: how a hand takes a body, and whether it carries it."""

@@ -1,0 +1,1 @@
+"""Places: where a held thing can be put down, and why not."""

@@ -1,0 +1,1 @@
+"""Shapes: bodies, solids, boxes and outlines."""

@@ -1,0 +1,1 @@
+"""The axioms of a vocabulary: what follows from them, and what violates them."""

@@ -1,0 +1,1 @@
+"""Labelled facts and values, for recordings and messages."""
