@@ -20,7 +20,7 @@ from skillc.services.run import running
 from skillc.services.run.running import RunOptions, run_task
 from skillc.services.tasks.loading import load_task
 from skillc.workers.rehearsing import _Unattended
-from skillc_runtime.evaluation.report.figure_files import render_figure
+from skillc_runtime.evaluation.report.figure import render_figure
 from skillc_runtime.evaluation.report.write import write_figures
 from skillc_runtime.film.footage import Footage
 from skillc_runtime.film.framing import Framing, posed

@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 from msgspec.structs import replace
 
 from skillc_runtime.devices.ground_truth import Recording
-from skillc_runtime.evaluation.report.figure_files import render_figure
-from skillc_runtime.evaluation.report.figure_style import STYLE
-from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, find_overlay_period
-from skillc_runtime.evaluation.report.wiping_figure import draw_figure
+from skillc_runtime.evaluation.report.figure import render_figure
+from skillc_runtime.evaluation.report.plotting import STYLE
+from skillc_runtime.evaluation.report.wiping import WipingDrawing, find_overlay_period
+from skillc_runtime.evaluation.report.wiping_figure import draw_wipings
 
 SVG = "{http://www.w3.org/2000/svg}"
 TIME = np.linspace(0.0, 10.0, 200)
@@ -46,7 +46,7 @@ def wiped(*, upright: bool = False) -> WipingDrawing:
 def drawn(drawings: list[WipingDrawing]) -> Figure:
     """Return a figure as it is drawn for files."""
     with mpl.rc_context(STYLE):
-        return draw_figure(drawings)
+        return draw_wipings(drawings)
 
 
 def words(svg: bytes) -> list[str]:
@@ -75,13 +75,13 @@ def test_x_of_each_surface_lies_across_to_scale_whatever_its_longer_side_is() ->
 @pytest.mark.slow
 def test_not_wiped_is_in_the_legend_only_where_something_was_not() -> None:
     whole = replace(wiped(), dose=np.full((60, 80), 0.5))
-    assert "not wiped" in words(render_figure(lambda: draw_figure([wiped()])).svg)
-    assert "not wiped" not in words(render_figure(lambda: draw_figure([whole])).svg)
+    assert "not wiped" in words(render_figure(lambda: draw_wipings([wiped()])).svg)
+    assert "not wiped" not in words(render_figure(lambda: draw_wipings([whole])).svg)
 
 
 def test_what_was_not_to_be_wiped_does_not_count_as_not_wiped() -> None:
     spared = replace(wiped(), spared=wiped().dose == 0.0)
-    named = words(render_figure(lambda: draw_figure([spared])).svg)
+    named = words(render_figure(lambda: draw_wipings([spared])).svg)
     assert "not to be wiped" in named and "not wiped" not in named
 
 
@@ -141,12 +141,12 @@ def test_each_curve_says_where_it_comes_from() -> None:
 
 @pytest.mark.slow
 def test_the_same_drawing_gives_the_same_files() -> None:
-    drawn = render_figure(lambda: draw_figure([wiped()]))
-    assert drawn == render_figure(lambda: draw_figure([wiped()]))
+    drawn = render_figure(lambda: draw_wipings([wiped()]))
+    assert drawn == render_figure(lambda: draw_wipings([wiped()]))
     assert drawn.png.startswith(b"\x89PNG")
     assert ElementTree.fromstring(drawn.svg).tag.endswith("svg")
 
 
 def test_there_is_no_figure_of_nothing() -> None:
     with pytest.raises(ValueError, match="no wiping"):
-        draw_figure([])
+        draw_wipings([])

@@ -10,14 +10,13 @@ import pytest
 from backends.kinematic_runs import library, prepare
 from skillc.services.library.files import SHIPPED
 from skillc_runtime.backends.kinematic.cell import KinematicCell
-from skillc_runtime.evaluation.report.figure_files import render_figure
-from skillc_runtime.evaluation.report.grip_figure import draw_grips
-from skillc_runtime.evaluation.report.hand_trace import PERIOD_S, HandTrace
+from skillc_runtime.evaluation.report.figure import render_figure
 from skillc_runtime.evaluation.report.handling_drawing import HandlingDrawing, make_handling_drawings
+from skillc_runtime.evaluation.report.handling_figures import draw_grips, draw_path
 from skillc_runtime.evaluation.report.handlings import Handling, find_handlings, find_targets
-from skillc_runtime.evaluation.report.path_figure import draw_path
 from skillc_runtime.evaluation.report.placements import measure_placements
 from skillc_runtime.evaluation.report.result import PlacementResult
+from skillc_runtime.evaluation.report.run_trace import HAND_PERIOD_S, HandTrace
 from skillc_runtime.evaluation.report.table import format_placement, split_placement
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.history.history_builder import HistoryBuilder
@@ -74,9 +73,9 @@ def test_the_drawing_has_the_parts_at_both_ends_and_the_pushed_one_where_it_is_b
 
 def test_the_hand_is_sampled_with_what_its_fingers_measure() -> None:
     (one, _), drawing, _ = sorted_parts()
-    assert float(np.diff(drawing.path.time).min()) >= PERIOD_S - 1e-6
+    assert float(np.diff(drawing.path.time).min()) >= HAND_PERIOD_S - 1e-6
     assert one.released_s is not None
-    held = drawing.picks[0].samples.between(one.grasped_s + PERIOD_S, one.released_s - 1.0)
+    held = drawing.picks[0].samples.between(one.grasped_s + HAND_PERIOD_S, one.released_s - 1.0)
     assert held.opening == pytest.approx(0.04, abs=1e-3)
     assert held.measured_opening == pytest.approx(held.opening)
     assert np.isnan(held.finger_force).all()

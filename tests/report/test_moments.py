@@ -8,7 +8,7 @@ from typing import Any
 from msgspec import structs
 
 from skillc_rdf.vocabulary.types import Position
-from skillc_runtime.evaluation.report.moments import find_moments
+from skillc_runtime.evaluation.report.film_story import find_moments
 from skillc_runtime.film.footage import Moment
 from skillc_runtime.recording.history.history import Attempt, RecordedCall, RunHistory
 from skillc_runtime.recording.reasons import Highlight

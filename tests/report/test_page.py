@@ -9,13 +9,11 @@ from matplotlib.figure import Figure
 from msgspec import structs
 
 from skillc_rdf.vocabulary.types import Position
-from skillc_runtime.evaluation.report.figure_files import render_figure
-from skillc_runtime.evaluation.report.figure_style import INK, MOST_POINTS, TRUTH, count_columns, thin_curve
+from skillc_runtime.evaluation.report.figure import DrawnFigure, WorkFigure, number_files, render_figure
 from skillc_runtime.evaluation.report.page import render_page
-from skillc_runtime.evaluation.report.result import PlacementResult, StepResult, TaskResult
+from skillc_runtime.evaluation.report.plotting import INK, MOST_POINTS, TRUTH, count_columns, thin_curve
+from skillc_runtime.evaluation.report.result import GraspResult, PlacementResult, StepResult, TaskResult
 from skillc_runtime.evaluation.report.table import list_table_rows
-from skillc_runtime.evaluation.report.work_figure import DrawnFigure, WorkFigure, number_files
-from skillc_runtime.evaluation.report.work_result import GraspResult
 from skillc_runtime.recording.history.node_outcome import NodeOutcome
 
 HERE = Position(path="sort.skill", line=1, column=1)

@@ -22,7 +22,7 @@ from skillc_runtime.evaluation.metrics.intervals import (
 )
 from skillc_runtime.evaluation.metrics.wiping import measure_wiping
 from skillc_runtime.evaluation.report.wiping import Wiping
-from skillc_runtime.evaluation.report.wiping_figure import draw_figure
+from skillc_runtime.evaluation.report.wiping_figure import draw_wipings
 from skillc_runtime.motion.time_scaling import RAMP_S
 from skillc_runtime.recording.events import FORMAT, Paused, Resumed, TaskStarted
 from skillc_runtime.recording.history.history_builder import HistoryBuilder
@@ -92,8 +92,8 @@ def test_the_amplitude_of_a_swing_is_that_of_its_longest_undisturbed_part() -> N
 
 
 def test_a_pause_is_marked_in_the_plots_over_time() -> None:
-    without = draw_figure([drawing()]).axes
-    paused = draw_figure([replace(drawing(), pauses=((2.0, 4.0), (6.0, 6.5)))]).axes
+    without = draw_wipings([drawing()]).axes
+    paused = draw_wipings([replace(drawing(), pauses=((2.0, 4.0), (6.0, 6.5)))]).axes
     for number in (1, 2):
         spans = [patch.get_extents().width for patch in paused[number].patches]
         assert len(spans) == len(without[number].patches) + 2

@@ -15,8 +15,8 @@ from skillc.services.recording.picture_making import PictureOrder, Pictures, mak
 from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.run.running import RunOptions, run_task
 from skillc.services.tasks.loading import load_task
+from skillc_runtime.evaluation.report.figure import DrawnFigure, WorkFigure
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.work_figure import DrawnFigure, WorkFigure
 from skillc_runtime.evaluation.report.write import ReportPages, write_page
 from skillc_runtime.execution.worker_process import Died, Returned
 from skillc_runtime.film.footage import FilmFiles

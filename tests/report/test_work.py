@@ -15,14 +15,13 @@ from skillc.services.library import libraries
 from skillc.services.library.files import find_library
 from skillc_ontology import catalogue
 from skillc_runtime.backends.kinematic.cell import KinematicCell
-from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.result import PushResult, TaskResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.run_trace import RunTrace
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.table import list_table_rows
+from skillc_runtime.evaluation.report.work import measure_work
 from skillc_runtime.evaluation.report.work_figures import list_figures
-from skillc_runtime.evaluation.report.work_kinds import measure_work
-from skillc_runtime.evaluation.report.work_result import PushResult
 from skillc_runtime.evaluation.report.write import write_report, write_result
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.execution.execute import execute_task

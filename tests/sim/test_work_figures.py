@@ -9,12 +9,12 @@ import pytest
 from backends.kinematic_runs import library, prepare
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.figure_files import render_figure
+from skillc_runtime.evaluation.report.figure import render_figure
+from skillc_runtime.evaluation.report.result import GraspResult, GuidanceResult, PushResult, SearchResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.run_trace import RunTrace
+from skillc_runtime.evaluation.report.work import measure_work
 from skillc_runtime.evaluation.report.work_figures import list_figures
-from skillc_runtime.evaluation.report.work_kinds import measure_work
-from skillc_runtime.evaluation.report.work_result import GraspResult, GuidanceResult, PushResult, SearchResult
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.world.state.model import WorldModel

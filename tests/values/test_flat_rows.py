@@ -9,8 +9,7 @@ from msgspec import structs
 from skillc.values.flat_rows import make_flat_row
 from skillc.values.trials import Trials
 from skillc_runtime.evaluation.measures.work import PlacingWork, PressingWork, WipingWork
-from skillc_runtime.evaluation.report.result import PlacementResult
-from skillc_runtime.evaluation.report.work_result import PushResult
+from skillc_runtime.evaluation.report.result import PlacementResult, PushResult
 from skillc_runtime.evaluation.trials.judging import judge_series
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.world.state.labels.labelled import LabelledIri

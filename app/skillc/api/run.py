@@ -27,8 +27,7 @@ from skillc.services.replaying.playback import play_paced
 from skillc.values.arguments import AnyPath, require_choice, require_path, require_text
 from skillc.values.flat_rows import make_flat_row
 from skillc.values.frames import make_frame, make_table
-from skillc_runtime.evaluation.report.result import PlacementResult, StepResult, TaskResult, WipingResult
-from skillc_runtime.evaluation.report.work_result import WorkResult
+from skillc_runtime.evaluation.report.result import PlacementResult, StepResult, TaskResult, WipingResult, WorkResult
 from skillc_runtime.evaluation.report.write import REPORT
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.history.history_builder import read_history

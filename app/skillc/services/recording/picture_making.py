@@ -17,7 +17,7 @@ from skillc_runtime.execution.worker_process import ReportingFunction, Returned,
 from skillc_runtime.platforms.processes import DEFAULT_START
 
 if TYPE_CHECKING:
-    from skillc_runtime.evaluation.report.work_figure import WorkFigure
+    from skillc_runtime.evaluation.report.figure import WorkFigure
     from skillc_runtime.evaluation.report.write import ReportPages
     from skillc_runtime.film.footage import Footage
 

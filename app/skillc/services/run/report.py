@@ -10,12 +10,11 @@ from skillc.services.recording.picture_making import PictureOrder, Pictures
 from skillc.services.reporting.files import writing_to
 from skillc.services.reporting.reporter import Reporter
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.evaluation.report.film_story import make_story
-from skillc_runtime.evaluation.report.moments import find_moments
+from skillc_runtime.evaluation.report.figure import DrawnFigure, number_files
+from skillc_runtime.evaluation.report.film_story import find_moments, make_story
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
-from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
-from skillc_runtime.evaluation.report.work_figure import DrawnFigure, number_files
+from skillc_runtime.evaluation.report.wiping import WipingDrawing
 from skillc_runtime.evaluation.report.work_figures import list_figures
 from skillc_runtime.evaluation.report.write import ReportPages, write_figure, write_page, write_result
 from skillc_runtime.film.film import Film

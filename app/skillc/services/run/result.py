@@ -16,8 +16,8 @@ from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.run_trace import RunTrace
 from skillc_runtime.evaluation.report.summary import summarise_run
-from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
-from skillc_runtime.evaluation.report.work_kinds import measure_work
+from skillc_runtime.evaluation.report.wiping import WipingDrawing
+from skillc_runtime.evaluation.report.work import measure_work
 from skillc_runtime.execution.execute import Execution
 from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.recording.run_spec import RunSpec

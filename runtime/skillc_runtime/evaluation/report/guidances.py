@@ -6,10 +6,10 @@ import msgspec
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import Guidance
-from skillc_runtime.evaluation.report.arm_trace import ArmPath
 from skillc_runtime.evaluation.report.pushes import find_pushes
+from skillc_runtime.evaluation.report.result import GuidanceResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
-from skillc_runtime.evaluation.report.work_result import GuidanceResult
+from skillc_runtime.evaluation.report.run_trace import ArmPath
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import ARM_DEVICE

@@ -11,8 +11,8 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import GroundTruth
-from skillc_runtime.evaluation.report.hand_trace import HandPath, HandTrace
 from skillc_runtime.evaluation.report.handlings import Handling
+from skillc_runtime.evaluation.report.run_trace import HandPath, HandTrace
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import read_bodies, read_body
 from skillc_runtime.world.space.frame_tree import FrameError

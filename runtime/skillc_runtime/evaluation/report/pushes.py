@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import msgspec
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import GroundTruth, Recording
 from skillc_runtime.evaluation.metrics.intervals import Interval
-from skillc_runtime.evaluation.report.arm_trace import ArmPath
+from skillc_runtime.evaluation.report.result import ForceSource, PushResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
-from skillc_runtime.evaluation.report.work_result import ForceSource, PushResult
+from skillc_runtime.evaluation.report.run_trace import ArmPath
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.history.history import RecordedCall
 from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledVector, Quantity
@@ -180,3 +181,28 @@ def _is_object(individual: str, state: WorldState) -> bool:
     if individual not in state.individuals or any(state.is_a(individual, kind) for kind in DEVICES):
         return False
     return not state.is_a(individual, LOCATION) or any(state.is_a(individual, kind) for kind in (FIXTURE, SURFACE))
+
+
+@dataclass(frozen=True, slots=True)
+class PushDrawing:
+    """A push to draw: where the arm knows its force from, and when a button in it switched, None if none did."""
+
+    push: PushRecord
+    source: ForceSource
+    switched_s: float | None
+
+
+def make_push_drawing(push: PushRecord, record: RunRecord) -> PushDrawing:
+    """Return what is drawn of a push."""
+    return PushDrawing(push, find_force_source(push.arm, record), _find_switching(push, record))
+
+
+def _find_switching(push: PushRecord, record: RunRecord) -> float | None:
+    if record.truth is None:
+        return None
+    for button in (each for each in push.on if record.state.is_a(each, BUTTON)):
+        rows = record.truth.pressing(button)
+        switched = rows[(rows[:, 2] > 0) & (rows[:, 0] >= push.start_s) & (rows[:, 0] <= push.end_s), 0]
+        if switched.size:
+            return float(switched[0])
+    return None

@@ -10,11 +10,9 @@ from math import inf
 import numpy as np
 
 from skillc_runtime.devices.ground_truth import GroundTruth
-from skillc_runtime.evaluation.report.arm_trace import COLUMNS, ArmPath
 from skillc_runtime.evaluation.report.handlings import Handling, find_handlings
-from skillc_runtime.evaluation.report.run_trace import RunTrace
-from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
-from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing, make_wiping_drawing
+from skillc_runtime.evaluation.report.run_trace import ARM_COLUMNS, ArmPath, RunTrace
+from skillc_runtime.evaluation.report.wiping import Wiping, WipingDrawing, find_wipings, make_wiping_drawing
 from skillc_runtime.recording.history.history import RunHistory
 from skillc_runtime.world.state.terms import ARM_DEVICE, CONTAIN, FORCE_TORQUE_SENSOR, HAS_GRIPPER, HAS_SENSOR
 from skillc_runtime.world.state.world_state import WorldState
@@ -53,7 +51,7 @@ class RunRecord:
         try:
             return self.trace.arms.path(arm)
         except KeyError:
-            return ArmPath(np.empty((0, COLUMNS)))
+            return ArmPath(np.empty((0, ARM_COLUMNS)))
 
     def has_force_sensor(self, arm: str) -> bool:
         """Whether an arm has a force-torque sensor."""

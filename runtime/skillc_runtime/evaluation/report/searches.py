@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import msgspec
 import numpy as np
 
-from skillc_runtime.evaluation.report.arm_trace import ArmPath
-from skillc_runtime.evaluation.report.pushes import PushRecord, find_pushes
+from skillc_runtime.evaluation.report.pushes import PushDrawing, PushRecord, find_pushes, make_push_drawing
+from skillc_runtime.evaluation.report.result import SearchResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
-from skillc_runtime.evaluation.report.work_result import SearchResult
+from skillc_runtime.evaluation.report.run_trace import ArmPath
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.labels.labelling import label
 
@@ -82,3 +83,31 @@ def _find_plane(along: Array) -> tuple[tuple[str, str], Array]:
     level = np.cross((0.0, 0.0, 1.0), along)
     level = level / np.linalg.norm(level)
     return ("across, level", "across, upwards"), np.stack([level, np.cross(along, level)])
+
+
+@dataclass(frozen=True, slots=True)
+class SearchDrawing:
+    """A search to draw: the force of its push, and the true place (2,) of the hole in its plane, None if not known."""
+
+    search: Search
+    force: PushDrawing
+    hole_mm: Array | None
+
+
+def make_search_drawing(search: Search, record: RunRecord) -> SearchDrawing:
+    """Return what is drawn of a search."""
+    return SearchDrawing(search, make_push_drawing(search.push, record), _find_hole(search, record))
+
+
+def _find_hole(search: Search, record: RunRecord) -> Array | None:
+    """Return where the fixture that the search is about really is, (2,) mm in the plane."""
+    truth = record.truth
+    if truth is None:
+        return None
+    for each in search.push.on:
+        try:
+            place = truth.fixture_pose(each).position
+        except KeyError:
+            continue
+        return np.asarray(search.in_plane(place[None])[0])
+    return None

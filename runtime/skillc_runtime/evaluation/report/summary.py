@@ -18,9 +18,9 @@ from skillc_runtime.evaluation.report.result import (
     StepResult,
     TaskResult,
     TouchResult,
+    WorkResult,
 )
 from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
-from skillc_runtime.evaluation.report.work_result import WorkResult
 from skillc_runtime.execution.execute import Execution
 from skillc_runtime.recording.failure_text import describe_failure
 from skillc_runtime.recording.history.history import Attempt, RecordedCall, RunHistory

@@ -3,28 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
-from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
-from skillc_runtime.evaluation.report.figure_style import (
+from skillc_runtime.evaluation.report.plotting import (
     DIM,
     DOSE,
     PAPER,
-    SHADE,
-    WIDTH_IN,
     add_legend,
-    average_over,
-    find_force_range,
+    draw_band,
+    draw_map,
+    draw_outline,
     mark_outliers,
     plot_curve,
     plot_path,
+    start_figure,
 )
-from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
+from skillc_runtime.evaluation.report.wiping import WipingDrawing
+from skillc_runtime.motion.pose import Array
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 ROW_IN, LEGEND_IN = 4.4, 0.6
 """Heights of what is drawn of one surface, and of the legend."""
@@ -44,12 +45,12 @@ LANES: dict[str, Any] = {"linestyle": "-", "linewidth": 0.9}
 """A commanded path is dense where it turns: dots would not be seen."""
 
 
-def draw_figure(drawings: Sequence[WipingDrawing]) -> Figure:
-    """Return the figure as a matplotlib object; ValueError if there are no drawings."""
+def draw_wipings(drawings: Sequence[WipingDrawing]) -> Figure:
+    """Return the figure of wipings; ValueError if there are no drawings."""
     if not drawings:
         raise ValueError("there is no wiping to draw")
     longest = max(float(drawing.dose.max(initial=0.0)) for drawing in drawings)
-    figure = Figure(figsize=(WIDTH_IN, ROW_IN * len(drawings) + LEGEND_IN), layout="constrained")
+    figure = start_figure(ROW_IN * len(drawings) + LEGEND_IN)
     grid = figure.add_gridspec(2 * len(drawings), 2, width_ratios=(1.15, 1))
     for number, drawing in enumerate(drawings):
         upper, lower = 2 * number, 2 * number + 1
@@ -65,10 +66,7 @@ def draw_figure(drawings: Sequence[WipingDrawing]) -> Figure:
 def _draw_surface(axes: Axes, drawing: WipingDrawing, longest: float) -> None:
     """Shade the contact time of each cell and draw both paths over it; x of every surface lies across."""
     x, y = drawing.extent / 2
-    shades = axes.imshow(
-        np.ma.masked_equal(drawing.dose, 0.0), extent=(-x, x, -y, y), origin="lower", cmap=DOSE,
-        vmin=0.0, vmax=longest or 1.0, interpolation="nearest", zorder=1,
-    )  # fmt: skip
+    shades = draw_map(axes, drawing.dose, drawing.extent / 2, DOSE, longest or 1.0)
     _draw_unwiped(axes, drawing)
     plot_path(axes, drawing.tool, "truth", "tool")
     plot_path(axes, drawing.lanes, "commanded", "lanes, without overlay", **LANES)
@@ -85,11 +83,10 @@ def _draw_unwiped(axes: Axes, drawing: WipingDrawing) -> None:
     unwiped = drawing.dose == 0.0
     spared = np.zeros_like(unwiped) if drawing.spared is None else drawing.spared & unwiped
     if (unwiped & ~spared).any():
-        axes.add_patch(Rectangle((-x, -y), 2 * x, 2 * y, label="not wiped", **UNWIPED))
+        draw_outline(axes, np.array([(-x, -y), (x, -y), (x, y), (-x, y)]), "not wiped", **UNWIPED)
     if spared.any():
-        shown, grey = np.ma.masked_equal(spared, False), ListedColormap([SPARED])
-        axes.imshow(shown, extent=(-x, x, -y, y), origin="lower", cmap=grey, interpolation="nearest", zorder=0.5)
-        axes.add_patch(Rectangle((0, 0), 0, 0, facecolor=SPARED, label="not to be wiped"))
+        draw_map(axes, spared, drawing.extent / 2, (SPARED,), 1.0, zorder=0.5)
+        draw_outline(axes, np.zeros((1, 2)), "not to be wiped", facecolor=SPARED)
 
 
 def _draw_speed(axes: Axes, drawing: WipingDrawing) -> None:
@@ -115,7 +112,7 @@ def _draw_force(axes: Axes, drawing: WipingDrawing) -> None:
     end = drawing.time[-1]
     contacts = drawing.contact_time[drawing.force > 0]
     first = float(contacts[0] if contacts.size else drawing.contact_time[0]) - BEFORE_CONTACT_S
-    axes.axvspan(drawing.time[0], end, color=SHADE, linewidth=0, zorder=0, label="on the lanes")
+    draw_band(axes, drawing.time[0], end, "on the lanes")
     _mark_pauses(axes, drawing)
     plot_curve(axes, drawing.contact_time, drawing.force, "truth", "normal force", linewidth=0.7)
     plot_curve(axes, np.array([first, end]), np.full(2, drawing.force_n), "commanded", "force")
@@ -128,3 +125,24 @@ def _draw_force(axes: Axes, drawing: WipingDrawing) -> None:
 def _mark_pauses(axes: Axes, drawing: WipingDrawing) -> None:
     for start, end in drawing.pauses:
         axes.axvspan(start, end, facecolor="none", edgecolor=DIM, hatch="////", linewidth=0.5, label="paused")
+
+
+def find_force_range(force_n: Array, commanded_n: float | None) -> tuple[float, float]:
+    """Return the limits in N of an axis on which the band of interest fills most of the height.
+
+    They enclose all but the outermost percent of the forces (n,), and the commanded force with a tenth of it around.
+    """
+    known = force_n[np.isfinite(force_n)]
+    low, high = np.percentile(known, (0.5, 99.5)) if known.size else (0.0, 1.0)
+    if commanded_n is not None:
+        low, high = min(low, 0.9 * commanded_n), max(high, 1.1 * commanded_n)
+    room = 0.15 * max(high - low, 0.1)
+    return float(low - room), float(high + room)
+
+
+def average_over(values: Array, width: float) -> Array:
+    """Return the moving mean of values (n,) over `width` samples; NaN where a value of it is none."""
+    count = max(1, min(round(width), len(values)))
+    weights = np.ones(count) / count
+    inside = np.convolve(np.ones(len(values)), weights, mode="same")
+    return np.asarray(np.convolve(values, weights, mode="same") / inside)

@@ -1,22 +1,21 @@
-"""The figures that a report draws of each kind of work; `work_kinds.py` has the kinds, and what each measures."""
+"""The figures that a report draws of each kind of work; `work.py` has the kinds, and what each measures."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
 
-from skillc_runtime.evaluation.report import draw
-from skillc_runtime.evaluation.report.drive_drawing import make_drive_drawing
-from skillc_runtime.evaluation.report.drives import find_drives
+from skillc_runtime.evaluation.report.figure import WorkFigure
 from skillc_runtime.evaluation.report.guidances import find_free_periods
 from skillc_runtime.evaluation.report.handling_drawing import choose_axes, make_handling_drawings
-from skillc_runtime.evaluation.report.push_drawing import make_push_drawing
-from skillc_runtime.evaluation.report.pushes import PushRecord
+from skillc_runtime.evaluation.report.handling_figures import draw_grips, draw_path
+from skillc_runtime.evaluation.report.motion_figures import draw_drive, draw_guidance, list_outlines
+from skillc_runtime.evaluation.report.push_figures import draw_push, draw_search
+from skillc_runtime.evaluation.report.pushes import PushRecord, make_push_drawing
 from skillc_runtime.evaluation.report.run_record import RunRecord
-from skillc_runtime.evaluation.report.search_drawing import make_search_drawing
-from skillc_runtime.evaluation.report.searches import find_searches
-from skillc_runtime.evaluation.report.work_figure import WorkFigure
-from skillc_runtime.evaluation.report.work_kinds import find_other_pushes
+from skillc_runtime.evaluation.report.searches import find_searches, make_search_drawing
+from skillc_runtime.evaluation.report.wiping_figure import draw_wipings
+from skillc_runtime.evaluation.report.work import find_drives, find_other_pushes
 from skillc_runtime.world.state.labels.labelled import display_name
 
 MOST_FIGURES = 8
@@ -40,7 +39,7 @@ def _find_wipings(record: RunRecord) -> Iterator[WorkFigure]:
             "Path, contact time, speed and force on the surface",
             "The shade of a cell is how long it lay under the pressed tool." + (SWINGING if overlaid else ""),
             "Path of the tool over the contact time of each cell, speed along the lanes, normal force",
-            partial(draw.draw_wipings, drawings),
+            partial(draw_wipings, drawings),
         )
 
 
@@ -54,7 +53,7 @@ def _find_pushes(record: RunRecord) -> Iterator[WorkFigure]:
             f"Force of {_describe(push)}",
             "Forces against the push. The arm measures or estimates them; its travel follows from its joints.",
             "Force of the tool over time and over its travel",
-            partial(draw.draw_push, drawing),
+            partial(draw_push, drawing),
         )
 
 
@@ -66,7 +65,7 @@ def _find_searches(record: RunRecord) -> Iterator[WorkFigure]:
             f"Search of {_describe(search.push)}",
             "The path is to scale, seen against the push.",
             "Path of the tool while it searched, force and depth over time",
-            partial(draw.draw_search, drawing),
+            partial(draw_search, drawing),
         )
 
 
@@ -77,7 +76,7 @@ def _find_guidances(record: RunRecord) -> Iterator[WorkFigure]:
             f"{display_name(period.arm)} guided by hand",
             "While the arm yields in all directions, whoever leads its tool decides where it goes.",
             "Path of the tool from above and from the side, force of the person, speed",
-            partial(draw.draw_guidance, period),
+            partial(draw_guidance, period),
         )
 
 
@@ -92,7 +91,7 @@ def _find_handlings(record: RunRecord) -> Iterator[WorkFigure]:
             f"Path of {drawing.hand}",
             "A dashed outline is where a thing was believed to be, if that is more than 5 mm off.",
             "Path of the hand from above and from the side, and the things it moved",
-            partial(draw.draw_path, drawing, across),
+            partial(draw_path, drawing, across),
         )
         yield WorkFigure(
             "grips",
@@ -100,7 +99,7 @@ def _find_handlings(record: RunRecord) -> Iterator[WorkFigure]:
             "Skills see only what the sensor of the fingers measures. A gripper has no sensor of force: the force is "
             "that of its motor in the simulator, and while a thing is held, that with which it was grasped.",
             "Opening and force of the fingers during each pick",
-            partial(draw.draw_grips, drawing),
+            partial(draw_grips, drawing),
         )
 
 
@@ -111,7 +110,7 @@ def _find_drives(record: RunRecord) -> Iterator[WorkFigure]:
             f"Path of {display_name(robot)}",
             "Where the base says it is.",
             "Path of the mobile base from above",
-            partial(draw.draw_drive, make_drive_drawing(path, record.state)),
+            partial(draw_drive, path, list_outlines(record.state)),
         )
 
 

@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING
 import msgspec
 from msgspec.structs import replace
 
-from skillc_runtime.evaluation.report.figure_files import FigureFiles, render_figure
+from skillc_runtime.evaluation.report.figure import DrawnFigure, FigureFiles, WorkFigure, number_files, render_figure
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.work_figure import DrawnFigure, WorkFigure, number_files
 from skillc_runtime.recording.history.node_outcome import NodeOutcome
 
 if TYPE_CHECKING:
-    from skillc_runtime.evaluation.report.wiping_drawing import WipingDrawing
+    from skillc_runtime.evaluation.report.wiping import WipingDrawing
     from skillc_runtime.film.footage import FilmFiles
 
 RESULT, REPORT, WIPING = "result.json", "report.html", "wiping"
@@ -106,9 +105,9 @@ def write_figure(directory: Path, drawings: Sequence[WipingDrawing]) -> FigureFi
     """
     if not drawings:
         return None
-    from skillc_runtime.evaluation.report.wiping_figure import draw_figure
+    from skillc_runtime.evaluation.report.wiping_figure import draw_wipings
 
-    figure = render_figure(lambda: draw_figure(drawings))
+    figure = render_figure(lambda: draw_wipings(drawings))
     _write_files(directory, WIPING, figure)
     return figure
 

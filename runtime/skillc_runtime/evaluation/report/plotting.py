@@ -1,18 +1,21 @@
-"""How figures of reports look: colours, fonts and the line style of each source of a curve."""
+"""What figures of reports are drawn with: axes, curves, paths, bands, maps, outlines and marks, all in one style.
+
+Only this module draws with matplotlib, which takes long to import and is imported with the first figure.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.colors import LinearSegmentedColormap
-from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
 
 from skillc_runtime.motion.pose import Array
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 INK, DIM, PAPER, GRID, SHADE = "#1c2128", "#5d6873", "#ffffff", "#dfe3e8", "#eceff2"
 """Colours of text and axes, of secondary lines, of the background, of grid lines, and of intervals that are marked."""
@@ -20,7 +23,7 @@ INK, DIM, PAPER, GRID, SHADE = "#1c2128", "#5d6873", "#ffffff", "#dfe3e8", "#ece
 TRUTH, SENSOR, ESTIMATE = "#c84e00", "#0069a6", "#a03a8a"
 """Colours that people with colour blindness can distinguish; curves also differ in their line style."""
 
-DOSE = LinearSegmentedColormap.from_list("dose", ["#dcebf6", "#a9cde6", "#6ba6d0", "#3b7fb3"])
+DOSE = ("#dcebf6", "#a9cde6", "#6ba6d0", "#3b7fb3")
 """From light to dark, so that more looks like more; no colour that looks like a warning."""
 
 STYLE: Any = MappingProxyType(
@@ -60,6 +63,28 @@ MOST_POINTS = 4000
 """Longer curves are drawn as the range of each stretch of them, so that no peak is lost."""
 
 
+Mark: TypeAlias = Literal["began", "ended", "marked"]
+
+MARKS: Mapping[Mark, Mapping[str, Any]] = MappingProxyType(
+    {
+        "began": {"marker": "o", "markeredgecolor": PAPER, "markersize": 7, "zorder": 6},
+        "ended": {"marker": "s", "markeredgecolor": PAPER, "markersize": 7, "zorder": 6},
+        "marked": {"marker": "x", "markeredgewidth": 2, "markersize": 9, "zorder": 7},
+    }
+)
+"""How a place on a path is marked: where it began, where it ended, and what it was about."""
+
+BROKEN: Mapping[str, Any] = MappingProxyType({"color": DIM, "linewidth": 1.0, "linestyle": (0, (6, 3))})
+"""The line of a time or a level that is compared with a curve."""
+
+
+def start_figure(height_in: float) -> Figure:
+    """Return an empty figure of the width of the page, `height_in` inches high."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(WIDTH_IN, height_in), layout="constrained")
+
+
 def plot_curve(axes: Axes, x: Array, y: Array, source: Source, what: str, **style: Any) -> None:
     """Draw a curve with the line style of its source; `what` it is, with the source, is its entry in the legend."""
     words, line = CURVES[source]
@@ -71,6 +96,48 @@ def plot_path(axes: Axes, points: Array, source: Source, what: str, **style: Any
     x, y = thin_rows(points).T
     words, line = CURVES[source]
     axes.plot(x, y, **{**line, "label": f"{what}: {words}", **style})
+
+
+def mark_place(axes: Axes, place: Array, mark: Mark, what: str) -> None:
+    """Mark a place (2,); `what` it is, is its entry in the legend."""
+    axes.plot(*place, linestyle="none", color=INK, label=what, **MARKS[mark])
+
+
+def draw_band(axes: Axes, start: float, end: float, what: str) -> None:
+    """Shade an interval of x behind all curves."""
+    axes.axvspan(start, end, color=SHADE, linewidth=0, zorder=0, label=what)
+
+
+def draw_outline(axes: Axes, hull: Array, what: str = "", **style: Any) -> None:
+    """Draw a closed outline (n, 2); `what` it is, is its entry in the legend, "" for none."""
+    from matplotlib.patches import Polygon
+
+    axes.add_patch(Polygon(hull, closed=True, **({"label": what} if what else {}), **style))
+
+
+def draw_map(
+    axes: Axes, values: Array, half: Array, colours: Sequence[str], greatest: float, zorder: float = 1.0
+) -> Any:
+    """Draw values (rows along y, columns along x) as cells of a rectangle of twice the size `half` (2,) around 0.
+
+    Values of 0 are left out; `colours` go from 0 to the `greatest` value. Return what a colour bar is made from.
+    """
+    from matplotlib.colors import LinearSegmentedColormap, ListedColormap
+
+    scale = LinearSegmentedColormap.from_list("map", colours) if len(colours) > 1 else ListedColormap(colours)
+    x, y = half
+    return axes.imshow(
+        np.ma.masked_equal(values, 0), extent=(-x, x, -y, y), origin="lower", cmap=scale,
+        vmin=0.0, vmax=greatest, interpolation="nearest", zorder=zorder,
+    )  # fmt: skip
+
+
+def write_text(axes: Axes, text: str, at: Any, offset: tuple[float, float], **style: Any) -> None:
+    """Write text beside a place, `offset` (2,) in points from it, readable over curves."""
+    from matplotlib.patheffects import withStroke
+
+    halo = [withStroke(linewidth=2.5, foreground=PAPER)]
+    axes.annotate(text, at, offset, textcoords="offset points", fontsize=8, color=INK, path_effects=halo, **style)
 
 
 def thin_curve(x: Array, y: Array) -> tuple[Array, Array]:
@@ -116,19 +183,6 @@ def count_columns(names: Sequence[str]) -> int:
     return 1
 
 
-def find_force_range(force_n: Array, commanded_n: float | None) -> tuple[float, float]:
-    """Return the limits in N of an axis on which the band of interest fills most of the height.
-
-    They enclose all but the outermost percent of the forces (n,), and the commanded force with a tenth of it around.
-    """
-    known = force_n[np.isfinite(force_n)]
-    low, high = np.percentile(known, (0.5, 99.5)) if known.size else (0.0, 1.0)
-    if commanded_n is not None:
-        low, high = min(low, 0.9 * commanded_n), max(high, 1.1 * commanded_n)
-    room = 0.15 * max(high - low, 0.1)
-    return float(low - room), float(high + room)
-
-
 def mark_outliers(axes: Axes, x: Array, y: Array) -> None:
     """Say at the border how far a curve (n,), (n,) goes beyond the axes, so that no peak is hidden by their limits."""
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
@@ -138,20 +192,8 @@ def mark_outliers(axes: Axes, x: Array, y: Array) -> None:
     places, values = x[shown], y[shown]
     for at, border, sign, offset in ((values.argmax(), high, "▲ up to", -11), (values.argmin(), low, "▼ down to", 4)):
         if not low <= values[at] <= high:
-            near_end = places[at] > (left + right) / 2
-            axes.annotate(
-                f"{sign} {values[at]:.1f}", (places[at], border), (-4 if near_end else 4, offset),
-                textcoords="offset points", ha="right" if near_end else "left", fontsize=8, color=INK, zorder=7,
-                path_effects=[withStroke(linewidth=2.5, foreground=PAPER)],
-            )  # fmt: skip
-
-
-def average_over(values: Array, width: float) -> Array:
-    """Return the moving mean of values (n,) over `width` samples; NaN where a value of it is none."""
-    count = max(1, min(round(width), len(values)))
-    weights = np.ones(count) / count
-    inside = np.convolve(np.ones(len(values)), weights, mode="same")
-    return np.asarray(np.convolve(values, weights, mode="same") / inside)
+            offset_x, side = (-4, "right") if places[at] > (left + right) / 2 else (4, "left")
+            write_text(axes, f"{sign} {values[at]:.1f}", (places[at], border), (offset_x, offset), ha=side, zorder=7)
 
 
 def fit_limits(axes: Axes, points: Array, margin: float, ratio: float) -> None:
