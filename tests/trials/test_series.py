@@ -173,15 +173,15 @@ def test_the_page_draws_every_value_and_escapes_what_it_says() -> None:
 
 
 @pytest.mark.parametrize("count", [1, 2, 50])
-def test_drawings_stay_inside_their_frame(count: int) -> None:
+def test_plots_stay_inside_their_frame(count: int) -> None:
     trials = [good(seed, wiping(tilt_rms_deg=0.01 * seed)) for seed in range(count)]
-    strips = [page.draw_strip(spread) for spread in judge_series("clean", "none", count, trials).spreads]
-    places = [place for strip in strips for place in strip.dots]
-    assert len(places) == count * len(strips) > 0
-    assert all(0 <= x <= page.WIDTH and 0 <= y <= page.HEIGHT for x, y in places)
-    lines = [place for strip in strips for place in (strip.median, strip.target) if place is not None]
-    assert len(lines) > len(strips)
-    assert all(0 <= place <= page.WIDTH for place in lines)
+    plots = [page.plot_spread(spread) for spread in judge_series("clean", "none", count, trials).spreads]
+    dots = [dot for plot in plots for dot in plot.dots]
+    assert len(dots) == count * len(plots) > 0
+    assert all(0 <= dot.x <= page.WIDTH and 0 <= dot.y <= page.HEIGHT for dot in dots)
+    lines = [x for plot in plots for _, x in plot.lines]
+    assert len(lines) > len(plots)
+    assert all(0 <= x <= page.WIDTH for x in lines)
 
 
 @pytest.mark.parametrize("disturbance", get_args(Disturbance))

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import cache
 from itertools import groupby
+from pathlib import Path
 from typing import TYPE_CHECKING, assert_never
 
 from skillc_model.pddl.domain import Action, ComputedCost, Cost, FixedCost, GuardMeaning, PlanningDomain, Predicate
@@ -27,6 +28,7 @@ from skillc_model.pddl.formulas import (
 )
 from skillc_model.pddl.problem import Problem
 from skillc_model.pddl.requirements import find_requirements
+from skillc_model.templates import open_templates
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -70,17 +72,7 @@ def _declared(problem: Problem) -> list[Typed]:
 
 @cache
 def _template(name: str) -> Template:
-    # It is slow to import, and only other programs than ours read PDDL.
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    environment = Environment(
-        loader=PackageLoader("skillc_model.pddl", "."),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        autoescape=False,
-    )
+    environment = open_templates(Path(__file__).parent)
     environment.filters |= {
         "cost": format_cost,
         "declared": format_typed,

@@ -15,8 +15,8 @@ from skillc_runtime.evaluation.report.film_story import find_moments, make_story
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.wiping import WipingDrawing
-from skillc_runtime.evaluation.report.work_figures import list_figures
-from skillc_runtime.evaluation.report.write import ReportPages, write_figure, write_page, write_result
+from skillc_runtime.evaluation.report.work_figures import list_figures, make_wiping_figure
+from skillc_runtime.evaluation.report.write import ReportPages, write_figures, write_page, write_result
 from skillc_runtime.film.film import Film
 from skillc_runtime.film.footage import Footage
 from skillc_runtime.film.picture_files import FilmError
@@ -49,8 +49,12 @@ def write_run(
 
 def write_comparison(folder: Path, drawings: Sequence[WipingDrawing]) -> Path | None:
     """Write the figure that compares the wipings of several runs and return its file; None without wipings."""
+    if not drawings:
+        return None
+    figure = make_wiping_figure(drawings)
     with writing_to(folder):
-        return folder / "wiping.png" if write_figure(folder, drawings) is not None else None
+        write_figures(folder, [figure])
+    return folder / f"{figure.file}.png"
 
 
 def _find_footage(result: TaskResult, record: RunRecord, drawn: DrawnRun, reporter: Reporter) -> Footage | None:

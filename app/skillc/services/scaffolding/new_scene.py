@@ -5,17 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
 from skillc.errors import RequestError, ServiceError
 from skillc.services.library.libraries import load_vocabulary
 from skillc.services.reporting.files import inspect_path
+from skillc.services.scaffolding.project_templates import open_templates
 from skillc_ontology import catalogue
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.terms import ARM_DEVICE, COMPLIANT_CONTROLLER, HAS_GRIPPER, HAS_SENSOR, HAS_SHEET
 from skillc_runtime.world.state.world_state import WorldState
-
-TEMPLATES = Path(__file__).parent / "templates"
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,15 +74,5 @@ def _describe_arm(state: WorldState, arm: str) -> _Arm:
 
 
 def _format(arm: _Arm | None) -> str:
-    environment = Environment(
-        loader=FileSystemLoader(TEMPLATES),
-        undefined=StrictUndefined,
-        variable_start_string="<<",
-        variable_end_string=">>",
-        block_start_string="<%",
-        block_end_string="%>",
-        keep_trailing_newline=True,
-        autoescape=False,
-    )
     title = f"A cell with an arm of the class {arm.cls}" if arm else "A cell"
-    return environment.get_template("scene.ttl.j2").render(title=title, arm=arm).rstrip() + "\n"
+    return open_templates().get_template("scene.ttl.j2").render(title=title, arm=arm).rstrip() + "\n"

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from skillc_model import templates
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 FOLDER = Path(__file__).parent / "templates"
 DEFAULT = "press"
@@ -74,12 +78,5 @@ TEMPLATES = (
 
 
 def open_templates() -> Environment:
-    """Return the files of all templates; `<<` and `>>` stand around variables, since skill texts use braces."""
-    return Environment(
-        loader=FileSystemLoader(FOLDER),
-        undefined=StrictUndefined,
-        variable_start_string="<<",
-        variable_end_string=">>",
-        keep_trailing_newline=True,
-        autoescape=False,
-    )
+    """Return the files of all templates."""
+    return templates.open_templates(FOLDER, keeps_braces=True)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from typing import assert_never
-
-from jinja2 import Environment, PackageLoader, StrictUndefined, Template
+from pathlib import Path
+from typing import TYPE_CHECKING, assert_never
 
 from skillc_compiler.emit.docs.pausing import describe_pause
 from skillc_dsl.units import to_si
@@ -15,8 +14,12 @@ from skillc_model.format_condition import format_expression, format_literal
 from skillc_model.format_type import format_quantity, format_type
 from skillc_model.rewriting import constant_number
 from skillc_model.skills import Compound, Declared, Implementation, Parameter, Primitive, Skill, SkillLibrary
+from skillc_model.templates import open_templates
 from skillc_model.traversal import find_calls
 from skillc_rdf.vocabulary.types import NumberType, ValueType, Vocabulary
+
+if TYPE_CHECKING:
+    from jinja2 import Template
 
 KINDS = {"in": "required", "opt": "optional", "infer": "inferred", "out": "output"}
 
@@ -92,15 +95,7 @@ def _body(implementation: Implementation) -> str:
 
 @cache
 def _template(name: str) -> Template:
-    environment = Environment(
-        loader=PackageLoader("skillc_compiler.emit.docs", "templates"),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        autoescape=False,
-    )
-    return environment.get_template(name)
+    return open_templates(Path(__file__).parent / "templates").get_template(name)
 
 
 SMALL = 0.1

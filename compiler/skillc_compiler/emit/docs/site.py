@@ -9,9 +9,10 @@ import json
 from collections.abc import Iterator, Sequence
 from functools import cache
 from importlib.resources import files
+from pathlib import Path
 
 import msgspec
-from jinja2 import Environment, PackageLoader, StrictUndefined
+from jinja2 import Environment
 from markupsafe import Markup
 
 from skillc_compiler.emit.docs import prose
@@ -24,6 +25,7 @@ from skillc_compiler.emit.picture import svg
 from skillc_compiler.emit.picture.drawing import draw_task
 from skillc_compiler.program.typed import ParsedFile
 from skillc_model.skills import Skill, SkillLibrary, Task
+from skillc_model.templates import open_templates
 
 ENTRIES = "[/* entries */]"
 """Placeholder for the entries in the script of the search box."""
@@ -131,14 +133,7 @@ def _text(name: str) -> str:
 
 @cache
 def _environment() -> Environment:
-    return Environment(
-        loader=PackageLoader("skillc_compiler.emit.docs", "templates"),
-        undefined=StrictUndefined,
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
+    return open_templates(Path(__file__).parent / "templates", is_html=True)
 
 
 def _search_script(template: str, library: SkillLibrary, terms: frozenset[str]) -> str:

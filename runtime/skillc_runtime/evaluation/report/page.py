@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-
+from skillc_runtime.evaluation.pages.page import make_page
 from skillc_runtime.evaluation.report.figure import DrawnFigure
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.table import (
@@ -27,6 +26,7 @@ if TYPE_CHECKING:
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Generic, TypeVar
 
 MOST_ROWS, LAST_ROWS = 100, 10
@@ -57,14 +57,8 @@ def render_page(
 
     A page loads itself again until its film is made and its figures are drawn.
     """
-    environment = Environment(
-        loader=PackageLoader("skillc_runtime.evaluation.report", "."),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    return environment.get_template("page.html.j2").render(
+    return make_page(
+        Path(__file__).parent / "page.html.j2",
         result=result,
         status=format_status(result.status, result.verified, result.false_claims),
         kind=_kind(result),

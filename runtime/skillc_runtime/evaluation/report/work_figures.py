@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 
 from skillc_runtime.evaluation.report.figure import WorkFigure
@@ -14,6 +14,7 @@ from skillc_runtime.evaluation.report.push_figures import draw_push, draw_search
 from skillc_runtime.evaluation.report.pushes import PushRecord, make_push_drawing
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.searches import find_searches, make_search_drawing
+from skillc_runtime.evaluation.report.wiping import WipingDrawing
 from skillc_runtime.evaluation.report.wiping_figure import draw_wipings
 from skillc_runtime.evaluation.report.work import find_drives, find_other_pushes
 from skillc_runtime.world.state.labels.labelled import display_name
@@ -27,20 +28,25 @@ def list_figures(record: RunRecord) -> tuple[WorkFigure, ...]:
     return tuple(figure for find in FIGURES for figure in _take(find(record)))
 
 
+def make_wiping_figure(drawings: Sequence[WipingDrawing]) -> WorkFigure:
+    """Return the figure of wipings, of one run or of several."""
+    overlaid = any(each.overlay_period_s is not None for each in drawings)
+    return WorkFigure(
+        "wiping",
+        "Path, contact time, speed and force on the surface",
+        "The shade of a cell is how long it lay under the pressed tool." + (SWINGING if overlaid else ""),
+        "Path of the tool over the contact time of each cell, speed along the lanes, normal force",
+        partial(draw_wipings, drawings),
+    )
+
+
 def _take(figures: Iterator[WorkFigure]) -> Iterator[WorkFigure]:
     yield from (figure for _, figure in zip(range(MOST_FIGURES), figures, strict=False))
 
 
 def _find_wipings(record: RunRecord) -> Iterator[WorkFigure]:
-    if drawings := record.wiping_drawings:
-        overlaid = any(each.overlay_period_s is not None for each in drawings)
-        yield WorkFigure(
-            "wiping",
-            "Path, contact time, speed and force on the surface",
-            "The shade of a cell is how long it lay under the pressed tool." + (SWINGING if overlaid else ""),
-            "Path of the tool over the contact time of each cell, speed along the lanes, normal force",
-            partial(draw_wipings, drawings),
-        )
+    if record.wiping_drawings:
+        yield make_wiping_figure(record.wiping_drawings)
 
 
 def _find_pushes(record: RunRecord) -> Iterator[WorkFigure]:

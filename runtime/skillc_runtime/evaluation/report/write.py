@@ -9,15 +9,14 @@ from typing import TYPE_CHECKING
 import msgspec
 from msgspec.structs import replace
 
-from skillc_runtime.evaluation.report.figure import DrawnFigure, FigureFiles, WorkFigure, number_files, render_figure
+from skillc_runtime.evaluation.report.figure import DrawnFigure, WorkFigure, number_files, render_figure
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.recording.history.node_outcome import NodeOutcome
 
 if TYPE_CHECKING:
-    from skillc_runtime.evaluation.report.wiping import WipingDrawing
     from skillc_runtime.film.footage import FilmFiles
 
-RESULT, REPORT, WIPING = "result.json", "report.html", "wiping"
+RESULT, REPORT = "result.json", "report.html"
 
 
 def write_result(directory: Path, result: TaskResult) -> None:
@@ -56,7 +55,8 @@ def write_figures(directory: Path, figures: Sequence[WorkFigure]) -> tuple[Drawn
     drawn = []
     for each in figures:
         files = render_figure(each.draw)
-        _write_files(directory, each.file, files)
+        _write_atomically(directory / f"{each.file}.png", files.png)
+        _write_atomically(directory / f"{each.file}.svg", files.svg)
         drawn.append(DrawnFigure(each, files))
     return tuple(drawn)
 
@@ -96,25 +96,6 @@ class ReportPages(msgspec.Struct, frozen=True):
         from skillc_runtime.evaluation.report.page import render_page
 
         return render_page(self.result, self.trees, self.figures, self.film, is_made)
-
-
-def write_figure(directory: Path, drawings: Sequence[WipingDrawing]) -> FigureFiles | None:
-    """Write the figure of wipings as wiping.png and wiping.svg; return None if there are none.
-
-    OSError if the folder cannot be written to.
-    """
-    if not drawings:
-        return None
-    from skillc_runtime.evaluation.report.wiping_figure import draw_wipings
-
-    figure = render_figure(lambda: draw_wipings(drawings))
-    _write_files(directory, WIPING, figure)
-    return figure
-
-
-def _write_files(directory: Path, name: str, figure: FigureFiles) -> None:
-    _write_atomically(directory / f"{name}.png", figure.png)
-    _write_atomically(directory / f"{name}.svg", figure.svg)
 
 
 def _write_atomically(path: Path, content: bytes) -> None:
