@@ -11,7 +11,7 @@ from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import find_library
 from skillc_ontology import catalogue
 from skillc_runtime.backends.kinematic.cell import KinematicCell
-from skillc_runtime.evaluation.report.placements import measure_placements
+from skillc_runtime.evaluation.report.handlings import measure_placements
 from skillc_runtime.evaluation.report.table import format_placement
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.world.state.model import WorldModel

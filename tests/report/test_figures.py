@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 from msgspec.structs import replace
 
 from skillc_runtime.devices.ground_truth import Recording
+from skillc_runtime.evaluation.report.contact_figures import draw_wipings
 from skillc_runtime.evaluation.report.figure import render_figure
 from skillc_runtime.evaluation.report.plotting import STYLE
 from skillc_runtime.evaluation.report.wiping import WipingDrawing, find_overlay_period
-from skillc_runtime.evaluation.report.wiping_figure import draw_wipings
 
 SVG = "{http://www.w3.org/2000/svg}"
 TIME = np.linspace(0.0, 10.0, 200)

@@ -13,8 +13,7 @@ from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.evaluation.report.figure import render_figure
 from skillc_runtime.evaluation.report.handling_drawing import HandlingDrawing, make_handling_drawings
 from skillc_runtime.evaluation.report.handling_figures import draw_grips, draw_path
-from skillc_runtime.evaluation.report.handlings import Handling, find_handlings, find_targets
-from skillc_runtime.evaluation.report.placements import measure_placements
+from skillc_runtime.evaluation.report.handlings import Handling, find_handlings, find_targets, measure_placements
 from skillc_runtime.evaluation.report.result import PlacementResult
 from skillc_runtime.evaluation.report.run_trace import HAND_PERIOD_S, HandTrace
 from skillc_runtime.evaluation.report.table import format_placement, split_placement

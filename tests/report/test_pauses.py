@@ -21,8 +21,8 @@ from skillc_runtime.evaluation.metrics.intervals import (
     total_s,
 )
 from skillc_runtime.evaluation.metrics.wiping import measure_wiping
+from skillc_runtime.evaluation.report.contact_figures import draw_wipings
 from skillc_runtime.evaluation.report.wiping import Wiping
-from skillc_runtime.evaluation.report.wiping_figure import draw_wipings
 from skillc_runtime.motion.time_scaling import RAMP_S
 from skillc_runtime.recording.events import FORMAT, Paused, Resumed, TaskStarted
 from skillc_runtime.recording.history.history_builder import HistoryBuilder

@@ -7,8 +7,7 @@ from typing import Any, ClassVar
 
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.metrics.wiping import measure_wiping
-from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets
-from skillc_runtime.evaluation.report.placements import measure_placements
+from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets, measure_placements
 from skillc_runtime.evaluation.report.wiping import find_wipings, wiping_setup
 from skillc_runtime.recording.failure_text import describe_failure
 from skillc_runtime.recording.history.history import RunHistory

@@ -8,8 +8,7 @@ import pytest
 from backends.kinematic_runs import library, prepare
 from skillc.services.library.files import SHIPPED
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets
-from skillc_runtime.evaluation.report.placements import measure_placements
+from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets, measure_placements
 from skillc_runtime.evaluation.report.run_trace import HandTrace
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.motion.pose import Pose

@@ -11,7 +11,7 @@ from bodies.test_trays import FOLDER, PART, TRAY, library
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.truth.claims import find_false_claims
-from skillc_runtime.evaluation.report.placements import measure_placements
+from skillc_runtime.evaluation.report.handlings import measure_placements
 from skillc_runtime.evaluation.report.table import format_placement
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.motion.pose import Pose

@@ -9,8 +9,7 @@ from msgspec import structs
 
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.command_record import ArmCommands
-from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets
-from skillc_runtime.evaluation.report.placements import measure_placements
+from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets, measure_placements
 from skillc_runtime.evaluation.report.result import (
     ChoiceResult,
     CommandsResult,

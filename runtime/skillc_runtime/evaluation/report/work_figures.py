@@ -5,17 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import partial
 
+from skillc_runtime.evaluation.report.contact_figures import draw_push, draw_search, draw_wipings
 from skillc_runtime.evaluation.report.figure import WorkFigure
 from skillc_runtime.evaluation.report.guidances import find_free_periods
 from skillc_runtime.evaluation.report.handling_drawing import choose_axes, make_handling_drawings
 from skillc_runtime.evaluation.report.handling_figures import draw_grips, draw_path
 from skillc_runtime.evaluation.report.motion_figures import draw_drive, draw_guidance, list_outlines
-from skillc_runtime.evaluation.report.push_figures import draw_push, draw_search
 from skillc_runtime.evaluation.report.pushes import PushRecord, make_push_drawing
 from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.searches import find_searches, make_search_drawing
 from skillc_runtime.evaluation.report.wiping import WipingDrawing
-from skillc_runtime.evaluation.report.wiping_figure import draw_wipings
 from skillc_runtime.evaluation.report.work import find_drives, find_other_pushes
 from skillc_runtime.world.state.labels.labelled import display_name
 
