@@ -17,7 +17,6 @@ DISCOVERED = frozenset({
     "app/skillc/cli/commands",
     "compiler/skillc_compiler/checks",
     "runtime/skillc_runtime/primitives",
-    "runtime/skillc_runtime/evaluation/report",
 })  # fmt: skip
 
 
