@@ -23,11 +23,6 @@ class Comment(msgspec.Struct, frozen=True):
     span: Span
 
     @property
-    def is_documentation(self) -> bool:
-        """Whether it is a `##` line, which documents the declaration or parameter below it."""
-        return self.alone and self.written.startswith("##")
-
-    @property
     def text(self) -> str:
         """What it says, without its marks."""
         return self.written.lstrip("#").strip()

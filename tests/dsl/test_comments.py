@@ -31,7 +31,6 @@ def test_a_line(line: str, written: str | None) -> None:
 
 def test_documentation_stands_alone() -> None:
     doc, other, after = find_comments(Source("", "## What it is.\n# aside\nclass A < B  ## no documentation\n"))
-    assert [doc.is_documentation, other.is_documentation, after.is_documentation] == [True, False, False]
     assert [doc.text, other.text, after.text] == ["What it is.", "aside", "no documentation"]
     assert [doc.alone, other.alone, after.alone] == [True, True, False]
 

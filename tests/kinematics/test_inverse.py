@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from skillc_ontology import catalogue
-from skillc_runtime.kinematics.chain import find_gravity_torques, find_jacobian, read_chain
+from skillc_runtime.kinematics.chain import add_weight, differentiate, place, read_chain
 from skillc_runtime.kinematics.inverse import find_posture, find_postures
 from skillc_runtime.motion.pose import Pose, log
 
@@ -26,6 +26,22 @@ def load(arm):
         if arm == "gantry"
         else mujoco.MjModel.from_xml_path(f"{FOLDER}/{arm}.xml")
     )
+
+
+def find_jacobian(chain, q, tool, jacobian):
+    """Fill in the pose of the tool (12,) and the Jacobian (6, nv) in base."""
+    at = np.empty((chain.slides.size + 1, 12))
+    place(chain.frames, chain.slides, chain.tool, q, at)
+    differentiate(chain.slides, at, jacobian)
+    for k in range(12):
+        tool[k] = at[chain.slides.size, k]
+
+
+def find_gravity_torques(chain, q, gravity, torques):
+    """Fill in what the joints exert (nv,) to bear the arm."""
+    at = np.empty((chain.slides.size + 1, 12))
+    place(chain.frames, chain.slides, chain.tool, q, at)
+    add_weight(chain.slides, chain.masses, chain.centres, at, gravity, torques)
 
 
 @pytest.mark.parametrize("arm", [*ARMS, "gantry"])

@@ -12,7 +12,15 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.fast_downward.solver import FastDownward, Programs, find_fast_downward
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.pose import pose_problem
-from skillc_runtime.planning.process import ProcessEnded, ProcessNotStarted, ProcessTimedOut, run_program
+from skillc_runtime.planning.process import (
+    ProcessEnded,
+    ProcessNotStarted,
+    ProcessResult,
+    ProcessTimedOut,
+    RunningProcess,
+    machine_limits,
+    wait_for_end,
+)
 
 PROBLEM = pose_problem(WIPING, LAB, CLEANED).problem
 TRANSLATE = 'touch task.sas; echo "Translator axioms: 0"'
@@ -24,6 +32,13 @@ def program(folder: Path, name: str, script: str) -> str:
     path.write_text(f"#!/bin/sh\n{script}\n")
     path.chmod(path.stat().st_mode | stat.S_IXUSR)
     return str(path)
+
+
+def run_program(command: str, folder: Path, seconds: float) -> ProcessResult:
+    """Return how a program ended in a folder, within some seconds."""
+    with RunningProcess((command,), folder, "output.txt", machine_limits()) as running:
+        wait_for_end((running,), CancelToken(seconds))
+        return running.outcome()
 
 
 def plan(
@@ -87,14 +102,14 @@ def _arguments() -> list[tuple[str, ...]]:
 def test_a_program_that_hangs_is_killed_with_all_it_started(tmp_path: Path) -> None:
     pid_file = tmp_path / "child.pid"
     script = program(tmp_path, "hang", f"sleep 60 & echo $! > {pid_file}; wait")
-    assert isinstance(run_program((script,), tmp_path, 0.5), ProcessTimedOut)
+    assert isinstance(run_program(script, tmp_path, 0.5), ProcessTimedOut)
     assert not _lives(int(pid_file.read_text()))
 
 
 def test_what_a_program_leaves_running_is_killed_too(tmp_path: Path) -> None:
     pid_file = tmp_path / "child.pid"
     script = program(tmp_path, "leave", f"sleep 60 & echo $! > {pid_file}; echo done; exit 3")
-    ended = run_program((script,), tmp_path, 20.0)
+    ended = run_program(script, tmp_path, 20.0)
     assert isinstance(ended, ProcessEnded) and ended.code == 3 and ended.last_line == "done"
     assert not _lives(int(pid_file.read_text()))
 
@@ -105,7 +120,7 @@ def test_a_planner_that_hangs_gives_up_in_time(tmp_path: Path) -> None:
 
 
 def test_a_program_that_is_missing_is_not_started(tmp_path: Path) -> None:
-    assert isinstance(run_program((str(tmp_path / "nothing"),), tmp_path, 1.0), ProcessNotStarted)
+    assert isinstance(run_program(str(tmp_path / "nothing"), tmp_path, 1.0), ProcessNotStarted)
 
 
 @pytest.mark.skipif(find_fast_downward() is None, reason="the planner is an extra")

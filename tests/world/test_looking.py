@@ -86,9 +86,6 @@ def test_facts_come_from_sheets_scene_run_or_axioms() -> None:
     assert {each: contexts.of_class(LATER, iri("arm"), iri(each)) for each in classes} == classes
     assert contexts.of_class(LATER, iri("gripper"), iri("WsgGripper")) is FactSource.ROBOT
     assert contexts.of_class(LATER, iri("box"), iri("Eraser")) is FactSource.RUN
-    assert contexts.of_value(LATER, iri("box"), iri("weight"), 5.0) is FactSource.RUN
-    assert contexts.of_value(LATER, iri("box"), iri("weight"), 3) is None
-    assert contexts.of_value(LATER, iri("box"), iri("label"), "red") is FactSource.SCENE
 
 
 def test_every_fact_comes_from_one_place() -> None:

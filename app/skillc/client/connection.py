@@ -22,8 +22,7 @@ from skillc_dsl.source import Source
 
 TIMEOUT_S = 75.0
 """How long an answer may take, in s: a cell that plans or starts answers late."""
-FIRST_SERVER_ERROR, UNAVAILABLE = 500, 503
-UNAUTHORIZED = 401
+UNAUTHORIZED, FIRST_SERVER_ERROR = 401, 500
 T = TypeVar("T")
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.symbols import (
     FileSymbol,
-    ImplementationSymbol,
     Occurrence,
     Symbol,
     TermSymbol,
@@ -53,9 +52,3 @@ def find_references(analysis: Analysis, path: str, line: int, column: int, decla
     symbols = {occurrence.symbol for occurrence in find_symbols(analysis, path, line, column)}
     places = (o for symbol in symbols for o in analysis.index.of(symbol) if declarations or not o.declares)
     return tuple(sorted({occurrence.span for occurrence in places}))
-
-
-def implementations(analysis: Analysis, skill: str) -> tuple[Span, ...]:
-    """Return the declarations of the implementations of a skill."""
-    ways = analysis.program.implementations_of.get(skill, ())
-    return tuple(span for way in ways for span in find_declarations(analysis, ImplementationSymbol(skill, way.name)))

@@ -60,7 +60,7 @@ class ListOf(msgspec.Struct, frozen=True):
 
 Type: TypeAlias = UnknownType | Thing | Measure | Vector | Direction | Plain | ListOf
 UNKNOWN = UnknownType()
-BOOL, INT, TEXT, POSE = (Plain(name) for name in ("Bool", "Int", "Text", "Pose"))
+BOOL, INT, TEXT = (Plain(name) for name in ("Bool", "Int", "Text"))
 
 
 def type_of(declared: ValueType) -> Type:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TypeVar
 
 import msgspec
 
@@ -23,8 +22,6 @@ from skillc_rdf.vocabulary.types import (
     Signature,
     Vocabulary,
 )
-
-Term = TypeVar("Term", ClassTerm, RelationTerm, PropertyTerm)
 
 
 def extend_vocabulary(

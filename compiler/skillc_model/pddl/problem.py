@@ -33,11 +33,6 @@ class Problem(msgspec.Struct, frozen=True):
     costs: tuple[CostValue, ...]
     goal: Formula
 
-    @property
-    def rounds_down(self) -> bool:
-        """Whether some duration is not a whole number of cost units."""
-        return any((each * self.domain.scale).denominator != 1 for each in action_durations(self))
-
 
 def action_durations(problem: Problem) -> frozenset[Fraction]:
     """Return the durations of the actions of a problem, in seconds."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol, TypeAlias
+from typing import Protocol
 
 import msgspec
 
@@ -28,10 +28,6 @@ class Travel(msgspec.Struct, frozen=True):
     """The tool has moved farther than `distance_m` m."""
 
     distance_m: float
-
-
-StopCondition: TypeAlias = Contact | Standstill | Travel
-"""A condition that ends a phase of a motion; evaluated once a control period, without code of skills."""
 
 
 class GuardedPush(msgspec.Struct, frozen=True):

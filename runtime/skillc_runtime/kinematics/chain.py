@@ -9,8 +9,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
-from skillc_runtime.motion.numerics.compiled import compiled, compiled_when_called, inlined
+from skillc_runtime.motion.arrays import Matrix, OutMatrix, Vector
+from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.pose import Array, Pose
 
 
@@ -88,24 +88,6 @@ def unpack(numbers: Array) -> Pose:
 def place_joints(chain: Chain, q: Vector, at: OutMatrix) -> None:
     """at (nv + 1, 12) = the poses in base of all joints, moved by q (nv,) in rad or m, and of the tool."""
     place(chain.frames, chain.slides, chain.tool, q, at)
-
-
-@compiled_when_called
-def find_jacobian(chain: Chain, q: Vector, tool: OutVector, jacobian: OutMatrix) -> None:
-    """tool (12,) = pose of the tool in base; jacobian (6, nv) = [linear m; angular rad] per rad or m, at q (nv,)."""
-    at = np.empty((chain.slides.size + 1, 12))
-    place(chain.frames, chain.slides, chain.tool, q, at)
-    differentiate(chain.slides, at, jacobian)
-    for k in range(12):
-        tool[k] = at[chain.slides.size, k]
-
-
-@compiled_when_called
-def find_gravity_torques(chain: Chain, q: Vector, gravity: Vector, torques: OutVector) -> None:
-    """torques (nv,) in N m or N = what the joints exert to bear the arm at q (nv,); gravity (3,) in m/s^2, in base."""
-    at = np.empty((chain.slides.size + 1, 12))
-    place(chain.frames, chain.slides, chain.tool, q, at)
-    add_weight(chain.slides, chain.masses, chain.centres, at, gravity, torques)
 
 
 @inlined

@@ -6,7 +6,7 @@ bear the weight of the arm and the force of the tool all along.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, inf, sqrt
@@ -24,12 +24,6 @@ STEPS, MOST_STEPS = 3, 12
 """Steps of inverse kinematics at each pose, from the posture at the pose before; more until the tool is there."""
 
 DAMPING = 1e-2
-
-COARSE = 4
-"""Of so many poses one is followed from every start, before the best starts follow all."""
-
-REFINED = 3
-"""How many of the best starts follow all poses."""
 
 FAR_M, FAR_RAD = 0.003, 0.03
 """With a greater error of the tool a pose is not reached."""
@@ -69,28 +63,12 @@ class Sweep:
         near = (m[:, ERROR_M] <= FAR_M) & (m[:, ERROR_RAD] <= FAR_RAD)
         return np.asarray(near & (m[:, MARGIN] >= 0.0) & (m[:, TORQUE] <= 1.0))
 
-    @property
-    def rank(self) -> tuple[float, float]:
-        """How good it is: the share of the poses that are reached, then the least margin."""
-        return float(self.reached.mean()), float(self.measures[:, MARGIN].min())
-
 
 def follow(chain: Chain, poses: Array, start: Array, load: JointLoad) -> Sweep:
     """Return the sweep along poses (n, 12) of the tool in base, from joints start (nv,) at the first one."""
     postures, measures = np.empty((len(poses), chain.joints)), np.empty((len(poses), 5))
     follow_poses(chain, load, poses, start, postures, measures)
     return Sweep(postures, measures)
-
-
-def find_best_sweep(chain: Chain, poses: Array, starts: Iterable[Array], load: JointLoad) -> Sweep | None:
-    """Return the best sweep along poses (n, 12) from postures (nv,) with the tool at the first one; None without any.
-
-    The first start that reaches all poses with as much margin as it has at its first pose counts as the best.
-    """
-    coarse = poses[::COARSE] if len(poses) > 2 * COARSE else poses
-    tried = sorted((follow(chain, coarse, q, load) for q in starts), key=lambda each: each.rank, reverse=True)
-    found = (follow(chain, poses, each.postures[0], load) for each in tried[:REFINED])
-    return max(found, key=lambda each: each.rank, default=None)
 
 
 def sample_poses(corners: Sequence[Pose], step_m: float, offsets: Array | None = None) -> Array:

@@ -16,11 +16,6 @@ class PlanTextError(ValueError):
     """A text that is not a plan of the problem; the message quotes it."""
 
 
-def read_plan(problem: Problem, actions: Iterable[tuple[str, ...]]) -> Plan:
-    """Return the plan of actions given as (name, object ..); PlanTextError when there is no such action or object."""
-    return cost_plan(problem, actions).plan
-
-
 class CostedPlan(msgspec.Struct, frozen=True):
     """A plan with its cost in the planner's units; `exact` if no duration was rounded down."""
 

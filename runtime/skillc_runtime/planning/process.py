@@ -135,13 +135,6 @@ class RunningProcess:
         return ProcessNotStarted(ended.last_line) if code == NOT_STARTED else ended
 
 
-def run_program(command: Sequence[str], folder: Path, seconds: float, stdin: Path | None = None) -> ProcessResult:
-    """Run a program in a folder for up to `seconds`; its descendants are killed when it ends or is stopped."""
-    with RunningProcess(command, folder, "output.txt", machine_limits(), stdin) as running:
-        wait_for_end((running,), CancelToken(seconds))
-        return running.outcome()
-
-
 def wait_for_end(
     programs: Sequence[RunningProcess], cancel: CancelToken, look: Callable[[], None] = lambda: None
 ) -> None:

@@ -103,12 +103,6 @@ class JournalReader:
             rows = connection.execute(query, (operation, after, limit)).fetchall()
             return tuple(self._decoder.decode(envelope) for (envelope,) in rows)
 
-    def last_sequence(self, operation: str) -> int:
-        """Return the number of the last event of an operation; 0 if there is none."""
-        query = "SELECT coalesce(max(sequence), 0) FROM events WHERE operation = ?"
-        with self._reading() as connection:
-            return int(connection.execute(query, (operation,)).fetchone()[0])
-
     def continuable(self) -> tuple[RecordedOperation, ...]:
         """Return the operations that were interrupted and can be continued."""
         return self._select("WHERE json_array_length(CAST(ended AS TEXT), '$.decisions') > 0")

@@ -21,7 +21,6 @@ from skillc_runtime.evaluation.trials.settings import Setting, apply_settings
 
 MARK = "# Learned "
 """How the first line of the evidence begins; the comment lines below it belong to it."""
-WIDTH = 120
 _HEAD = re.compile(r"\{\s*(#.*)?$")
 
 

@@ -374,10 +374,6 @@ class ModelledCell(ABC, Generic[A, G]):
             self._report(relocation_changes(state, thing, left_at), why, "assumed")
         return why is not None
 
-    def _bases_rest(self) -> bool:
-        """Whether no base moves, and its cargo neither."""
-        return all(base.at_rest and self._cargo[robot].at_rest for robot, base in self._bases.items())
-
     def _move_bases(self, now: float) -> None:
         """Move bases with their cargo by one step."""
         for robot, base in self._bases.items():

@@ -11,34 +11,15 @@ from math import sqrt
 
 import numpy as np
 
-from skillc_runtime.devices.arm import ArmState
 from skillc_runtime.motion.arrays import Matrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, product, times, transposed_times
-from skillc_runtime.motion.pose import Array
 
 REGULARISATION = 1e-6
 """lam^2 away from singularities."""
 
 SINGULAR_BELOW, SINGULAR_REGULARISATION = 5e-3, 1e-2
 """Manipulability sqrt(det J J^T) below which lam^2 rises, and what it rises to."""
-
-
-class Nullspace:
-    """A torque towards the posture `rest` (nv,) in rad with `stiffness` N m/rad."""
-
-    def __init__(self, stiffness: float, joints: int) -> None:
-        self.rest = np.zeros(joints)
-        self.manipulability = np.inf
-        self.stiffness = stiffness
-
-    def torque(self, state: ArmState) -> Array:
-        """Return tau_null (nv,) in N m."""
-        tau = np.empty_like(self.rest)
-        self.manipulability = posture_torque(
-            tau, state.q, state.dq, state.jacobian, self.rest, self.stiffness, self.manipulability
-        )
-        return tau
 
 
 @inlined

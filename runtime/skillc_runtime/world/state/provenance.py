@@ -8,7 +8,6 @@ from enum import Enum
 
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.world.state.facts import IriTriple
-from skillc_runtime.world.state.values import Value, has_value
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -46,15 +45,6 @@ class Provenance:
         if cls not in state.types(individual):
             return FactSource.INFERRED
         found = (source for version, source in self._versions() if cls in version.types(individual))
-        return next(found, FactSource.RUN)
-
-    def of_value(self, state: WorldState, individual: str, property_: str, value: Value) -> FactSource | None:
-        """Return the source of a value, or of one of several values; None when the property does not have it."""
-        if not has_value(state.value(individual, property_), value):
-            return None
-        found = (
-            context for version, context in self._versions() if has_value(version.value(individual, property_), value)
-        )
         return next(found, FactSource.RUN)
 
     def relations(self, state: WorldState, wanted: FactSource) -> Iterator[IriTriple]:

@@ -52,11 +52,6 @@ def to_json(value: Value) -> object:
     return show(value) if isinstance(value, Pose) else value
 
 
-def show_if_stated(value: Value | None) -> str | None:
-    """Return a value of a property as text; None for no value or an empty tuple."""
-    return None if value is None or (isinstance(value, tuple) and not value) else show(value)
-
-
 def show(value: Value) -> str:
     """Return a value as text for people, numbers in SI units."""
     if isinstance(value, bool):

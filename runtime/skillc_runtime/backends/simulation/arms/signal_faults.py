@@ -23,9 +23,6 @@ FaultKind: TypeAlias = Literal[
 
 KINDS: Final[tuple[FaultKind, ...]] = get_args(FaultKind)
 
-WRENCH_KINDS: Final = tuple(each for each in KINDS if each.startswith("wrench"))
-"""Those of a wrist's sensor."""
-
 JUMP_RAD, JUMP_N, FAST_RAD_S = 0.3, 300.0, 20.0
 """How far signals jump, and a speed that no joint has."""
 
