@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from skillc_dsl.editions import NEWEST
+
 
 class Source(NamedTuple):
     """The text of a file and the path that diagnostics show.
 
     `unreadable` are the offsets of U+FFFD that stand for bytes that are not UTF-8; any other one is in the file.
+    `edition` is that of the library of the file.
     """
 
     path: str
     text: str
     unreadable: tuple[int, ...] = ()
+    edition: int = NEWEST
 
 
 class Span(NamedTuple):

@@ -50,6 +50,11 @@ KEYWORDS: MappingProxyType[Group, tuple[str, ...]] = MappingProxyType(
 )
 """Every keyword, by what it is for. `any` is also a step's word, in `par any`."""
 
+SINCE: MappingProxyType[str, int] = MappingProxyType(
+    dict.fromkeys(("test", "start", "expect", "failure", "no", "plan"), 2),
+)
+"""The editions with which keywords came; the others are of the first. In an older edition a later one is a name."""
+
 NAMES_ELSEWHERE: frozenset[str] = frozenset(
     (
         *("use", "prefix", "import", "disjoint", "of", "any", "range", "sensed", "duration", "prefer", "python"),

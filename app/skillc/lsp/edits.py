@@ -129,11 +129,11 @@ def format_document(session: Session, params: types.DocumentFormattingParams) ->
     from skillc_dsl.formatting.formatter import format_source
 
     view = session.libraries.view(params.text_document.uri)
-    text = view.analysis.texts.get(view.path, "")
-    outcome = format_source(Source(view.path, text))
-    if not outcome.ok or outcome.value == text:
+    source = view.analysis.library.sources.get(view.path, Source(view.path, ""))
+    outcome = format_source(source)
+    if not outcome.ok or outcome.value == source.text:
         return []
-    rows = text.split("\n")
+    rows = source.text.split("\n")
     whole = Span(view.path, 1, 1, len(rows), len(rows[-1]) + 1)
     return [types.TextEdit(session.lines(view).range(whole), outcome.value)]
 

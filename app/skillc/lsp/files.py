@@ -55,11 +55,11 @@ def find_root(file: Path, folders: Sequence[Path]) -> Root:
     return Root(folder, bool(around))
 
 
-def read_sources(root: Root, buffers: Mapping[Path, str]) -> dict[str, Source]:
+def read_sources(root: Root, buffers: Mapping[Path, str], edition: int) -> dict[str, Source]:
     """Return the texts of a library by path relative to its folder; `buffers` replace the files on disk."""
     own = [file for file in buffers if root.holds(file) and not is_rdf(file)]
     files = sorted({*_on_disk(root), *own})
-    return {path: _source(file, path, buffers) for file, path in ((f, _relative(f, root)) for f in files)}
+    return {path: read_source(file, path, buffers, edition) for file, path in ((f, _relative(f, root)) for f in files)}
 
 
 def is_rdf(file: Path) -> bool:
@@ -127,11 +127,11 @@ def _relative(file: Path, root: Root) -> str:
     return file.relative_to(root.folder).as_posix()
 
 
-def _source(file: Path, path: str, buffers: Mapping[Path, str]) -> Source:
+def read_source(file: Path, path: str, buffers: Mapping[Path, str], edition: int) -> Source:
     """Return the text of a file, empty if the file cannot be read."""
     if file in buffers:
-        return Source(path, buffers[file])
+        return Source(path, buffers[file], edition=edition)
     try:
-        return decode(path, read_file(file, MOST_BYTES))
+        return decode(path, read_file(file, MOST_BYTES))._replace(edition=edition)
     except OSError:
-        return Source(path, "")
+        return Source(path, "", edition=edition)

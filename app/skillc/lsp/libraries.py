@@ -13,7 +13,7 @@ from pygls.uris import from_fs_path, to_fs_path
 from skillc.lsp import files
 from skillc.lsp.files import Root
 from skillc.lsp.scenes import SceneCache, find_problems
-from skillc.services.library.files import LibraryFiles
+from skillc.services.library.files import LibraryFiles, edition_of
 from skillc.services.library.libraries import load_vocabulary_with
 from skillc_compiler.ide.analysis import Analysis, AnalysisInput, analyse
 from skillc_compiler.problems import AnalysisMemo
@@ -64,7 +64,7 @@ class Libraries:
         for root, known in self._sources.items():
             if root.holds(file):
                 path = file.relative_to(root.folder).as_posix()
-                known[path] = Source(path, self.buffers[file])
+                known[path] = files.read_source(file, path, self.buffers, self._edition(root))
                 self._analyses.pop(root, None)
         return file
 
@@ -128,7 +128,7 @@ class Libraries:
 
     def texts(self, root: Root) -> Mapping[str, Source]:
         """Return the texts of a library by path, without analysing them."""
-        return self._sources.get(root) or files.read_sources(root, self.buffers)
+        return self._sources.get(root) or files.read_sources(root, self.buffers, self._edition(root))
 
     def parser(self, root: Root) -> ParseMemo:
         """Return the parser of a library's files, which knows their last texts."""
@@ -162,10 +162,14 @@ class Libraries:
             self._surroundings[root] = files.read_surroundings(root)
         return self._surroundings[root]
 
+    def _edition(self, root: Root) -> int:
+        """Return the edition that a library is written in."""
+        return edition_of(root.folder, self._around(root).value.project)
+
     def _analyse(self, root: Root) -> Analysis:
         """Analyse a library; again if the individuals in its tasks' scenes have changed since the last analysis."""
         if root not in self._sources:
-            self._sources[root] = files.read_sources(root, self.buffers)
+            self._sources[root] = files.read_sources(root, self.buffers, self._edition(root))
             self._vocabularies[root] = files.read_own_vocabularies(root, self._around(root).value)
         before = _individuals(self._scenes.get(root))
         terms = load_vocabulary_with(self._vocabularies[root]).value

@@ -114,7 +114,7 @@ def find_folds(session: Session, params: types.FoldingRangeParams) -> list[types
     """Return the ranges of lines that can be folded."""
     view = session.libraries.view(params.text_document.uri)
     file = next((unit.file for unit in view.analysis.program.files if unit.file.path == view.path), None)
-    source = Source(view.path, view.analysis.texts.get(view.path, ""))
+    source = view.analysis.library.sources.get(view.path, Source(view.path, ""))
     found = outline.find_folds(source, file) if file else ()
     return [types.FoldingRange(fold.first - 1, fold.last - 1, kind=types.FoldingRangeKind(fold.kind)) for fold in found]
 

@@ -152,4 +152,4 @@ def _broken(analysis: Analysis, edits: Iterable[Fix], parsed_by: Parser) -> Diag
 def _edited(sources: Mapping[str, Source], edits: Iterable[Fix]) -> dict[str, Source]:
     ordered = sorted(edits, key=lambda edit: edit.span.path)
     grouped = groupby(ordered, key=lambda edit: edit.span.path)
-    return {path: Source(path, apply_fixes(sources[path].text, group)) for path, group in grouped}
+    return {path: sources[path]._replace(text=apply_fixes(sources[path].text, group)) for path, group in grouped}

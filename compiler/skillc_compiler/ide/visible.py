@@ -70,7 +70,7 @@ def _visible(
 ) -> VisibleNames:
     here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports if path in declared)]
     return VisibleNames(
-        bare=merge_imported(bare, here),
+        bare=merge_imported(bare, here, base.later_than(unit.edition)),
         prefixes=prefixes_in(unit.file, base),
         functions=frozenset(name for there in here for name in there.functions),
         skills=frozenset(name for there in here for name in there.skills),

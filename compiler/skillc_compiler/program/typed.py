@@ -13,6 +13,7 @@ import msgspec
 from skillc_compiler.program.types import Type
 from skillc_compiler.program.unknown import LostNames, UnknownName
 from skillc_dsl import syntax as s
+from skillc_dsl.editions import NEWEST
 from skillc_dsl.source import Span
 from skillc_model.conditions import Condition, Expression, Operator
 from skillc_rdf.vocabulary.types import Position, ValueType, Vocabulary
@@ -254,7 +255,7 @@ class Test(Task, frozen=True):
 class ParsedFile(msgspec.Struct, frozen=True):
     """A parsed file, the library it belongs to with the namespace of its terms, and the files it imports.
 
-    `imports` pairs each import that was found with the path of its file.
+    `imports` pairs each import that was found with the path of its file. `edition` is that of the library.
     """
 
     file: s.File
@@ -262,6 +263,7 @@ class ParsedFile(msgspec.Struct, frozen=True):
     namespace: str
     text: str
     imports: tuple[tuple[s.Import, str], ...] = ()
+    edition: int = NEWEST
 
 
 @dataclass(frozen=True, eq=False)

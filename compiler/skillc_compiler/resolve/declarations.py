@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from functools import partial
 from typing import TypeAlias
@@ -70,11 +70,11 @@ def prefixes_in(file: s.File, vocabulary: Vocabulary) -> dict[str, str]:
 
 
 def bare_names_in(files: Sequence[ParsedFile], vocabulary: Vocabulary, memo: Memo[Bare]) -> dict[str, Bare]:
-    """Return, by path, the terms that bare names denote; files that use the same vocabularies share them."""
-    uses = {unit.file.path: used_vocabularies(unit.file, vocabulary) for unit in files}
+    """Return, by path, the terms that bare names denote; files with the same vocabularies and edition share them."""
+    uses = {unit.file.path: (used_vocabularies(unit.file, vocabulary), unit.edition) for unit in files}
     return {
-        path: memo.recall((vocabulary,), partial(bare_terms, vocabulary, prefixes), name=prefixes)
-        for path, prefixes in uses.items()
+        path: memo.recall((vocabulary,), partial(bare_terms, vocabulary, *used), name=used)
+        for path, used in uses.items()
     }
 
 
@@ -89,24 +89,28 @@ def used_vocabularies(file: s.File, vocabulary: Vocabulary) -> tuple[str, ...]:
     )
 
 
-def merge_imported(bare: Bare, imported: Iterable[FileDeclarations]) -> Bare:
-    """Return the terms that bare names denote when those of other files are added."""
+def merge_imported(bare: Bare, imported: Iterable[FileDeclarations], later: Set[str] = frozenset()) -> Bare:
+    """Return the terms that bare names denote when those of other files are added, which go before `later` terms."""
     added = [declared.terms for declared in imported if any(declared.terms.values())]
-    return {kind: _merge(bare[kind], [terms[kind] for terms in added]) for kind in KINDS} if added else bare
+    return {kind: _merge(bare[kind], [terms[kind] for terms in added], later) for kind in KINDS} if added else bare
 
 
-def _merge(bare: Mapping[str, tuple[str, ...]], added: Sequence[Mapping[str, str]]) -> dict[str, tuple[str, ...]]:
+def _merge(
+    bare: Mapping[str, tuple[str, ...]], added: Sequence[Mapping[str, str]], later: Set[str]
+) -> dict[str, tuple[str, ...]]:
     new: dict[str, set[str]] = defaultdict(set)
     for terms in added:
         for name, iri in terms.items():
             new[name].add(iri)
-    return {**bare, **{name: tuple(sorted({*bare.get(name, ()), *iris})) for name, iris in new.items()}}
+    known = {name: [iri for iri in bare.get(name, ()) if iri not in later] for name in new}
+    return {**bare, **{name: tuple(sorted({*known[name], *iris})) for name, iris in new.items()}}
 
 
 def _declarations_in(
     unit: ParsedFile, bare: Bare, others: Mapping[str, FileDeclarations], vocabulary: Vocabulary
 ) -> FileDeclarations:
-    known = merge_imported(bare, (others[path] for _, path in unit.imports if path in others))
+    later = vocabulary.later_than(unit.edition)
+    known = merge_imported(bare, (others[path] for _, path in unit.imports if path in others), later)
     prefixes = prefixes_in(unit.file, vocabulary)
     declared = FileDeclarations()
     for declaration in unit.file.declarations:
@@ -118,7 +122,7 @@ def _declarations_in(
                     iri = prefixes[before] + local
                     declared.terms[kind][name] = vocabulary.aliases.get(iri, iri)
                 else:
-                    existing = known[kind].get(local, ())
+                    existing = [iri for iri in known[kind].get(local, ()) if iri not in later]
                     iri = existing[0] if existing else unit.namespace + local
                     declared.terms[kind] |= {name: iri, local: iri}
             case s.FunctionDeclaration():

@@ -64,7 +64,7 @@ class _Reader:
         self.problems.extend(parsed.diagnostics)
         imports = tuple(self._imports(parsed.value, library, (*importing, source.path)))
         namespace = self.namespaces.get(library) or library_namespace(library)
-        self.files[source.path] = ParsedFile(parsed.value, library, namespace, source.text, imports)
+        self.files[source.path] = ParsedFile(parsed.value, library, namespace, source.text, imports, source.edition)
 
     def _imports(self, file: s.File, library: str, chain: tuple[str, ...]) -> Iterable[tuple[s.Import, str]]:
         for line in (h for h in file.header if isinstance(h, s.Import)):

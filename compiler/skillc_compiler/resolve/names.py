@@ -11,6 +11,7 @@ from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownKind, Un
 from skillc_compiler.resolve.homes import Homes
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.editions import NEWEST
 from skillc_dsl.source import Span
 from skillc_dsl.spelling import alike_names
 from skillc_rdf.vocabulary.types import (
@@ -208,8 +209,13 @@ class Names:
         self.unknown.append(UnknownName(what, name, message, near, help_, owner=LIBRARY, line=line))
 
 
-def bare_terms(vocabulary: Vocabulary, used: Iterable[str]) -> dict[Kind, dict[str, tuple[str, ...]]]:
-    """Return the terms that bare names denote in a file that uses these vocabularies; `Thing` is always included."""
+def bare_terms(
+    vocabulary: Vocabulary, used: Iterable[str], edition: int = NEWEST
+) -> dict[Kind, dict[str, tuple[str, ...]]]:
+    """Return the terms that bare names denote in a file that uses these vocabularies; `Thing` is always included.
+
+    Of several terms of a name, those count that are not later than the edition of the file, if there are any.
+    """
     tables: dict[Kind, Mapping[str, object]] = {
         "class": vocabulary.classes,
         "relation": vocabulary.relations,
@@ -222,4 +228,8 @@ def bare_terms(vocabulary: Vocabulary, used: Iterable[str]) -> dict[Kind, dict[s
         for iri, target in sorted(targets.items()):
             if bases and iri.startswith(bases) and target not in found[kind].get(local_name(iri), ()):
                 found[kind][local_name(iri)] = tuple(sorted((*found[kind].get(local_name(iri), ()), target)))
+    if later := vocabulary.later_than(edition):
+        for table in found.values():
+            for name, iris in table.items():
+                table[name] = tuple(iri for iri in iris if iri not in later) or iris
     return found

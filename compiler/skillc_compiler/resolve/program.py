@@ -21,6 +21,7 @@ from skillc_compiler.resolve.declarations import (
     prefixes_in,
 )
 from skillc_compiler.resolve.duplicates import remove_duplicates
+from skillc_compiler.resolve.editions import read_older_editions
 from skillc_compiler.resolve.homes import Homes, names_by_import
 from skillc_compiler.resolve.implementations import resolve_implementation
 from skillc_compiler.resolve.individuals import Individuals
@@ -57,7 +58,7 @@ def resolve_program(
     """
     memo = memo or ResolveMemo()
     memo.begin()
-    read = memo.keep_declarations(read)
+    read = memo.keep_declarations(read_older_editions(read))
     bare = bare_names_in(read, base, memo.bare)
     declared = collect_declarations(read, base, bare)
     unique = remove_duplicates(read, declared)
@@ -180,7 +181,7 @@ def _names(
         here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports)]
         visible_here = {name for there in here for name in there.names()}
         found[unit.file.path] = Names(
-            bare=merge_imported(bare[unit.file.path], here),
+            bare=merge_imported(bare[unit.file.path], here, base.later_than(unit.edition)),
             known=known,
             vocabulary=base,
             prefixes=prefixes_in(unit.file, base),

@@ -30,7 +30,10 @@ def extend_vocabulary(
     declared: Mapping[str, FileDeclarations],
     names: Mapping[str, Names],
 ) -> Vocabulary:
-    """Return the vocabulary with everything that the files declare; problems are added to the files' names."""
+    """Return the vocabulary with everything that the files declare; problems are added to the files' names.
+
+    It does not say with which edition terms came, as names are looked up by then.
+    """
     classes, relations = dict(vocabulary.classes), dict(vocabulary.relations)
     properties, functions = dict(vocabulary.properties), dict(vocabulary.functions)
     for unit in files:
@@ -58,6 +61,7 @@ def extend_vocabulary(
     return msgspec.structs.replace(
         vocabulary,
         prefixes=_prefixes(vocabulary, files, declared),
+        since={},
         classes=classes,
         relations=_complete_inverses(relations),
         properties=properties,

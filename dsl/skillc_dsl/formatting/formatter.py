@@ -25,7 +25,7 @@ def format_source(source: Source) -> Outcome[str]:
     if errors:
         return Outcome(source.text, errors)
     text = _layout(source)
-    if text != source.text and not equal_modulo_layout(source, Source(source.path, text)):
+    if text != source.text and not equal_modulo_layout(source, source._replace(text=text)):
         return Outcome(source.text, (_refused(source, "it would not mean the same"),))
     return Outcome(text)
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from types import MappingProxyType
 from typing import NamedTuple
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
-from skillc_dsl.parsing.grammar import END
+from skillc_dsl.editions import list_later_words
+from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line
 from skillc_dsl.parsing.table_types import WORD
 from skillc_dsl.parsing.tables import load_pattern, load_tables
 from skillc_dsl.parsing.tokens import Token
@@ -56,7 +58,10 @@ def token_span(token: Token, path: str) -> Span:
 
 
 def tokenize(source: Source) -> Outcome[tuple[Token, ...]]:
-    """Return the tokens of `source` followed by an END token, without invalid characters."""
+    """Return the tokens of `source` followed by an END token, without invalid characters.
+
+    Words that came after the edition of the source are names.
+    """
     tables, match, text = load_tables(), load_pattern().match, source.text
     words, ignored, tokens = tables.words, tables.ignored, list[Token]()
     problems: list[Diagnostic] = []
@@ -74,7 +79,26 @@ def tokenize(source: Source) -> Outcome[tuple[Token, ...]]:
         elif breaks := text.count("\n", at, end):
             line, begin = line + breaks, text.rindex("\n", at, end) + 1
         at = end
+    if later := list_later_words(source.edition):
+        _read_as_names(tokens, later)
     return Outcome((*tokens, empty_token_after(tokens[-1] if tokens else None, END)), tuple(problems))
+
+
+def _read_as_names(tokens: list[Token], later: frozenset[str]) -> None:
+    """Make names of later words, but for declarations that begin with one: where they stand, there can be no name."""
+    terminals = {load_tables().words[word] for word in later}
+    is_later = False
+    for index, token in enumerate(tokens):
+        if token.type in DECLARATIONS and begins_line(tokens, index):
+            is_later = token.type in terminals and (is_later or _opens_block(tokens, index))
+        if token.type in terminals and not is_later:
+            place = (token.start_pos, token.line, token.column, token.end_line, token.end_column, token.end_pos)
+            tokens[index] = Token(WORD, token.value, *place)
+
+
+def _opens_block(tokens: Sequence[Token], index: int) -> bool:
+    """Whether a name and `{` follow the token at `index`."""
+    return [each.type for each in tokens[index + 2 : index + 3]] == ["LBRACE"]
 
 
 def empty_token_after(last: Token | None, terminal: str) -> Token:

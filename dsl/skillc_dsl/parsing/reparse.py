@@ -27,18 +27,18 @@ _REMEMBERED = 3
 class ParseMemo:
     """A parser that knows, of each file, the last texts and the last one without errors."""
 
-    _recent: dict[str, tuple[tuple[str, Outcome[s.File]], ...]] = field(default_factory=dict)
+    _recent: dict[str, tuple[tuple[Source, Outcome[s.File]], ...]] = field(default_factory=dict)
     _clean: dict[str, tuple[Source, s.File]] = field(default_factory=dict)
 
     def __call__(self, source: Source) -> Outcome[s.File]:
         """Return what `parse` returns."""
         recent = self._recent.get(source.path, ())
-        known = next((outcome for text, outcome in recent if text == source.text), None)
+        known = next((outcome for each, outcome in recent if each == source), None)
         if known is None:
             clean = self._clean.get(source.path)
             known = (reparse(*clean, source) if clean else None) or parse(source)
-        others = tuple(each for each in recent if each[0] != source.text)
-        self._recent[source.path] = ((source.text, known), *others[: _REMEMBERED - 1])
+        others = tuple(each for each in recent if each[0] != source)
+        self._recent[source.path] = ((source, known), *others[: _REMEMBERED - 1])
         if not known.diagnostics and not known.value.errors:
             self._clean[source.path] = source, known.value
         return known
@@ -57,9 +57,15 @@ def reparse(before: Source, file: s.File, source: Source) -> Outcome[s.File] | N
     first = 1 + sum(chunk.count("\n") for chunk in new[:above])
     end = first + sum(chunk.count("\n") for chunk in window)
     moved = end != first + sum(chunk.count("\n") for chunk in old[above : len(old) - below])
-    if moved or len(source.text) > MOST_CHARACTERS or source.unreadable or "\0" in source.text:
+    if (
+        moved
+        or before.edition != source.edition
+        or len(source.text) > MOST_CHARACTERS
+        or source.unreadable
+        or "\0" in source.text
+    ):
         return None
-    found = parse(Source(source.path, "\n" * (first - 1) + "".join((*window, *rest[:1]))))
+    found = parse(source._replace(text="\n" * (first - 1) + "".join((*window, *rest[:1]))))
     following = [each for each in file.declarations if rest and each.span.line >= end]
     if not _ends_before(found, following, end if rest else None) or (above and found.value.header):
         return None

@@ -8,6 +8,7 @@ OWL = "http://www.w3.org/2002/07/owl#"
 XSD = "http://www.w3.org/2001/XMLSchema#"
 VANN = "http://purl.org/vocab/vann/"
 SKILLC = "https://w3id.org/skillc/core#"
+EDITION, ADDS = f"{SKILLC}edition", f"{SKILLC}adds"
 SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"
 
 TYPE = f"{RDF}type"

@@ -24,6 +24,7 @@ from skillc_rdf.vocabulary.reading import Ontology, read_ontologies
 from skillc_rdf.vocabulary.terms import (
     Terms,
     find_deprecated,
+    find_editions,
     find_idle,
     find_individuals,
     make_classes,
@@ -72,6 +73,7 @@ def _vocabulary(
         prefixes=prefixes,
         aliases=same.aliases,
         deprecated=find_deprecated(terms),
+        since=find_editions(graph),
         classes=make_classes(terms),
         relations=make_relations(terms),
         properties=make_properties(terms),

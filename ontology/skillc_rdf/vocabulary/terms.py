@@ -14,10 +14,12 @@ from skillc_rdf.vocabulary.datatypes import value_type
 from skillc_rdf.vocabulary.expressions import alternatives, complements, required_terms
 from skillc_rdf.vocabulary.graph import Graph
 from skillc_rdf.vocabulary.iris import (
+    ADDS,
     BUILT_IN,
     CLASS,
     DISJOINT,
     DOMAIN,
+    EDITION,
     INVERSE,
     OWL,
     PROPERTY,
@@ -152,6 +154,12 @@ def find_deprecated(terms: Terms) -> dict[str, str]:
     """Return the deprecated terms with their replacements, "" without one."""
     marked = (iri for iri in sorted(terms.kinds) if terms.graph.text(iri, f"{OWL}deprecated") in ("true", "1"))
     return {iri: next(iter(terms.graph.iris(iri, REPLACED)), "") for iri in marked}
+
+
+def find_editions(graph: Graph) -> dict[str, int]:
+    """Return the terms that came after the first edition of the language, with the edition of each."""
+    editions = {each: int(graph.text(each, EDITION) or 0) for each in graph.subjects(EDITION)}
+    return {iri: number for each, number in sorted(editions.items()) for iri in sorted(graph.iris(each, ADDS))}
 
 
 def _required(terms: Terms, iri: str) -> tuple[str, ...]:

@@ -177,7 +177,8 @@ class FunctionTerm(msgspec.Struct, frozen=True, kw_only=True):
 class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     """All terms by IRI (functions by name), the prefixes that shorten IRIs, and the aliases of terms.
 
-    `deprecated` maps deprecated terms to their replacements, "" without one. `symbolic`: worlds of these terms have no
+    `deprecated` maps deprecated terms to their replacements, "" without one; `since` has the terms that came after the
+    first edition of the language, with the edition of each. `symbolic`: worlds of these terms have no
     bodies, so that they need not state what a simulation has to know: sizes, poses and data sheets. `idle` are the
     relations and properties of other ontologies than the shipped ones that no skill reads (`with_named`), sorted:
     scenes may contradict them. `individuals` are those of these ontologies, such as units, with their classes.
@@ -187,6 +188,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     prefixes: dict[str, str] = {}
     aliases: dict[str, str] = {}
     deprecated: dict[str, str] = {}
+    since: dict[str, int] = {}
     classes: dict[str, ClassTerm] = {}
     relations: dict[str, RelationTerm] = {}
     properties: dict[str, PropertyTerm] = {}
@@ -231,6 +233,15 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     def is_a(self, cls: str, ancestor: str) -> bool:
         """Whether every individual of `cls` is one of `ancestor`; an unknown class is only itself and a Thing."""
         return ancestor in self.ancestors.get(cls, (cls, THING))
+
+    def later_than(self, edition: int) -> frozenset[str]:
+        """Return the terms that came after an edition of the language."""
+        return self._later.get(edition, frozenset())
+
+    @cached_property
+    def _later(self) -> dict[int, frozenset[str]]:
+        editions = range(1, max(self.since.values(), default=1))
+        return {each: frozenset(iri for iri, since in self.since.items() if since > each) for each in editions}
 
     def is_computed(self, term: str) -> bool:
         """Whether a relation or property is computed from other facts."""

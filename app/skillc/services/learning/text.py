@@ -55,7 +55,7 @@ def change_texts(
     for path, values in groupby(sorted(learned, key=lambda each: each.of.path), key=lambda each: each.of.path):
         text = sources[path].text
         for name, own in groupby(values, key=lambda each: each.of.implementation):
-            text = _refine(Source(path, text), name, list(own), evidence)
+            text = _refine(sources[path]._replace(text=text), name, list(own), evidence)
         changed[path] = _keep_formatted(sources[path], text)
     _check(files, library, changed, [each.setting for each in learned])
     return tuple(
@@ -143,7 +143,7 @@ def _keep_formatted(before: Source, text: str) -> str:
     """Return a changed text, formatted if it was so before."""
     if format_source(before).value != before.text:
         return text
-    return format_source(Source(before.path, text)).value
+    return format_source(before._replace(text=text)).value
 
 
 def _check(files: LibraryFiles, library: SkillLibrary, changed: Mapping[str, str], settings: Sequence[Setting]) -> None:

@@ -137,9 +137,9 @@ def _inputs(library: LibraryFiles, scene: Path | None) -> Iterator[str | bytes]:
     if library.project:
         yield library.project.source.text
     for source in library.sources:
-        yield from (source.path, str(library.places[source.path]))
+        yield from (source.path, str(library.places[source.path]), str(source.edition))
     for source in library.importable.values():
-        yield from (source.path, str(library.places[source.path]), source.text)
+        yield from (source.path, str(library.places[source.path]), str(source.edition), source.text)
     for source in library.vocabularies:
         yield from (source.path, source.text)
     for path in (*named_scenes(library), *([scene] if scene else []), *user_models()):

@@ -18,6 +18,7 @@ from skillc.services.project.project import SYMBOLIC, Project
 from skillc.services.reporting.files import inspect_path
 from skillc_compiler.emit.headers import is_generated
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.editions import FIRST, NEWEST
 from skillc_dsl.encoding import MOST_BYTES, decode, read_file, unpack
 from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
@@ -217,6 +218,13 @@ class Home(NamedTuple):
         return self.project.others() if self.project else ()
 
 
+def edition_of(root: Path, project: Project | None) -> int:
+    """Return the edition that the library in a folder is written in; shipped ones are of the newest."""
+    if project:
+        return project.manifest.edition
+    return NEWEST if root.resolve().is_relative_to(SHIPPED) else FIRST
+
+
 def _library(
     home: Home,
     sources: tuple[Source, ...],
@@ -228,14 +236,22 @@ def _library(
         use_ontologies(home.project)
     if not home.root.is_relative_to(SHIPPED):
         use_modules((home.root, *(each.root for each in home.others())))
-    importable = {**_shipped(), **_of_dependencies(home.others()), **neighbours}
-    texts = {wanted: _read(file, shown) for wanted, (shown, file) in sorted(importable.items())}
+    of_dependencies, edition = _of_dependencies(home.others()), edition_of(home.root, home.project)
+    importable = {**_shipped(), **of_dependencies, **neighbours}
+    editions = {each.name: each.manifest.edition for each in home.others()}
+    written_in = {wanted: editions[wanted.partition("/")[0]] for wanted in of_dependencies}
+    written_in |= dict.fromkeys(neighbours, edition)
+    texts = {
+        wanted: _read(file, shown)._replace(edition=written_in.get(wanted, NEWEST))
+        for wanted, (shown, file) in sorted(importable.items())
+    }
+    own = tuple(each._replace(edition=edition) for each in sources)
     stated = {**user_vocabularies(), **_vocabularies_of(home.others()), **beside}
     vocabularies = follow_imports(stated, imports_of(home))
     read = read_vocabularies(sorted(vocabularies.items()))
     located = {**vocabularies, **dict(importable.values()), **places}
     namespaces = {each.name: each.namespace for each in (*home.others(), *([home.project] if home.project else []))}
-    return LibraryFiles(home.name, home.root, sources, texts, located, read, namespaces, home.project)
+    return LibraryFiles(home.name, home.root, own, texts, located, read, namespaces, home.project)
 
 
 def imports_of(home: Home) -> dict[str, Path]:

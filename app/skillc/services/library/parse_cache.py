@@ -25,7 +25,7 @@ _MOST_IN_MEMORY = 2000
 @lru_cache(_MOST_IN_MEMORY)
 def parse_cached(source: Source) -> Outcome[s.File]:
     """Return what `parse` returns, from memory or from the cache folder if it is there."""
-    path = find_entry(_FOLDER, (source.path, source.text, str(source.unreadable)))
+    path = find_entry(_FOLDER, (source.path, source.text, str(source.unreadable), str(source.edition)))
     found = read_pickled(path, _is_part)
     if isinstance(found, Outcome) and isinstance(found.value, s.File):
         return found

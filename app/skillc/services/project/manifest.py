@@ -11,6 +11,7 @@ import msgspec
 from skillc.services.project.toml_places import TomlPlaces
 from skillc.services.project.toml_text import load_toml
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
+from skillc_dsl.editions import EDITIONS, FIRST, NEWEST
 from skillc_dsl.source import Source, Span
 from skillc_dsl.spelling import did_you_mean
 from skillc_runtime.recording.run_spec import RENAMED
@@ -93,11 +94,13 @@ class NamedGoal(Settings, frozen=True):
 class Manifest(Settings, frozen=True, kw_only=True):
     """The contents of `skillc.toml`. `scene` and `task` are used where none is named.
 
+    `edition` is that of the language in which the library is written.
     `imports` has the files of imported ontologies by their IRIs, relative to the project.
     """
 
     name: str
     version: str = "0.0.0"
+    edition: int = FIRST
     namespace: str | None = None
     scene: str | None = None
     task: str | None = None
@@ -212,6 +215,11 @@ def _wrong_values(manifest: Manifest, places: TomlPlaces) -> Iterator[Diagnostic
         hint = f"write `{near}`" if NAME.fullmatch(near) else ""
         message = f"`{manifest.name}` is not a name: use a-z, 0-9 and `_`, starting with a letter"
         yield Diagnostic("wrong-setting", places.find(("name",)), message, hint)
+    if manifest.edition not in EDITIONS:
+        known = " and ".join(map(str, EDITIONS))
+        message = f"there is no edition {manifest.edition}; there are {known}"
+        help_ = f"write `edition = {NEWEST}`" if manifest.edition < NEWEST else "a newer skillc may have it"
+        yield Diagnostic("wrong-setting", places.find(("edition",)), message, help_)
     if manifest.namespace is not None and not _NAMESPACE.fullmatch(manifest.namespace):
         message = f"`{manifest.namespace}` is not a namespace: it is an IRI that ends with `#` or `/`"
         yield Diagnostic("wrong-setting", places.find(("namespace",)), message)

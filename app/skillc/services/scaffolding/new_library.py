@@ -16,6 +16,7 @@ from skillc.services.project.manifest import NAME
 from skillc.services.reporting.files import inspect_path
 from skillc.services.scaffolding.project_templates import DEFAULT, TEMPLATES, Template, open_templates
 from skillc_compiler import pipeline
+from skillc_dsl.editions import NEWEST
 from skillc_dsl.source import Source
 from skillc_dsl.spelling import did_you_mean
 
@@ -63,7 +64,7 @@ def _texts(name: str, template: Template) -> dict[str, str]:
         hint = f"; try `{near}`" if NAME.fullmatch(near) else ""
         raise RequestError(f"`{name}` is not a valid library name: use a-z, 0-9 and `_`, starting with a letter{hint}")
     environment = open_templates()
-    values = {"name": name, **_values(name, template)}
+    values = {"name": name, "edition": NEWEST, **_values(name, template)}
     files = (*FILES, *((each, f"{{template}}/{each}.j2") for each in template.own_files))
     texts = {
         path.format(name=name): environment.get_template(file.format(template=template.name)).render(values)

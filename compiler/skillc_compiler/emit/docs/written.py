@@ -33,7 +33,7 @@ def collect_declarations(files: Sequence[ParsedFile]) -> WrittenDeclarations:
     """Return the declarations of the files."""
     declared = [each for unit in files for each in unit.file.declarations]
     return WrittenDeclarations(
-        {unit.file.path: Source(unit.file.path, unit.text) for unit in files},
+        {unit.file.path: Source(unit.file.path, unit.text, edition=unit.edition) for unit in files},
         {each.name.text: each for each in declared if isinstance(each, s.SkillDeclaration)},
         {
             f"{each.skill.text}.{each.name.text}": each

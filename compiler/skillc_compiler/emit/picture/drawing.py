@@ -74,7 +74,7 @@ def make_picture(name: str, files: Sequence[ParsedFile]) -> PictureBox | None:
 
 def _declared(files: Sequence[ParsedFile]) -> Iterator[tuple[s.Declaration, Source]]:
     for unit in files:
-        source = Source(unit.file.path, unit.text)
+        source = Source(unit.file.path, unit.text, edition=unit.edition)
         yield from ((declared, source) for declared in unit.file.declarations)
 
 

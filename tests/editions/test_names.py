@@ -1,0 +1,118 @@
+"""Names of a library of an older edition go before what came later; former names are read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from projects.folders import call, checked, names, write_project
+from skillc.services.libraries import compile_library
+from skillc.services.library_files import find_library
+from skillc_compiler.program.name_notes import find_later_names
+from skillc_compiler.resolve.files import read_sources
+from skillc_dsl.diagnostics import Outcome
+from skillc_dsl.editions import EDITIONS
+from skillc_model.skills import SkillLibrary
+from skillc_rdf.vocabulary.types import ClassType
+
+OWN = """\
+use skiros, skillc
+import "handling.skill"
+
+class Camera < Product
+relation on(Camera, Camera)
+
+skill Locate {
+    in   camera: Camera
+    in   other:  Camera
+    pre  camera on other
+    post done: other on camera
+    duration 1 s
+}
+
+impl plain of Locate { do seq {
+    wait 1 s
+    apply done
+} }
+"""
+FORMER = """\
+use skiros, rparts
+import "handling.skill"
+
+skill Bring {
+    in    arm:     ArmDevice
+    in    object:  Product
+    infer gripper: GripperEffector
+    infer from:    Location
+    pre   arm hasA gripper
+    pre   from contain object
+    pre   not gripper contain _
+    post  gripper contain object
+    post  not from contain object
+}
+
+impl plain of Bring { do Pick[from_approach](arm, object, gripper, from) }
+"""
+USER = 'import "older/tasks.skill"\n'
+
+
+def _compile(folder: Path, edition: int, text: str) -> Outcome[SkillLibrary]:
+    project = write_project(folder / f"e{edition}", f'name = "mine"\nedition = {edition}\n', text)
+    return compile_library(find_library(project))
+
+
+def _errors(compiled: Outcome[SkillLibrary]) -> set[str]:
+    return {each.name for each in compiled.diagnostics if each.severity == "error"}
+
+
+def test_own_names_go_before_later_ones(tmp_path: Path) -> None:
+    compiled = _compile(tmp_path, 1, OWN)
+    assert {each.name for each in compiled.diagnostics} <= {"unused-import"}
+    assert {"Locate", "std_Locate", "Pick"} <= compiled.value.skills.keys()
+    camera = compiled.value.skills["Locate"].parameters[0].type
+    assert camera == ClassType("https://w3id.org/skillc/library/mine#Camera")
+    calls = repr([each.body for each in compiled.value.implementations.values()])
+    assert "Call(skill='std_Locate'" in calls and "Call(skill='Locate'" not in calls
+
+
+def test_in_the_edition_with_which_they_came_they_mean_the_shipped_ones(tmp_path: Path) -> None:
+    found = {each.name for each in _compile(tmp_path, 2, OWN).diagnostics}
+    assert {"duplicate-declaration", "redeclared-term"} <= found
+
+
+def test_a_former_name_is_read_up_to_its_edition(tmp_path: Path) -> None:
+    first = _compile(tmp_path, 1, FORMER)
+    assert _errors(first) == set()
+    called = first.value.implementations["Bring.plain"].body
+    assert "from_above" in repr(called) and "from_approach" not in repr(called)
+    (problem,) = [each for each in _compile(tmp_path, 2, FORMER).diagnostics if each.severity == "error"]
+    assert problem.name == "unknown-implementation" and problem.help == "write `from_above`"
+
+
+def test_each_library_has_its_own_edition(tmp_path: Path) -> None:
+    write_project(tmp_path / "older", 'name = "older"\n', FORMER)
+    user = 'name = "mine"\nedition = 2\n[dependencies]\nolder = { path = "../older" }\n'
+    project = write_project(tmp_path / "mine", user, USER + FORMER.replace("Bring", "Fetch"))
+    assert names(checked(project)) == [("unknown-implementation", 17)]
+
+
+@pytest.mark.parametrize(("edition", "words"), [("3", "there are 1 and 2"), ("0", "there are 1 and 2")])
+def test_an_unknown_edition_is_told_with_those_that_exist(edition: str, words: str, tmp_path: Path) -> None:
+    (found,) = checked(write_project(tmp_path / "x", f'name = "mine"\nedition = {edition}\n'))
+    assert (found["name"], found["line"]) == ("wrong-setting", 2) and words in found["message"]
+
+
+def test_a_change_of_the_edition_alone_is_seen_in_spite_of_caches(tmp_path: Path) -> None:
+    project = write_project(tmp_path / "x", 'name = "mine"\n', FORMER)
+    assert call(project, "check").exit_code == 0
+    (project / "skillc.toml").write_text('name = "mine"\nedition = 2\n', "utf-8")
+    assert call(project, "check").exit_code == 1
+
+
+def test_what_came_later_is_of_an_edition_that_exists() -> None:
+    shipped = find_library(Path("std"))
+    files = read_sources(shipped.sources, shipped.importable, shipped.name).value
+    later = {name: since for unit in files for name, since in find_later_names(unit).items()}
+    assert {"Locate", "Weigh", "carried", "grasp_pose"} <= later.keys()
+    assert set(later.values()) <= set(EDITIONS[1:])
