@@ -243,6 +243,7 @@ def test_a_relation_that_is_called_like_a_member_needs_its_prefix(ward: Path, wo
     skill = f"skill Look {{ in a: Product in b: Product pre a {word} b noplan }}"
     text = f"use skiros\nrelation {word}(Product, Product)\n{skill}\n"
     write(ward, text, "words.skill")
+    (ward / "skillc.toml").write_text('name = "ward"\nedition = 2\n', "utf-8")
     problems = check_paths(CheckRequest((Path("words.skill"),))).diagnostics
     assert "reserved-word" in [each.name for each in problems]
 

@@ -1,0 +1,108 @@
+"""Moves a project to the newest edition of the language: its skill files, and `edition` in its manifest."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+
+from skillc.errors import RequestError
+from skillc.services.fixing import FileChange
+from skillc.services.libraries import load_vocabulary_with
+from skillc.services.library_checks import check_library
+from skillc.services.library_files import LibraryFiles, find_library
+from skillc.services.project.loading import find_project
+from skillc.services.project.project import MANIFEST, Project
+from skillc.services.project.toml_places import TomlPlaces
+from skillc_compiler.ide.analysis import AnalysisInput, analyse
+from skillc_compiler.ide.edition_edits import find_edition_edits
+from skillc_dsl.diagnostics import Diagnostic, Fix
+from skillc_dsl.editions import NEWEST
+from skillc_dsl.edits import apply_fixes
+from skillc_dsl.formatting.formatter import format_source
+from skillc_dsl.source import Source
+
+
+class EditionMove(msgspec.Struct, frozen=True):
+    """The edition of a project before, the edits of its skill files with displayable paths, and the files that change.
+
+    `problems` are errors because of which nothing may be changed, in the edition `failed`: its own, or the newest one.
+    """
+
+    before: int
+    edits: tuple[Fix, ...] = ()
+    changes: tuple[FileChange, ...] = ()
+    problems: tuple[Diagnostic, ...] = ()
+    failed: int = NEWEST
+    texts: dict[str, Source] = {}
+
+
+def find_edition_move(path: Path) -> EditionMove:
+    """Return what moves the project at a path to the newest edition; nothing is written.
+
+    RequestError for a path in no project.
+    """
+    project = find_project(path)
+    if project is None:
+        write = f"write one with `name` and `edition = {NEWEST}`"
+        raise RequestError(f"{path.resolve()} is in no project: there is no {MANIFEST}; {write}")
+    library, edition = find_library(project.root), project.manifest.edition
+    if edition == NEWEST:
+        return EditionMove(edition)
+    if wrong := _errors(library):
+        return EditionMove(edition, problems=wrong, failed=edition, texts=_texts(library))
+    edits = _edits(library)
+    moved = library._replace(
+        sources=tuple(_move(each, edits) for each in library.sources), project=_move_manifest(project)
+    )
+    if wrong := _errors(moved):
+        return EditionMove(edition, problems=wrong, texts=_texts(moved))
+    shown = (each._replace(span=each.span._replace(path=library.display_path(each.span.path))) for each in edits)
+    return EditionMove(edition, tuple(shown), tuple(_changes(library, moved)))
+
+
+def _errors(library: LibraryFiles) -> tuple[Diagnostic, ...]:
+    return tuple(each for each in check_library(library, None) if each.severity == "error")
+
+
+def _edits(library: LibraryFiles) -> tuple[Fix, ...]:
+    vocabulary = load_vocabulary_with(library.vocabularies).value
+    sources = {each.path: each for each in library.sources}
+    read = AnalysisInput(library.name, sources, library.importable, vocabulary, namespaces=library.namespaces)
+    return find_edition_edits(analyse(read))
+
+
+def _move(source: Source, edits: tuple[Fix, ...]) -> Source:
+    """Return a file in the newest edition, formatted if it was so before."""
+    own = [each for each in edits if each.span.path == source.path]
+    moved = source._replace(text=apply_fixes(source.text, own), edition=NEWEST)
+    was_formatted = own and format_source(source).value == source.text
+    return moved._replace(text=format_source(moved).value) if was_formatted else moved
+
+
+def _move_manifest(project: Project) -> Project:
+    """Return a project with the newest edition, also in the text of its manifest."""
+    lines, places = project.source.text.split("\n"), TomlPlaces(project.source)
+    stated = places.find(("edition",))
+    if lines[stated.line - 1].lstrip().startswith("edition"):
+        lines[stated.line - 1] = re.sub(r"(edition\s*=\s*)\d+", rf"\g<1>{NEWEST}", lines[stated.line - 1])
+    else:
+        lines.insert(places.find(("name",)).line, f"edition = {NEWEST}")
+    manifest = msgspec.structs.replace(project.manifest, edition=NEWEST)
+    return project._replace(manifest=manifest, source=project.source._replace(text="\n".join(lines)))
+
+
+def _changes(before: LibraryFiles, after: LibraryFiles) -> Iterator[FileChange]:
+    assert before.project is not None and after.project is not None, "only projects are moved"
+    for old, new in zip(before.sources, after.sources, strict=True):
+        if old.text != new.text:
+            yield FileChange(before.places[old.path], before.display_path(old.path), old.text, new.text)
+    manifest = before.project.source
+    yield FileChange(before.project.root / MANIFEST, manifest.path, manifest.text, after.project.source.text)
+
+
+def _texts(library: LibraryFiles) -> dict[str, Source]:
+    shown = (each._replace(path=library.display_path(each.path)) for each in library.sources)
+    return {each.path: each for each in shown}
