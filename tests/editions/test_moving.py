@@ -8,8 +8,8 @@ import pytest
 
 from editions.test_names import FORMER, OWN
 from projects.folders import call, write_project
-from skillc.services.libraries import compile_library
-from skillc.services.library_files import find_library
+from skillc.services.library.files import find_library
+from skillc.services.library.libraries import compile_library
 from skillc_dsl.editions import NEWEST
 from skillc_model.skills import SkillLibrary
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from projects.folders import call, checked, names, write_project
-from skillc.services.libraries import compile_library
-from skillc.services.library_files import find_library
+from skillc.services.library.files import find_library
+from skillc.services.library.libraries import compile_library
 from skillc_compiler.program.name_notes import find_later_names
 from skillc_compiler.resolve.files import read_sources
 from skillc_dsl.diagnostics import Outcome

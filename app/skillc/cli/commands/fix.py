@@ -8,8 +8,8 @@ import click
 
 from skillc.cli.command import Command
 from skillc.cli.console import print_error, print_remark
-from skillc.cli.diagnostics_output import exit_code, print_diagnostics
 from skillc.cli.options import PATH
+from skillc.cli.output.diagnostics import exit_code, print_diagnostics
 
 EXAMPLES = """
 skillc fix
@@ -32,9 +32,9 @@ def command(path: Path, edition: bool, diff: bool) -> int:
 
 
 def _fix(path: Path, diff: bool) -> int:
-    from skillc.services.checking import CheckRequest, check_paths
-    from skillc.services.fixing import find_fixes, write_fixes
-    from skillc.services.reporting import format_count
+    from skillc.services.check.checking import CheckRequest, check_paths
+    from skillc.services.check.fixing import find_fixes, write_fixes
+    from skillc.services.reporting.reporter import format_count
 
     request = CheckRequest((path,))
     fixes = find_fixes(request, unsafe=False)
@@ -50,9 +50,9 @@ def _fix(path: Path, diff: bool) -> int:
 
 
 def _move(path: Path, diff: bool) -> int:
-    from skillc.services.edition_moves import find_edition_move
-    from skillc.services.files import rewrite_file
-    from skillc.services.fixing import unified_diff
+    from skillc.services.check.edition_moves import find_edition_move
+    from skillc.services.check.fixing import unified_diff
+    from skillc.services.reporting.files import rewrite_file
     from skillc_dsl.editions import NEWEST
 
     move = find_edition_move(path)

@@ -9,10 +9,10 @@ from pathlib import Path
 import msgspec
 
 from skillc.errors import RequestError
-from skillc.services.fixing import FileChange
-from skillc.services.libraries import load_vocabulary_with
-from skillc.services.library_checks import check_library
-from skillc.services.library_files import LibraryFiles, find_library
+from skillc.services.check.fixing import FileChange
+from skillc.services.check.library_checks import check_library
+from skillc.services.library.files import LibraryFiles, find_library
+from skillc.services.library.libraries import load_vocabulary_with
 from skillc.services.project.loading import find_project
 from skillc.services.project.project import MANIFEST, Project
 from skillc.services.project.toml_places import TomlPlaces
