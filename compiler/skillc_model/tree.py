@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from typing import Literal as OneOf
-from typing import TypeAlias
+from typing import TypeAlias, get_args
 
 import msgspec
 
@@ -157,23 +158,18 @@ class With(msgspec.Struct, frozen=True, tag="with"):
     source: Position
 
 
+Decorator: TypeAlias = Retry | Repeat | Timeout | Try | Invert | Once
+"""A node that changes the result of its child, or how often or how long it runs; its tag is its word."""
+
 Node: TypeAlias = (
-    Sequence
-    | Selector
-    | Parallel
-    | Retry
-    | Repeat
-    | Timeout
-    | Try
-    | Invert
-    | Once
-    | Wait
-    | WaitUntil
-    | If
-    | While
-    | ForEach
-    | Check
-    | Apply
-    | Call
-    | With
+    Sequence | Selector | Parallel | Decorator | Wait | WaitUntil | If | While | ForEach | Check | Apply | Call | With
 )
+
+
+def kind_of(node: Node | type[Node]) -> str:
+    """Return the tag of a node."""
+    return str(node.__struct_config__.tag)
+
+
+DECORATORS: Mapping[str, Callable[..., Decorator]] = {kind_of(each): each for each in get_args(Decorator)}
+"""What makes each decorator, by its word, from the fields of its slots, `child` and `source`."""

@@ -1,16 +1,17 @@
-"""The tokens of the language in one table; tests compare the grammar and every highlighter with it."""
+"""The tokens of the language in one table; tests compare every highlighter with it."""
 
 from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import Literal, TypeAlias
 
+from skillc_dsl.descriptions.constructs import CONSTRUCTS, all_words
+from skillc_dsl.descriptions.rows import Group
 from skillc_dsl.units import DIMENSIONS, UNITS
 
-Group: TypeAlias = Literal["declaration", "member", "flag", "trait", "step", "property", "logic", "constant"]
 TokenKind: TypeAlias = Literal[
     "documentation",
     "comment",
@@ -25,60 +26,18 @@ TokenKind: TypeAlias = Literal[
     "punctuation",
 ]
 
-KEYWORDS: MappingProxyType[Group, tuple[str, ...]] = MappingProxyType(
+KEYWORDS: Mapping[Group, tuple[str, ...]] = MappingProxyType(
     {
-        "declaration": (
-            *("use", "prefix", "import", "class", "disjoint", "relation", "property", "function"),
-            *("skill", "impl", "of", "task", "test"),
-        ),
-        "member": (
-            *("in", "opt", "infer", "any", "out", "range", "refine", "pre", "hold", "post", "sensed", "duration"),
-            *("uses", "shares", "pause", "anywhere", "between", "steps", "keep"),
-            *("let", "prefer", "run", "python", "do", "scene", "goal", "verify"),
-            *("start", "expect", "failure", "no", "plan"),
-        ),
-        "flag": ("scoped", "noplan", "fallback", "endless"),
-        "trait": ("functional", "symmetric", "transitive", "inverse", "sub"),
-        "step": (
-            *("seq", "sel", "reactive", "par", "all", "race", "lead", "try", "invert", "once", "retry", "repeat"),
-            *("timeout", "wait", "until", "if", "else", "while", "max", "for", "check", "apply", "with"),
-        ),
-        "property": ("never", "outside", "before", "after", "eventually"),
-        "logic": ("implies", "or", "and", "not", "exists", "forall", "has", "is", "given"),
-        "constant": ("true", "false", "_"),
+        group: tuple(word.text for each in CONSTRUCTS if each.group == group for word in each.words)
+        for group in dict.fromkeys(each.group for each in CONSTRUCTS)
     }
 )
-"""Every keyword, by what it is for. `any` is also a step's word, in `par any`."""
+"""Every keyword, by what it is for. `any` and `never` also stand in other places."""
 
-SINCE: MappingProxyType[str, int] = MappingProxyType(
-    dict.fromkeys(("test", "start", "expect", "failure", "no", "plan"), 2),
-)
+SINCE = MappingProxyType({word.text: word.since for word in all_words() if word.since > 1})
 """The editions with which keywords came; the others are of the first. In an older edition a later one is a name."""
 
-NAMES_ELSEWHERE: frozenset[str] = frozenset(
-    (
-        *("use", "prefix", "import", "disjoint", "of", "any", "range", "sensed", "duration", "prefer", "python"),
-        *(
-            "scene",
-            "goal",
-            "pause",
-            "anywhere",
-            "between",
-            "steps",
-            "keep",
-            "test",
-            "start",
-            "expect",
-            "failure",
-            "no",
-            "plan",
-            *KEYWORDS["flag"],
-            *KEYWORDS["trait"],
-            *KEYWORDS["property"],
-        ),
-        *("all", "race", "lead", "invert", "once", "retry", "repeat", "timeout", "wait", "until", "max", "check"),
-    )
-)
+NAMES_ELSEWHERE = frozenset(word.text for word in all_words() if word.name != "nowhere")
 """Keywords that are legal names in places where no keyword fits."""
 
 TYPES = (

@@ -1,4 +1,4 @@
-"""Writes the TextMate grammar from the language's table of tokens: `python editors/vscode/generate_grammar.py`.
+"""Makes the TextMate grammar from the language's table of tokens; `python tests/accept.py` writes it.
 
 The grammar colours what can be told from a line alone; names get their colours from the language server.
 """
@@ -7,12 +7,10 @@ from __future__ import annotations
 
 import json
 import re
-from pathlib import Path
 from typing import TypeAlias
 
 from skillc_dsl.token_table import KEYWORDS, NAME, NUMBER, OPERATORS, PATTERNS, TYPES, UNIT, Group
 
-FILE = Path(__file__).parent / "syntaxes" / "skill.tmLanguage.json"
 Rule: TypeAlias = dict[str, str | dict[str, dict[str, str]]]
 
 SCOPES: dict[Group, str] = {
@@ -106,7 +104,3 @@ def grammar() -> str:
 def _plain(pattern: str) -> str:
     """Return a pattern whose groups capture nothing."""
     return re.sub(r"(?<!\\)\((?!\?)", "(?:", pattern)
-
-
-if __name__ == "__main__":
-    FILE.write_text(grammar(), "utf-8")

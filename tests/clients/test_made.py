@@ -1,4 +1,4 @@
-"""Clients have what the contract says: the modules that are made from it are those that would be made now."""
+"""Clients have what the contract says, editors the words of the language: what is made is what would be made now."""
 
 from __future__ import annotations
 

@@ -8,6 +8,7 @@ from lsprotocol import types
 from editor.desk import Desk
 from editor.texts import MOTION, PRESS, with_line
 from skillc_dsl import units
+from skillc_dsl.descriptions.members import FLAGS
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
 
@@ -17,7 +18,7 @@ EXACT = [
     (
         "infer at",
         "    |",
-        "duration endless fallback hold in infer noplan opt out pause post pre range scoped shares uses",
+        f"duration hold in infer opt out pause post pre range shares uses {' '.join(each.keyword for each in FLAGS)}",
     ),
     ("do seq {", "        par |", "all any lead race"),
     ("do seq {", "        Move(arm, |", "target: speed:"),

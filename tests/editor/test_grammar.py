@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import runpy
 from pathlib import Path
 
 import pytest
@@ -13,12 +12,6 @@ from fuzz.kinds._growth import MOST_EXPONENT, measure_growth
 from skillc_dsl.token_table import KEYWORDS
 
 EDITORS = Path(__file__).parents[2] / "editors"
-
-
-def test_the_grammar_is_the_generated_one() -> None:
-    written = (EDITORS / "vscode" / "syntaxes" / "skill.tmLanguage.json").read_text("utf-8")
-    generated = runpy.run_path(str(EDITORS / "vscode" / "generate_grammar.py"))["grammar"]()
-    assert written == generated, "run python editors/vscode/generate_grammar.py"
 
 
 def test_every_keyword_has_a_colour() -> None:

@@ -204,7 +204,7 @@ def _affects_unnamed(effect: Effect) -> bool:
 def _calls_in_loops(body: Body) -> Iterator[Call]:
     """Yield the calls in loops; no postcondition can express their effects on other individuals in each round."""
     for node in nodes_in(body) if isinstance(body, TypedNode) else ():
-        if isinstance(node.written, s.While | s.Counted):
+        if isinstance(node.written, s.While) or (isinstance(node.written, s.Decorator) and node.written.row.repeats):
             yield from calls_in(node)
 
 

@@ -29,14 +29,10 @@ MAX_NARROWINGS = 2
 
 
 def explore_loop(
-    run: Exploration, node: TypedNode, written: s.Counted | s.While | s.For, states: StatePaths, context: EvalContext
+    run: Exploration, node: TypedNode, written: s.While | s.For, states: StatePaths, context: EvalContext
 ) -> EndStates:
     """Return how a loop ends; an invalid number of rounds is reported elsewhere."""
     match written:
-        case s.Counted(kind="retry", count=count):
-            return _explore_retry(run, node, count_rounds(count), states, context)
-        case s.Counted(count=count):
-            return _explore_repeat(run, node, count_rounds(count), states, context)
         case s.While(limit=limit):
             return _explore_while(run, node, count_rounds(limit), states, context)
         case s.For():
@@ -45,11 +41,9 @@ def explore_loop(
             assert_never(written)
 
 
-def _explore_retry(
-    run: Exploration, node: TypedNode, count: int, states: StatePaths, context: EvalContext
-) -> EndStates:
-    """Explore a `retry`: a failed round is followed by another until none is left."""
-    ends = EndStates()
+def explore_retry(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:
+    """Return how a `retry` ends: a failed round is followed by another until none is left."""
+    ends, count = EndStates(), _count(node)
     for number in range(1, min(count, MAX_ROUNDS) + 1):
         last = number == min(count, MAX_ROUNDS)
         one = explore_sequence(
@@ -65,11 +59,9 @@ def _explore_retry(
     return ends
 
 
-def _explore_repeat(
-    run: Exploration, node: TypedNode, count: int, states: StatePaths, context: EvalContext
-) -> EndStates:
-    """Explore a `repeat`: a successful round is followed by another."""
-    ends = EndStates(success=dict(states))
+def explore_repeat(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:
+    """Return how a `repeat` ends: a successful round is followed by another."""
+    ends, count = EndStates(success=dict(states)), _count(node)
     for _ in range(min(count, MAX_ROUNDS)):
         one = explore_sequence(run, node.children, widen(ends.success), context)
         ends.success = one.success
@@ -169,7 +161,14 @@ def _explore_any_round(
 
 def _is_retry(node: TypedNode) -> bool:
     """Whether another round follows a failure, not a success."""
-    return isinstance(node.written, s.Counted) and node.written.kind == "retry"
+    return isinstance(node.written, s.Decorator) and node.written.row.on_failure == "again"
+
+
+def _count(node: TypedNode) -> int:
+    """Return the number of rounds of a decorator."""
+    assert isinstance(node.written, s.Decorator), "other loops have a condition or items"
+    [count] = node.written.counts
+    return count_rounds(count)
 
 
 def _loop_invariant(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> State | None:

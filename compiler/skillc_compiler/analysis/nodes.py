@@ -8,6 +8,7 @@ from typing import assert_never
 from skillc_compiler.analysis import loops, parallel
 from skillc_compiler.analysis.binding import definite_effects
 from skillc_compiler.analysis.calls import explore_call
+from skillc_compiler.analysis.decorators import explore_decorator
 from skillc_compiler.analysis.exploration import EvalContext, Exploration, explore_sequence, havoc_concurrent
 from skillc_compiler.analysis.initial_state import requirements_of
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, any_individual
@@ -28,7 +29,6 @@ from skillc_compiler.analysis.paths import (
     widen,
 )
 from skillc_compiler.analysis.scopes import explore_with
-from skillc_compiler.analysis.summaries import node_key
 from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
@@ -74,10 +74,10 @@ def _explore_kind(run: Exploration, node: TypedNode, states: StatePaths, context
     match written:
         case s.Block():
             return _explore_block(run, node, written, states, context)
-        case s.Counted() | s.While() | s.For():
+        case s.Decorator():
+            return explore_decorator(run, node, written, states, context)
+        case s.While() | s.For():
             return loops.explore_loop(run, node, written, states, context)
-        case s.Timeout():
-            return _explore_timeout(run, node, states, context)
         case s.Wait() | s.WaitUntil() | s.CheckNode():
             return _explore_leaf(run, node, states, context)
         case s.If():
@@ -119,10 +119,6 @@ def _explore_block(
             return parallel.explore_reactive_selector(run, node, states, context)
         case "par all" | "par any" | "par race" | "par lead":
             return parallel.explore_parallel(run, node, written.kind, states, context)
-        case "try" | "invert":
-            return _explore_try_or_invert(run, node, written, states, context)
-        case "once":
-            return _explore_once(run, node, states, context)
         case _:
             assert_never(written.kind)
 
@@ -137,47 +133,6 @@ def _explore_selector(run: Exploration, node: TypedNode, states: StatePaths, con
         broken |= bool(one.broken)
         states = one.failed
     ends.failure, ends.broken = dict(states), dict(states) if broken else {}
-    return ends
-
-
-def _explore_try_or_invert(
-    run: Exploration, node: TypedNode, written: s.Block, states: StatePaths, context: EvalContext
-) -> EndStates:
-    inner = explore_sequence(run, node.children, states, context.with_failure_caught())
-    ends = EndStates(broken=inner.broken)
-    for state, path in inner.failure.items():
-        add_state(ends.success, state, extend_path(path, written.span, f"the failure is caught by `{written.kind}`"))
-    if written.kind == "try":
-        add_states(ends.success, inner.success)
-    else:
-        for state, path in inner.success.items():
-            add_state(ends.failure, state, extend_path(path, written.span, "the success is a failure by `invert`"))
-    return ends
-
-
-def _explore_once(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:
-    key, ends = node_key(node), EndStates()
-    fresh = {state: path for state, path in states.items() if state.once_results.get(key) is None}
-    for state, path in states.items():
-        if key in state.once_results:
-            for result, ended in ((True, ends.success), (False, ends.failure)):
-                if state.once_results[key] in (None, result):
-                    add_state(ended, state, path)
-    inner = explore_sequence(run, node.children, fresh, context)
-    for result, found, ended in (
-        (True, inner.success, ends.success),
-        (False, inner.failure, ends.failure),
-        (False, inner.broken, ends.broken),
-    ):
-        for state, path in found.items():
-            add_state(ended, state.replace(once_results={**state.once_results, key: result}), path)
-    return ends
-
-
-def _explore_timeout(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:
-    ends = explore_sequence(run, node.children, states, context)
-    for state, path in parallel.states_when_halted(run, node, states, context).items():
-        add_state(ends.failure, state, extend_path(path, node.written.span, "the time is up"))
     return ends
 
 

@@ -164,7 +164,7 @@ class WriteSummaries:
                 post for post in requirements_of(implementation, "post") if post.label and post.label.text in labels
             ]
             yield from (write_of(effect) for _, effect in definite_effects(posts))
-        if isinstance(node.written, s.Block) and node.written.kind == "once":
+        if isinstance(node.written, s.Decorator) and node.written.kind == "once":
             yield OnceWrite(node_key(node))
         for child in (*node.children, *node.orelse):
             yield from self.writes_of_node(child, implementation)

@@ -30,7 +30,9 @@ def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each invalid count, time and number."""
     for node in all_nodes(program):
         match node.written:
-            case s.Counted(count=count) | s.While(limit=count):
+            case s.Decorator() as written:
+                yield from (each for count in written.counts for each in _count(count))
+            case s.While(limit=count):
                 yield from _count(count)
             case _:
                 pass
@@ -65,8 +67,8 @@ def _times(program: Program) -> Iterator[Diagnostic]:
 def _in_body(nodes: Iterable[TypedNode], known: Mapping[str, Interval]) -> Iterator[Diagnostic]:
     for node in nodes:
         match node.written:
-            case s.Timeout():
-                yield from _time(node.values[0], known, "timeout")
+            case s.Decorator(kind=kind):
+                yield from (each for time in node.values for each in _time(time, known, kind))
             case s.Wait():
                 yield from _time(node.values[0], known, "wait")
             case _:

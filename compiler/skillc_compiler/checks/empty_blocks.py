@@ -35,11 +35,9 @@ def _describe_empty(node: s.Node) -> tuple[str, str] | None:
             return "nothing is done if this condition holds", f"write `if not ({text}) {{ .. }}`, or add a step"
         case s.If(orelse=()):
             return "this `else` has no steps", "remove it, or add a step"
-        case s.Block(kind=kind, children=()):
+        case s.Block(kind=kind, children=()) | s.Decorator(kind=kind, children=()):
             return f"this `{kind}` has no steps", "add a step, or remove it"
-        case s.Counted(kind=kind, children=()):
-            return f"this `{kind}` has no steps", "add a step, or remove it"
-        case s.Timeout(children=()) | s.While(children=()) | s.For(children=()) | s.With(children=()):
+        case s.While(children=()) | s.For(children=()) | s.With(children=()):
             return f"this `{type(node).__name__.lower()}` has no steps", "add a step, or remove it"
     return None
 

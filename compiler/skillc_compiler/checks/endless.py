@@ -45,7 +45,7 @@ def check(of: NamedPython) -> Iterator[Diagnostic]:
 def endless_calls(node: TypedNode) -> Iterator[Call]:
     """Yield the calls of endless skills in a node that nothing in it halts."""
     match node.written:
-        case s.Timeout():
+        case s.Decorator(kind="timeout"):
             return
         case s.Block(kind="par lead"):
             yield from endless_calls(node.children[0]) if node.children else ()

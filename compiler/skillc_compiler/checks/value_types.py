@@ -176,8 +176,8 @@ def type_constraints(program: Program) -> Iterator[TypeConstraint]:
         yield from argument_constraints(call)
     for node in all_nodes(program):
         match node.written:
-            case s.Timeout() | s.Wait():
-                yield from _time_constraint(node.values[0], "as time")
+            case s.Decorator() | s.Wait():
+                yield from (each for time in node.values for each in _time_constraint(time, "as time"))
             case s.For():
                 yield TypeConstraint(node.values[0], ListOf(UNKNOWN), "to go through")
             case _:

@@ -35,10 +35,10 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
     def node(self, home: BodyContext, known: dict[str, Symbol], written: s.Node) -> Iterator[Occurrence]:
         """Yield the occurrences in a node; the names that it binds are added to `known`."""
         match written:
-            case s.Block(children=children) | s.Counted(children=children):
+            case s.Block(children=children):
                 yield from self.nodes(home, known, children)
-            case s.Timeout(limit=limit, children=children):
-                yield from self.value(known, limit)
+            case s.Decorator(slots=slots, children=children):
+                yield from (each for slot in slots for each in self.value(known, slot))
                 yield from self.nodes(home, known, children)
             case s.Wait(time=time):
                 yield from self.value(known, time)

@@ -17,14 +17,13 @@ from skillc_compiler.ide.offers import Offer
 from skillc_compiler.ide.term_pages import format_bare_type
 from skillc_compiler.program.types import Measure, Thing
 from skillc_compiler.resolve.values import ExpectedType
+from skillc_dsl.descriptions.constructs import CONSTRUCTS
 from skillc_dsl.parsing.grammar import END, fixed_texts, list_fitting_terminals, shift
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
-from skillc_dsl.token_table import KEYWORDS
 from skillc_dsl.units import UNITS
 
-_WITHIN_A_LINE = frozenset(("range", "any", "sensed", "of", "anywhere", "between", "steps", "keep"))
-_BEGINNING = frozenset((*KEYWORDS["declaration"], *KEYWORDS["member"], *KEYWORDS["flag"])) - _WITHIN_A_LINE
+_BEGINNING = frozenset(each.words[0].text for each in CONSTRUCTS if each.group in ("declaration", "member", "flag"))
 _VALUES = frozenset(("true", "false"))
 _CLASS_LISTS = {"CLASS": ("LESS", "DISJOINT", "COMMA"), "RELATION": ("LPAR", "COMMA"), "PROPERTY": ("LPAR",)}
 

@@ -20,8 +20,14 @@ def lower_node(node: TypedNode) -> t.Node:
     match written:
         case s.Block():
             return _lower_block(node, written)
-        case s.Counted() | s.Timeout() | s.While() | s.For() | s.With():
+        case s.Decorator():
             return _lower_decorator(node, written)
+        case s.While(text=text, limit=limit):
+            return t.While(_condition(node), text, count_rounds(limit), _lower_as_one(node.children, node), source)
+        case s.For(variable=variable):
+            return t.ForEach(variable.text, _value(node), _lower_as_one(node.children, node), source)
+        case s.With():
+            return t.With(_lower_call(node), _lower_as_one(node.children, node), source)
         case s.If(text=text, orelse=orelse):
             otherwise = None if orelse is None else _lower_as_one(node.orelse, node)
             return t.If(_condition(node), text, _lower_as_one(node.children, node), otherwise, source)
@@ -39,24 +45,12 @@ def lower_node(node: TypedNode) -> t.Node:
             assert_never(written)
 
 
-def _lower_decorator(node: TypedNode, written: s.Counted | s.Timeout | s.While | s.For | s.With) -> t.Node:
-    source = start_position(written.span)
-    child = _lower_as_one(node.children, node)
-    match written:
-        case s.Counted(kind="retry", count=count):
-            return t.Retry(count_rounds(count), child, source)
-        case s.Counted(count=count):
-            return t.Repeat(count_rounds(count), child, source)
-        case s.Timeout():
-            return t.Timeout(_value(node), child, source)
-        case s.While(text=text, limit=limit):
-            return t.While(_condition(node), text, count_rounds(limit), child, source)
-        case s.For(variable=variable):
-            return t.ForEach(variable.text, _value(node), child, source)
-        case s.With():
-            return t.With(_lower_call(node), child, source)
-        case _:
-            assert_never(written)
+def _lower_decorator(node: TypedNode, written: s.Decorator) -> t.Node:
+    """Return the node with a number of rounds, or an expression in seconds, for each slot."""
+    counts, times = map(count_rounds, written.counts), (fold(time.meaning) for time in node.values)
+    slots = {slot.field: next(counts if slot.kind == "count" else times) for slot in written.row.slots}
+    child, source = _lower_as_one(node.children, node), start_position(written.span)
+    return t.DECORATORS[written.kind](**slots, child=child, source=source)
 
 
 def _lower_block(node: TypedNode, written: s.Block) -> t.Node:
@@ -74,12 +68,6 @@ def _lower_block(node: TypedNode, written: s.Block) -> t.Node:
             return t.Parallel("race", _lower_all(node), source)
         case "par lead":
             return t.Parallel("lead", _lower_all(node), source)
-        case "try":
-            return t.Try(_lower_as_one(node.children, node), source)
-        case "invert":
-            return t.Invert(_lower_as_one(node.children, node), source)
-        case "once":
-            return t.Once(_lower_as_one(node.children, node), source)
         case _:
             assert_never(written.kind)
 

@@ -23,6 +23,7 @@ from skillc_compiler.program.typed import (
     start_position,
 )
 from skillc_dsl import syntax as s
+from skillc_dsl.descriptions.members import FLAGS
 from skillc_model import properties
 from skillc_model import skills as library
 from skillc_model.conditions import Expression
@@ -42,13 +43,10 @@ def lower_skill(typed: Skill, implementations: Sequence[str]) -> library.Skill:
         duration=_expression(typed.duration),
         uses=_devices(typed, "uses"),
         shares=_devices(typed, "shares"),
-        scoped="scoped" in typed.flags,
-        planned="noplan" not in typed.flags,
-        fallback="fallback" in typed.flags,
-        endless="endless" in typed.flags,
         pause=_pause(typed.pause),
         implementations=tuple(implementations),
         source=start_position(typed.span),
+        **{flag.field: flag.value for flag in FLAGS if flag.keyword in typed.flags},
     )
 
 

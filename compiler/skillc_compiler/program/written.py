@@ -32,7 +32,7 @@ def calls_of(declaration: s.Declaration) -> Iterator[s.CallSkill]:
                 todo += [call, *children]
             case s.If(then=then, orelse=orelse):
                 todo += [*then, *(orelse or ())]
-            case s.Block() | s.Counted() | s.Timeout() | s.While() | s.For() as node:
+            case s.Block() | s.Decorator() | s.While() | s.For() as node:
                 todo += node.children
             case s.Wait() | s.WaitUntil() | s.CheckNode() | s.ApplyPosts():
                 pass

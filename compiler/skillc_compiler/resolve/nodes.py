@@ -25,13 +25,10 @@ def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[T
     match written:
         case s.Block():
             return _block(context, scope, written)
-        case s.Counted(children=children):
+        case s.Decorator(children=children):
+            times = tuple(resolve_value(context, scope, time, SECONDS) for time in written.times)
             inner, after = _resolve_sequence(context, scope, children)
-            return TypedNode(written, children=inner), after
-        case s.Timeout(limit=limit, children=children):
-            seconds = resolve_value(context, scope, limit, SECONDS)
-            inner, after = _resolve_sequence(context, scope, children)
-            return TypedNode(written, (seconds,), children=inner), after
+            return TypedNode(written, times, children=inner), after
         case s.Wait(time=time):
             return TypedNode(written, (resolve_value(context, scope, time, SECONDS),)), scope
         case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
@@ -68,7 +65,7 @@ def _resolve_sequence(
 
 
 def _block(context: FileContext, scope: Scope, written: s.Block) -> tuple[TypedNode, Scope]:
-    if written.kind in ("seq", "reactive seq", "once", "try", "invert"):
+    if written.kind in ("seq", "reactive seq"):
         inner, after = _resolve_sequence(context, scope, written.children)
         return TypedNode(written, children=inner), after
     apart = [resolve_node(context, scope, child) for child in written.children]

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from skillc_dsl.descriptions.members import MEMBERS
 from skillc_dsl.formatting import documents as d
 from skillc_dsl.formatting.columns import KEYWORD, ColumnCell, MemberLine, align_columns
 from skillc_dsl.formatting.inline import index_of, is_token
 from skillc_dsl.formatting.steps import StepFormatter, has_braces
 from skillc_dsl.parsing.tokens import Branch, Token, Tree
 
-_LOOSE = ("duration", "shares", "pause")
+_LOOSE = frozenset(each.words[0].text for each in MEMBERS if each.long)
 """Long keywords, which do not widen their column, as what follows them is in no other column."""
 
 

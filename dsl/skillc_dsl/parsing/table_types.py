@@ -9,7 +9,7 @@ WORD = "NAME"
 
 NESTED = frozenset(
     (
-        *("block", "counted", "timeout", "if_", "while_", "for_", "with_"),
+        *("block", "decorator", "if_", "while_", "for_", "with_"),
         *("implies", "not_", "quantified", "parentheses"),
         *("sum", "product", "member", "apply", "list_of"),
     )

@@ -6,25 +6,18 @@ import functools
 import hashlib
 import re
 import sys
-from importlib import resources
 from pathlib import Path
 
 import msgspec
 
 from skillc_dsl import cache
+from skillc_dsl.parsing.grammar_text import grammar_text
 from skillc_dsl.parsing.table_types import Tables
-from skillc_dsl.units import UNITS
 
 BUILT = Path(__file__).with_name("tables.msgpack")
 """What the build of the package makes."""
 _FORMAT = 1
 """Another number makes the tables in files unknown."""
-
-
-def grammar_text() -> str:
-    """Return the grammar with the terminal UNIT generated from the table of units, longest first."""
-    units = "|".join(re.escape(unit).replace("/", r"\/") for unit in sorted(UNITS, key=lambda u: (-len(u), u)))
-    return resources.files("skillc_dsl").joinpath("grammar.lark").read_text("utf-8") + f"UNIT: /({units})(?!\\w)/\n"
 
 
 @functools.cache

@@ -55,11 +55,10 @@ from skillc_dsl.syntax.nodes import Argument as Argument
 from skillc_dsl.syntax.nodes import Block as Block
 from skillc_dsl.syntax.nodes import CallSkill as CallSkill
 from skillc_dsl.syntax.nodes import CheckNode as CheckNode
-from skillc_dsl.syntax.nodes import Counted as Counted
+from skillc_dsl.syntax.nodes import Decorator as Decorator
 from skillc_dsl.syntax.nodes import For as For
 from skillc_dsl.syntax.nodes import If as If
 from skillc_dsl.syntax.nodes import Node as Node
-from skillc_dsl.syntax.nodes import Timeout as Timeout
 from skillc_dsl.syntax.nodes import Wait as Wait
 from skillc_dsl.syntax.nodes import WaitUntil as WaitUntil
 from skillc_dsl.syntax.nodes import While as While

@@ -81,9 +81,9 @@ class Pause(msgspec.Struct, frozen=True):
 
 
 class Flag(msgspec.Struct, frozen=True):
-    """`scoped`, `noplan`, `fallback` or `endless`, alone on its line."""
+    """A word of `descriptions.members.FLAGS`, alone on its line."""
 
-    flag: Literal["scoped", "noplan", "fallback", "endless"]
+    flag: str
     span: Span
 
 

@@ -2,50 +2,53 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Literal, TypeAlias
 
 import msgspec
 
+from skillc_dsl.descriptions.nodes import DECORATOR_OF
+from skillc_dsl.descriptions.rows import Decorator as DecoratorRow
+from skillc_dsl.descriptions.rows import Slot
 from skillc_dsl.source import Span
 from skillc_dsl.syntax.conditions import Condition
 from skillc_dsl.syntax.values import Name, Number, Value
 
 
 class Block(msgspec.Struct, frozen=True):
-    """A node with children and no value of its own."""
+    """A node with several children and no value of its own."""
 
-    kind: Literal[
-        "seq",
-        "sel",
-        "reactive seq",
-        "reactive sel",
-        "par all",
-        "par any",
-        "par race",
-        "par lead",
-        "try",
-        "invert",
-        "once",
-    ]
+    kind: Literal["seq", "sel", "reactive seq", "reactive sel", "par all", "par any", "par race", "par lead"]
     children: tuple[Node, ...]
     span: Span
 
 
-class Counted(msgspec.Struct, frozen=True):
-    """`retry N { }` or `repeat N { }`."""
+class Decorator(msgspec.Struct, frozen=True):
+    """`WORD SLOT .. { }`: a node of `descriptions.nodes.DECORATORS`, with a number or a time for each of its slots."""
 
-    kind: Literal["retry", "repeat"]
-    count: Number
+    kind: str
+    slots: tuple[Value, ...]
     children: tuple[Node, ...]
     span: Span
 
+    @property
+    def row(self) -> DecoratorRow:
+        """What it is."""
+        return DECORATOR_OF[self.kind]
 
-class Timeout(msgspec.Struct, frozen=True):
-    """`timeout Q { }`"""
+    @property
+    def counts(self) -> tuple[Number, ...]:
+        """The numbers of rounds in its slots."""
+        return tuple(each for each, slot in self._filled if isinstance(each, Number) and slot.kind == "count")
 
-    limit: Value
-    children: tuple[Node, ...]
-    span: Span
+    @property
+    def times(self) -> tuple[Value, ...]:
+        """The times in its slots."""
+        return tuple(each for each, slot in self._filled if slot.kind == "time")
+
+    @property
+    def _filled(self) -> Iterator[tuple[Value, Slot]]:
+        return zip(self.slots, self.row.slots, strict=True)
 
 
 class Wait(msgspec.Struct, frozen=True):
@@ -133,6 +136,4 @@ class With(msgspec.Struct, frozen=True):
     span: Span
 
 
-Node: TypeAlias = (
-    Block | Counted | Timeout | Wait | WaitUntil | If | While | For | CheckNode | ApplyPosts | CallSkill | With
-)
+Node: TypeAlias = Block | Decorator | Wait | WaitUntil | If | While | For | CheckNode | ApplyPosts | CallSkill | With

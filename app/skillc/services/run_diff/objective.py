@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import assert_never
 
 from skillc.contract.runs.run_diff import Difference
 from skillc.services.run_diff.alignment import align
 from skillc.services.run_diff.difference import find_difference
+from skillc_dsl.descriptions.nodes import DECORATOR_OF
+from skillc_model.conditions import Expression
 from skillc_model.format_condition import format_condition, format_expression
 from skillc_model.traversal import children
 from skillc_model.tree import (
@@ -17,20 +18,15 @@ from skillc_model.tree import (
     Check,
     ForEach,
     If,
-    Invert,
     Node,
-    Once,
     Parallel,
-    Repeat,
-    Retry,
     Selector,
     Sequence,
-    Timeout,
-    Try,
     Wait,
     WaitUntil,
     While,
     With,
+    kind_of,
 )
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.recording.events import TaskStarted
@@ -83,10 +79,8 @@ def _describe_node(node: Node) -> str:
             return f"{'reactive ' if reactive else ''}{_kind(node)}"
         case Parallel(policy=policy):
             return f"par {policy}"
-        case Retry(count=count) | Repeat(count=count):
-            return f"{_kind(node)} {count}"
-        case Timeout(seconds=seconds) | Wait(seconds=seconds):
-            return f"{_kind(node)} {format_expression(seconds, _WORDS)} s"
+        case Wait(seconds=seconds):
+            return f"wait {_slot(seconds)}"
         case ForEach(variable=variable, items=items):
             return f"for {variable} in {format_expression(items, _WORDS)}"
         case While(text=text, limit=limit):
@@ -95,10 +89,15 @@ def _describe_node(node: Node) -> str:
             return f"{_kind(node)} {text}"
         case Apply(labels=labels):
             return f"apply {', '.join(labels)}"
-        case Try() | Invert() | Once() | With():
+        case With():
             return _kind(node)
         case _:
-            assert_never(node)
+            row = DECORATOR_OF[kind_of(node)]
+            return " ".join((row.kind, *(_slot(getattr(node, slot.field)) for slot in row.slots)))
+
+
+def _slot(value: int | Expression) -> str:
+    return str(value) if isinstance(value, int) else f"{format_expression(value, _WORDS)} s"
 
 
 def _describe_call(call: Call) -> str:
@@ -108,4 +107,4 @@ def _describe_call(call: Call) -> str:
 
 
 def _kind(node: Node) -> str:
-    return str(node.__struct_config__.tag).replace("-", " ")
+    return kind_of(node).replace("-", " ")

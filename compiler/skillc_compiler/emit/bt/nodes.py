@@ -26,6 +26,7 @@ from skillc_compiler.emit.bt.patterns import (
     run_until,
     run_while,
 )
+from skillc_dsl.descriptions.nodes import DECORATOR_OF
 from skillc_model.conditions import Arithmetic, Expression, Literal
 from skillc_model.skills import Post
 from skillc_model.traversal import find_calls, free_variables_in_order, walk
@@ -33,34 +34,25 @@ from skillc_model.tree import (
     Apply,
     Call,
     Check,
+    Decorator,
     ForEach,
     If,
-    Invert,
     Node,
     Once,
     Parallel,
-    Repeat,
-    Retry,
     Selector,
     Sequence,
-    Timeout,
-    Try,
     Wait,
     WaitUntil,
     While,
     With,
+    kind_of,
 )
 
 COUNTS = {"all": ("-1", "1"), "any": ("1", "-1"), "race": ("1", "1")}
 MAX_MILLISECONDS = 2**32 - 1
 """The longest duration of Sleep and Timeout, in ms, about 49 days."""
-HIDING = {
-    "Try": ("ForceSuccess", "Turns a failure of its child into success, but not that of a broken hold condition."),
-    "Invert": (
-        "Inverter",
-        "Exchanges success and failure of its child, but not the failure of a broken hold condition.",
-    ),
-}
+PORT_TYPES = {"count": "int", "time": "unsigned int"}
 
 
 @dataclass
@@ -78,24 +70,15 @@ class NodeWriter(TreeWriter):
                 return self._control("ReactiveFallback" if reactive else "Fallback", self._apart(children), node)
             case Parallel():
                 return self._parallel(node)
-            case Retry(count=count, child=child):
-                return with_children(
-                    Element("RetryUntilSuccessful", num_attempts=format_rounds(count)), self.node(child)
-                )
-            case Repeat(count=count, child=child):
-                return with_children(Element("Repeat", num_cycles=format_rounds(count)), self.node(child))
-            case Timeout(seconds=seconds, child=child):
-                return self._timed("Timeout", seconds, 1, self.node(child))
             case Wait(seconds=seconds):
-                return self._timed("Sleep", seconds, 0)
-            case Try(child=child):
-                return self._hiding("Try", child)
-            case Invert(child=child):
-                return self._hiding("Invert", child)
+                before: list[Element] = []
+                return run_after(before, Element("Sleep", msec=self._milliseconds(seconds, 0, before)))
             case Once(child=child):
                 return self._once(child)
-            case _:
+            case WaitUntil() | If() | While() | ForEach() | Check() | Apply() | Call() | With():
                 return self._deciding(node)
+            case _:
+                return self._decorator(node)
 
     def _deciding(self, node: WaitUntil | If | While | ForEach | Check | Apply | Call | With) -> Element:
         match node:
@@ -169,23 +152,27 @@ class NodeWriter(TreeWriter):
         self.start.append(reset_script([entry]))
         return run_once(self.node(child), entry)
 
-    def _hiding(self, word: str, child: Node) -> Element:
-        tag, doc = HIDING[word]
-        if may_break_hold(self.library, child):
-            tag = self.names.of("", word)
-            self.model.declare("Decorator", tag, ("", word), (), doc)
-        return with_children(Element(tag), self.node(child))
+    def _decorator(self, node: Decorator) -> Element:
+        """Return the node of BehaviorTree.CPP, or one that is declared if that would hide a broken hold condition."""
+        row = DECORATOR_OF[kind_of(node)]
+        tag = row.tree_cpp
+        if not tag or (row.on_failure == "success" and may_break_hold(self.library, node.child)):
+            path = ("", row.kind.capitalize())
+            tag = self.names.of(*path)
+            ports = [Port(slot.port, type=PORT_TYPES[slot.kind]) for slot in row.slots]
+            self.model.declare("Decorator", tag, path, ports, row.tree_cpp_doc)
+        child, before = self.node(node.child), list[Element]()
+        attributes = {slot.port: self._slot(getattr(node, slot.field), before) for slot in row.slots}
+        return run_after(before, with_children(Element(tag, attributes), child))
 
-    def _timed(self, tag: str, seconds: Expression, least: int, child: Element | None = None) -> Element:
-        """Return a node with a time in milliseconds, at least `least`: a timeout of 0 would never expire."""
-        before: list[Element] = []
+    def _slot(self, value: int | Expression, before: list[Element]) -> str:
+        return format_rounds(value) if isinstance(value, int) else self._milliseconds(value, 1, before)
+
+    def _milliseconds(self, seconds: Expression, least: int, before: list[Element]) -> str:
+        """Return a time in milliseconds, at least `least`: a timeout of 0 would never expire."""
         if isinstance(seconds, Literal) and isinstance(seconds.value, int | float):
-            milliseconds = str(min(max(least, round(seconds.value * 1000)), MAX_MILLISECONDS))
-        else:
-            product = Arithmetic("*", seconds, Literal(1000.0))
-            milliseconds = self.value("milliseconds", product, before, "unsigned int")
-        timed = Element(tag, msec=milliseconds)
-        return run_after(before, timed if child is None else with_children(timed, child))
+            return str(min(max(least, round(seconds.value * 1000)), MAX_MILLISECONDS))
+        return self.value("milliseconds", Arithmetic("*", seconds, Literal(1000.0)), before, "unsigned int")
 
     def _for_each(self, node: ForEach) -> Element:
         before: list[Element] = []

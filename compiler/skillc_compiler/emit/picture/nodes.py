@@ -8,9 +8,8 @@ import msgspec
 
 from skillc_compiler.emit.picture.boxes import PictureBox
 from skillc_dsl import syntax as s
+from skillc_dsl.descriptions.nodes import PICTURES
 from skillc_dsl.parsing.building.places import TreeBuilder
-
-SYMBOLS = {"seq": "→", "sel": "?", "par": "⇉", "try": "~", "invert": "!", "once": "1"}
 
 
 class NodeDrawer(msgspec.Struct, frozen=True):
@@ -26,34 +25,32 @@ class NodeDrawer(msgspec.Struct, frozen=True):
             case s.With(call=call, children=children):
                 return self._call(call, "with ", self._all(children))
             case s.Wait(time=time):
-                return PictureBox("time", "◷", "wait", (self.places.written(time.span),))
+                return _box("wait", self.places.written(time.span))
             case s.WaitUntil(text=text):
-                return PictureBox("time", "◷", "wait until", (text,))
+                return _box("wait until", text)
             case s.CheckNode(text=text):
-                return PictureBox("guard", "✓", "check", (text,))
+                return _box("check", text)
             case s.ApplyPosts(labels=labels):
-                return PictureBox("guard", "✎", "apply", (", ".join(label.text for label in labels),))
+                return _box("apply", ", ".join(label.text for label in labels))
             case _:
                 return self._around(node)
 
-    def _around(self, node: s.Block | s.Counted | s.Timeout | s.If | s.While | s.For) -> PictureBox:
+    def _around(self, node: s.Block | s.Decorator | s.If | s.While | s.For) -> PictureBox:
         """Return the box of a control node or decorator."""
         match node:
             case s.Block(kind=kind, children=children):
-                reactive = kind.startswith("reactive")
-                symbol = "↻" if reactive else SYMBOLS[kind.split()[0]]
-                return PictureBox("flow", symbol, kind, (), self._all(children))
-            case s.Counted(kind=kind, count=count, children=children):
-                return PictureBox("flow", "↻", f"{kind} {count.text}", (), self._all(children))
-            case s.Timeout(limit=limit, children=children):
-                return PictureBox("time", "◷", "timeout", (self.places.written(limit.span),), self._all(children))
+                return _box(kind if kind in PICTURES else "par", title=kind, children=self._all(children))
+            case s.Decorator(kind=kind, row=row, children=children):
+                title = " ".join((kind, *(count.text for count in node.counts)))
+                times = tuple(self.places.written(time.span) for time in node.times)
+                return PictureBox(row.picture.kind, row.picture.symbol, title, times, self._all(children))
             case s.If(text=text):
-                return PictureBox("guard", "?", "if", (text,), self._branches(node))
+                return _box("if", text, children=self._branches(node))
             case s.While(text=text, limit=limit, children=children):
-                return PictureBox("guard", "↻", "while", (text, f"max {limit.text}"), self._all(children))
+                return _box("while", text, f"max {limit.text}", children=self._all(children))
             case s.For(variable=variable, items=items, children=children):
                 head = f"{variable.text} in {self.places.written(items.span)}"
-                return PictureBox("flow", "↻", "for", (head,), self._all(children))
+                return _box("for", head, children=self._all(children))
             case _:
                 assert_never(node)
 
@@ -73,4 +70,14 @@ class NodeDrawer(msgspec.Struct, frozen=True):
         arguments = ", ".join(self.places.written(argument.span) for argument in call.arguments)
         out = f"-> {call.out.text}" if call.out else ""
         lines = tuple(line for line in (arguments, out) if line)
-        return PictureBox("call", "▶", f"{before}{call.skill.text}{fixed}", lines, children, call.skill.text)
+        return _box(
+            "call", *lines, title=f"{before}{call.skill.text}{fixed}", children=children, called=call.skill.text
+        )
+
+
+def _box(
+    kind: str, *lines: str, title: str = "", children: tuple[PictureBox, ...] = (), called: str | None = None
+) -> PictureBox:
+    """Return the box of a kind of node, which is its title if there is no other."""
+    picture = PICTURES[kind]
+    return PictureBox(picture.kind, picture.symbol, title or kind, lines, children, called)

@@ -75,10 +75,8 @@ class MemberBuilder(NodeBuilder):
         return self.part("keep", children)
 
     def flag(self, children: list[Child]) -> s.Flag:
-        """`scoped`, `noplan`, `fallback`, `endless`"""
-        return s.Flag(
-            cast(Literal["scoped", "noplan", "fallback", "endless"], keyword_at(children, 0)), self.over(children)
-        )
+        """`scoped`, `noplan` and their like"""
+        return s.Flag(keyword_at(children, 0), self.over(children))
 
     def let(self, children: list[Child]) -> s.Let:
         """`let name = value`"""

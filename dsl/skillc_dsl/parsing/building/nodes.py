@@ -9,27 +9,22 @@ from skillc_dsl.parsing.building.conditions import ConditionBuilder
 from skillc_dsl.parsing.building.places import Child, MemberPart, children_of_type, find_part, keyword_at
 from skillc_dsl.parsing.tokens import Token
 
-BlockKind = Literal[
-    "seq", "sel", "reactive seq", "reactive sel", "par all", "par any", "par race", "par lead", "try", "invert", "once"
-]
+BlockKind = Literal["seq", "sel", "reactive seq", "reactive sel", "par all", "par any", "par race", "par lead"]
 
 
 class NodeBuilder(ConditionBuilder):
     """Builds nodes; the braces of a node are tokens among the children of its rule."""
 
     def block(self, children: list[Child]) -> s.Block:
-        """`seq { }`, `par lead { }`, `try { }` and their like"""
+        """`seq { }`, `par lead { }` and their like"""
         words = [child.value for child in children if isinstance(child, Token) and child.type not in _BRACES]
         return s.Block(cast(BlockKind, " ".join(words)), self.nodes(children), self.over(children))
 
-    def counted(self, children: list[Child]) -> s.Counted:
-        """`retry N { }`, `repeat N { }`"""
-        kind: Literal["retry", "repeat"] = "retry" if keyword_at(children, 0) == "retry" else "repeat"
-        return s.Counted(kind, self.as_number(children[1]), self.nodes(children), self.over(children))
-
-    def timeout(self, children: list[Child]) -> s.Timeout:
-        """`timeout Q { }`"""
-        return s.Timeout(self.value(children[1]), self.nodes(children), self.over(children))
+    def decorator(self, children: list[Child]) -> s.Decorator:
+        """`try { }`, `retry N { }`, `timeout Q { }` and their like"""
+        start = next(at for at, child in enumerate(children) if isinstance(child, Token) and child.type == "LBRACE")
+        slots = tuple(map(self.value, children[1:start]))
+        return s.Decorator(keyword_at(children, 0), slots, self.nodes(children[start:]), self.over(children))
 
     def wait(self, children: list[Child]) -> s.Wait:
         """`wait Q`"""

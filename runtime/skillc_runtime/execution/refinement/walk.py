@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TypeAlias, assert_never
+from typing import assert_never
 
 from msgspec import structs
 
+from skillc_dsl.descriptions.nodes import DECORATOR_OF
 from skillc_model import tree
 from skillc_model.conditions import Condition
 from skillc_model.skills import Compound, Declared, Implementation, Primitive, SkillLibrary
@@ -36,8 +37,6 @@ from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS, EvaluationError
 from skillc_runtime.world.state.values import Value
-
-_Control: TypeAlias = tree.Retry | tree.Repeat | tree.Timeout | tree.Once | tree.Try | tree.Invert | tree.While
 
 NEEDS = 400
 """How many needs are looked at before the search ends."""
@@ -100,22 +99,16 @@ class Walk:
             case _:
                 yield from self._control(node, here, scope)
 
-    def _control(self, node: _Control, here: Situation, scope: Scope) -> Iterator[Situation]:
+    def _control(self, node: tree.While | tree.Decorator, here: Situation, scope: Scope) -> Iterator[Situation]:
         """Go on through a node that only controls when its child runs."""
-        match node:
-            case tree.Retry() | tree.Repeat() | tree.Timeout() | tree.Once():
-                yield from self.go(node.child, here, scope)
-            case tree.Try() | tree.Invert():
-                yield from self.go(node.child, here, scope)
-                self.stuck_in = None
-                yield here
-            case tree.While():
-                if self._holds(node.condition, here, scope) is not False:
-                    yield from self.go(node.child, here, scope)
-                self.stuck_in = None
-                yield here
-            case _:
-                assert_never(node)
+        if not isinstance(node, tree.While):
+            yield from self.go(node.child, here, scope)
+            if DECORATOR_OF[tree.kind_of(node)].on_failure != "success":
+                return
+        elif self._holds(node.condition, here, scope) is not False:
+            yield from self.go(node.child, here, scope)
+        self.stuck_in = None
+        yield here
 
     def _in_order(self, nodes: Sequence[tree.Node], here: Situation, scope: Scope) -> Iterator[Situation]:
         if not nodes:

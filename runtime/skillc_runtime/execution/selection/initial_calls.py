@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_dsl.descriptions.nodes import DECORATOR_OF
 from skillc_model import tree
 from skillc_model.skills import SkillLibrary
 from skillc_model.traversal import free_variables
@@ -43,7 +44,5 @@ def _initial_calls(node: tree.Node) -> Iterator[tree.Call]:
         case tree.Parallel(children=children, policy="all"):
             for child in children:
                 yield from _initial_calls(child)
-        case tree.Retry() | tree.Repeat() | tree.Timeout() | tree.Once():
+        case _ if isinstance(node, tree.Decorator) and DECORATOR_OF[tree.kind_of(node)].on_failure != "success":
             yield from _initial_calls(node.child)
-        case _:
-            return

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import TypeAlias, assert_never
+from typing import TypeAlias
 
 import msgspec
 
+from skillc_dsl.descriptions.nodes import DECORATOR_OF
 from skillc_model import tree
 from skillc_model.conditions import Condition, Expression, Not
 from skillc_model.read_write import changing_terms, is_fixed
@@ -31,17 +32,7 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
-ControlNode: TypeAlias = (
-    tree.Sequence
-    | tree.Parallel
-    | tree.Selector
-    | tree.Retry
-    | tree.Repeat
-    | tree.Timeout
-    | tree.Once
-    | tree.Try
-    | tree.Invert
-)
+ControlNode: TypeAlias = tree.Sequence | tree.Parallel | tree.Selector | tree.Decorator
 """Nodes that only control when their children run."""
 
 
@@ -108,15 +99,17 @@ class _Preflight:
             case tree.Selector(children=children):
                 each = [self._foresight.optional(partial(self.check, child, scope)) for child in children]
                 return join_refusals(each) if all(each) else ()
-            case tree.Retry(child=child) | tree.Repeat(child=child):
-                return self._repeated(child, scope)
-            case tree.Timeout(child=child) | tree.Once(child=child):
-                return self.check(child, scope)
-            case tree.Try(child=child) | tree.Invert(child=child):
-                self._foresight.optional(partial(self.check, child, scope))
-                return ()
             case _:
-                assert_never(node)
+                return self._check_decorator(node, scope)
+
+    def _check_decorator(self, node: tree.Decorator, scope: _Scope) -> tuple[Refusal, ...]:
+        row = DECORATOR_OF[tree.kind_of(node)]
+        if row.repeats:
+            return self._repeated(node.child, scope)
+        if row.on_failure == "success":
+            self._foresight.optional(partial(self.check, node.child, scope))
+            return ()
+        return self.check(node.child, scope)
 
     def _repeated(self, child: tree.Node, scope: _Scope) -> tuple[Refusal, ...]:
         return self._foresight.repeated(partial(self.check, child, scope))

@@ -11,10 +11,10 @@ from skillc_runtime.execution.tree.calls.call_node import CallNode
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.node import Node
-from skillc_runtime.execution.tree.nodes.decorators import InvertNode, OnceNode, TimeoutNode, TryNode
+from skillc_runtime.execution.tree.nodes.decorators import DECORATORS
 from skillc_runtime.execution.tree.nodes.if_node import IfNode
 from skillc_runtime.execution.tree.nodes.leaf_nodes import ApplyNode, CheckNode, WaitNode, WaitUntilNode
-from skillc_runtime.execution.tree.nodes.loop_nodes import ForEachNode, RepeatNode, RetryNode, WhileNode
+from skillc_runtime.execution.tree.nodes.loop_nodes import ForEachNode, WhileNode
 from skillc_runtime.execution.tree.nodes.parallel import (
     ParallelAll,
     ParallelAny,
@@ -40,10 +40,11 @@ def build_node(node: tree.Node, context: TreeContext, scope: LexicalScope) -> No
     match node:
         case tree.Sequence() | tree.Selector() | tree.Parallel():
             return _build_composite(node, context, scope)
-        case tree.Retry() | tree.Repeat() | tree.While() | tree.ForEach():
-            return _build_loop(node, context, scope)
-        case tree.Timeout() | tree.Try() | tree.Invert() | tree.Once():
-            return _build_decorator(node, context, scope)
+        case tree.While(child=child):
+            return WhileNode(context, node, build_node(child, context, scope), scope)
+        case tree.ForEach(child=child):
+            frame: Frame = {}
+            return ForEachNode(context, node, build_node(child, context, replace(scope, frame=frame)), scope, frame)
         case tree.Wait():
             return WaitNode(context, node, scope)
         case tree.WaitUntil():
@@ -62,7 +63,7 @@ def build_node(node: tree.Node, context: TreeContext, scope: LexicalScope) -> No
             scoped = CallNode(context, call, inner, build_node)
             return WithNode(context, node, scoped, build_node(child, context, inner), inner.undo)
         case _:
-            assert_never(node)
+            return DECORATORS[type(node)](context, node, build_node(node.child, context, scope), scope)
 
 
 def _build_composite(
@@ -76,38 +77,5 @@ def _build_composite(
             return (ReactiveSelectorNode if reactive else SelectorNode)(context, node.source, children)
         case tree.Parallel(policy=policy):
             return _PARALLEL[policy](context, node.source, children)
-        case _:
-            assert_never(node)
-
-
-def _build_loop(
-    node: tree.Retry | tree.Repeat | tree.While | tree.ForEach, context: TreeContext, scope: LexicalScope
-) -> Node:
-    match node:
-        case tree.Retry(child=child):
-            return RetryNode(context, node, build_node(child, context, scope))
-        case tree.Repeat(child=child):
-            return RepeatNode(context, node, build_node(child, context, scope))
-        case tree.While(child=child):
-            return WhileNode(context, node, build_node(child, context, scope), scope)
-        case tree.ForEach(child=child):
-            inner: Frame = {}
-            return ForEachNode(context, node, build_node(child, context, replace(scope, frame=inner)), scope, inner)
-        case _:
-            assert_never(node)
-
-
-def _build_decorator(
-    node: tree.Timeout | tree.Try | tree.Invert | tree.Once, context: TreeContext, scope: LexicalScope
-) -> Node:
-    match node:
-        case tree.Timeout(child=child):
-            return TimeoutNode(context, node, build_node(child, context, scope), scope)
-        case tree.Try(child=child):
-            return TryNode(context, node, build_node(child, context, scope))
-        case tree.Invert(child=child):
-            return InvertNode(context, node, build_node(child, context, scope))
-        case tree.Once(child=child):
-            return OnceNode(context, node, build_node(child, context, scope))
         case _:
             assert_never(node)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from typing import ClassVar
 
 from skillc_model import tree
@@ -9,6 +10,7 @@ from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.context import EPSILON_S, TreeContext
 from skillc_runtime.execution.tree.lexical_scope import LexicalScope
 from skillc_runtime.execution.tree.locks import Holders
+from skillc_runtime.execution.tree.nodes.loop_nodes import RepeatNode, RetryNode
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.nodes.leaf_nodes import evaluate_seconds
 from skillc_runtime.primitives.primitive import Status
@@ -16,6 +18,22 @@ from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.recording.failure import Failure
 
 _INVERTED = {SUCCESS: FAILURE, FAILURE: SUCCESS}
+
+
+class DecoratorNode(Node):
+    """A node whose result follows from that of its child; a row of `skillc_dsl.descriptions.nodes` describes it."""
+
+    __slots__ = ("child",)
+
+    def __init__(self, context: TreeContext, node: tree.Decorator, child: Node, scope: LexicalScope) -> None:
+        super().__init__(context, node.source, (child,))
+        self.child = child
+
+    def on_start(self) -> Status:
+        return self.on_child_ended(self.child.start())
+
+    def active_leaf(self) -> Node:
+        return self.child.active_leaf()
 
 
 class TimeoutNode(Node):
@@ -60,25 +78,15 @@ class TimeoutNode(Node):
         return self.succeed() if status is SUCCESS else self.fail(self.child.failure)
 
 
-class TryNode(Node):
+class TryNode(DecoratorNode):
     """Turns a failure of the child into success, except a violated hold."""
 
     kind: ClassVar[str] = "try"
-    __slots__ = ("child",)
-
-    def __init__(self, context: TreeContext, node: tree.Try, child: Node) -> None:
-        super().__init__(context, node.source, (child,))
-        self.child = child
+    __slots__ = ()
 
     def foresee(self, freed: Holders) -> Status:
         status = self.child.dry_start(freed)
         return SUCCESS if status is FAILURE else status  # whether it breaks a hold, only its start tells
-
-    def on_start(self) -> Status:
-        return self.on_child_ended(self.child.start())
-
-    def active_leaf(self) -> Node:
-        return self.child.active_leaf()
 
     def remains_satisfied(self) -> bool:
         return self.status is SUCCESS and (self.child.status is FAILURE or self.child.remains_satisfied())
@@ -92,25 +100,15 @@ class TryNode(Node):
         return self.succeed()
 
 
-class InvertNode(Node):
+class InvertNode(DecoratorNode):
     """Exchanges success and failure, except a violated hold."""
 
     kind: ClassVar[str] = "invert"
-    __slots__ = ("child",)
-
-    def __init__(self, context: TreeContext, node: tree.Invert, child: Node) -> None:
-        super().__init__(context, node.source, (child,))
-        self.child = child
+    __slots__ = ()
 
     def foresee(self, freed: Holders) -> Status:
         status = self.child.dry_start(freed)
         return _INVERTED.get(status, status)
-
-    def on_start(self) -> Status:
-        return self.on_child_ended(self.child.start())
-
-    def active_leaf(self) -> Node:
-        return self.child.active_leaf()
 
     def remains_satisfied(self) -> bool:
         return self.status is SUCCESS and self.child.would_fail_again()
@@ -125,18 +123,14 @@ class InvertNode(Node):
         return self.fail(failure) if failure is not None and failure.breaks_hold else self.succeed()
 
 
-class OnceNode(Node):
+class OnceNode(DecoratorNode):
     """Runs the child to its end at most once per activation of the enclosing skill, then keeps returning its result.
 
     A child that was halted has no result and runs again.
     """
 
     kind: ClassVar[str] = "once"
-    __slots__ = ("child",)
-
-    def __init__(self, context: TreeContext, node: tree.Once, child: Node) -> None:
-        super().__init__(context, node.source, (child,))
-        self.child = child
+    __slots__ = ()
 
     def foresee(self, freed: Holders) -> Status:
         return self.child.status if self._has_result else self.child.dry_start(freed)
@@ -148,10 +142,18 @@ class OnceNode(Node):
     def _has_result(self) -> bool:
         return self.child.status in (SUCCESS, FAILURE)
 
-    def active_leaf(self) -> Node:
-        return self.child.active_leaf()
-
     def on_child_ended(self, status: Status) -> Status:
         if status is RUNNING:
             return RUNNING
         return self.succeed() if status is SUCCESS else self.fail(self.child.failure)
+
+
+DECORATORS: Mapping[type[tree.Decorator], Callable[..., Node]] = {
+    tree.Retry: RetryNode,
+    tree.Repeat: RepeatNode,
+    tree.Timeout: TimeoutNode,
+    tree.Try: TryNode,
+    tree.Invert: InvertNode,
+    tree.Once: OnceNode,
+}
+"""What runs each decorator; made with the context, the compiled node, the child and the scope."""

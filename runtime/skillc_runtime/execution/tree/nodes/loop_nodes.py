@@ -69,7 +69,7 @@ class RetryNode(LoopNode):
     kind: ClassVar[str] = "retry"
     __slots__ = ("_began", "count")
 
-    def __init__(self, context: TreeContext, node: tree.Retry, child: Node) -> None:
+    def __init__(self, context: TreeContext, node: tree.Retry, child: Node, scope: LexicalScope) -> None:
         super().__init__(context, node.source, child, f"retry {node.count}")
         self.count = node.count
 
@@ -103,7 +103,7 @@ class RepeatNode(LoopNode):
     kind: ClassVar[str] = "repeat"
     __slots__ = ("count",)
 
-    def __init__(self, context: TreeContext, node: tree.Repeat, child: Node) -> None:
+    def __init__(self, context: TreeContext, node: tree.Repeat, child: Node, scope: LexicalScope) -> None:
         super().__init__(context, node.source, child, f"repeat {node.count}")
         self.count = node.count
 

@@ -1,0 +1,97 @@
+"""The members of skills, implementations, tasks and tests."""
+
+from __future__ import annotations
+
+from skillc_dsl.descriptions.rows import Construct, Flag, Word, reserved, words
+
+PARAMETERS = (
+    Construct("member", reserved("in"), "in NAME: TYPE", "the caller, always"),
+    Construct(
+        "member",
+        (*reserved("opt"), *words("range")),
+        "opt NAME: TYPE = VALUE range VALUE .. VALUE",
+        "the caller, or the default; one without a default may be read only under `given NAME`",
+    ),
+    Construct(
+        "member",
+        (*reserved("infer"), *words("any")),
+        "infer NAME: CLASS",
+        "the world model, through the preconditions. A caller may also pass it; it is then checked. The skill does not "
+        "start if no individual fits, or if several fit; `infer any` takes the first of several in the order of their "
+        "IRIs. A precondition with a relation, a property value or a class can determine the individual. A negative "
+        "condition alone is enough for `infer any` only",
+    ),
+    Construct(
+        "member",
+        reserved("out"),
+        "out NAME: TYPE",
+        "the implementation: an output of a skill that it calls, or of its Python class",
+    ),
+)
+"""Parameters, with where their values come from."""
+
+MEMBERS = (
+    Construct("member", reserved("pre"), meaning="a precondition: must hold when the skill starts"),
+    Construct(
+        "member",
+        reserved("hold"),
+        meaning="a hold condition: checked every tick while the skill runs. When it is violated, everything inside the "
+        "skill is halted and the skill fails; the failure names the condition",
+    ),
+    Construct(
+        "member",
+        (*reserved("post"), Word("sensed", "leading")),
+        meaning="a postcondition: true afterwards; a conjunction of literals. The postconditions of a primitive are "
+        "written to the world model when it succeeds, as [assumed](world-model.md#evidence-for-a-fact) unless its code "
+        "has written them as sensed. The postconditions of a compound must be established by the skills that it calls "
+        "or by `apply`; the compiler proves this. A `post sensed` must have been "
+        "[sensed](world-model.md#evidence-for-a-fact) since the skill started: it is checked and never written; that "
+        "it was true before the skill started is not enough",
+    ),
+    Construct(
+        "member",
+        words("duration", "trailing"),
+        meaning="an expression for the expected time; the planner minimises it",
+        long=True,
+    ),
+    Construct("member", reserved("uses"), meaning="locks a device while the skill runs"),
+    Construct("member", reserved("shares"), meaning="adds to the motion of the skill that uses the device", long=True),
+    Construct(
+        "member",
+        (Word("pause", "trailing"), *words("anywhere between steps"), Word("keep", "trailing")),
+        meaning="where the skill may be [paused](#pauses), and after `keep` how long a paused tool goes on pressing",
+        long=True,
+    ),
+)
+"""What a skill states beside its parameters and flags."""
+
+FLAGS = (
+    Flag("scoped", "the skill may be called in `with`: its effect is undone when the block ends", "scoped"),
+    Flag("noplan", "the planner does not use the skill", "planned", False),
+    Flag("fallback", "if an implementation fails while it runs, the next one that fits is tried", "fallback"),
+    Flag(
+        "endless",
+        "the skill never ends by itself, such as an overlay. Something around it must halt it, such as a `timeout` or "
+        "the leading child of a `par lead`",
+        "endless",
+    ),
+)
+"""What a skill is declared to be. Each has its field in `skillc_model.skills.Skill`."""
+
+OTHER_MEMBERS = (
+    Construct("member", reserved("refine"), "refine NAME: TYPE"),
+    Construct("member", reserved("let"), "let NAME = VALUE"),
+    Construct("member", words("prefer", "trailing")),
+    Construct("member", (*reserved("run"), *words("python")), 'run python "MODULE:CLASS"'),
+    Construct("member", reserved("do")),
+    Construct("member", words("scene", "trailing"), 'scene "FILE.ttl"'),
+    Construct("member", words("goal", "trailing")),
+    Construct("member", words("start", "trailing", since=2)),
+    Construct(
+        "member",
+        (*words("expect plan", "trailing", since=2), *words("failure no", since=2)),
+        'expect CONDITION`, `expect failure "TEXT"` or `expect no plan',
+    ),
+    Construct("member", reserved("verify")),
+)
+"""What implementations, tasks and tests state beside it."""

@@ -1,0 +1,141 @@
+"""The nodes of behaviour trees."""
+
+from __future__ import annotations
+
+from skillc_dsl.descriptions.rows import Decorator, Node, Picture, Slot, Word, reserved, words
+
+NODES = (
+    Node(
+        "seq",
+        reserved("seq"),
+        "seq { .. }",
+        "runs its children in order until one fails; it has memory: finished children do not run again",
+        Picture("flow", "→"),
+    ),
+    Node(
+        "sel",
+        reserved("sel"),
+        "sel { .. }",
+        "runs its children in order until one succeeds; it has memory: finished children do not run again",
+        Picture("flow", "?"),
+    ),
+    Node(
+        "reactive seq",
+        reserved("reactive"),
+        "reactive seq { .. }",
+        "the same as `seq`, but when the result of an earlier child is no longer valid (its postconditions, what it "
+        "checked), the child that runs is halted, and the earlier one runs again",
+        Picture("flow", "↻"),
+    ),
+    Node(
+        "reactive sel",
+        (),
+        "reactive sel { .. }",
+        "the same as `sel`, but when an earlier child could start, the child that runs is halted, and the earlier one "
+        "starts. Nothing is started to find that out: its leading conditions and its first call are "
+        "[tried](trees.md#what-a-selector-tries). An earlier child that has failed takes over only after it could not "
+        "start for a tick",
+        Picture("flow", "↻"),
+    ),
+    Node(
+        "par",
+        (*reserved("par"), *words("all race lead")),
+        "par all { .. }",
+        "the children run in parallel. `par all`: all must succeed; `par any`: the first success decides; `par race`: "
+        "the first child to finish decides; `par lead`: the first child in the list decides. The other children are "
+        "then halted",
+        Picture("flow", "⇉"),
+    ),
+    Node("wait", words("wait"), "wait 1 s", "waits for a time", Picture("time", "◷")),
+    Node(
+        "wait until", words("until", "leading"), "wait until C", "waits until a condition holds", Picture("time", "◷")
+    ),
+    Node(
+        "if",
+        reserved("if else"),
+        "if C { .. } else { .. }",
+        "runs one of two branches; without `else`, a false condition succeeds",
+        Picture("guard", "?"),
+    ),
+    Node(
+        "while",
+        (*reserved("while"), *words("max", "trailing")),
+        "while C max 10 { .. }",
+        "repeats while the condition holds; fails if the condition still holds after 10 rounds",
+        Picture("guard", "↻"),
+    ),
+    Node("for", reserved("for"), "for NAME in LIST { .. }", "once for each element", Picture("flow", "↻")),
+    Node(
+        "check", words("check"), "check(C)", "success if the condition holds now, else failure", Picture("guard", "✓")
+    ),
+    Node("apply", reserved("apply"), "apply LABEL, ..", "writes these postconditions now", Picture("guard", "✎")),
+    Node(
+        "call",
+        (),
+        "Skill(name: value, name) -> out",
+        "calls a skill and names its output. `Skill[impl](..)` fixes the implementation",
+        Picture("call", "▶"),
+    ),
+    Node(
+        "with",
+        reserved("with"),
+        "with SKILL(..) { .. }",
+        "sets up a scoped skill, runs the block, then undoes the skill, however the block ends",
+        Picture("call", "▶"),
+    ),
+)
+"""The nodes that are not decorators."""
+
+DECORATORS = (
+    Decorator(
+        Word("try", "nowhere"),
+        "try { .. }",
+        "turns failure into success, but never the violation of a hold or a halt",
+        Picture("flow", "~"),
+        "ForceSuccess",
+        "Turns a failure of its child into success, but not that of a broken hold condition.",
+        on_failure="success",
+    ),
+    Decorator(
+        Word("invert"),
+        "invert { .. }",
+        "exchanges success and failure",
+        Picture("flow", "!"),
+        "Inverter",
+        "Exchanges success and failure of its child, but not the failure of a broken hold condition.",
+        on_success="failure",
+        on_failure="success",
+    ),
+    Decorator(Word("once"), "once { .. }", "runs its child at most once in a run of the skill", Picture("flow", "1")),
+    Decorator(
+        Word("retry"),
+        "retry 3 { .. }",
+        "runs the child until it succeeds, at most 3 times, but [not again](planning.md#what-a-run-learns) where it "
+        "lacked space and nothing stands elsewhere since",
+        Picture("flow", "↻"),
+        "RetryUntilSuccessful",
+        slots=(Slot("count", "count", "num_attempts"),),
+        on_failure="again",
+    ),
+    Decorator(
+        Word("repeat"),
+        "repeat 3 { .. }",
+        "runs the child exactly 3 times, as long as it succeeds",
+        Picture("flow", "↻"),
+        "Repeat",
+        slots=(Slot("count", "count", "num_cycles"),),
+        on_success="again",
+    ),
+    Decorator(
+        Word("timeout"),
+        "timeout 3 s { .. }",
+        "fails when the child takes longer; a child that ends just then is in time",
+        Picture("time", "◷"),
+        "Timeout",
+        slots=(Slot("time", "seconds", "msec"),),
+    ),
+)
+"""The decorators. Each has a struct in `skillc_model.tree`, a rule of proof and a tick."""
+
+PICTURES = {each.kind: each.picture for each in NODES}
+DECORATOR_OF = {each.kind: each for each in DECORATORS}
