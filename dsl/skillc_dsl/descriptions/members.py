@@ -66,13 +66,24 @@ MEMBERS = (
 """What a skill states beside its parameters and flags."""
 
 FLAGS = (
-    Flag("scoped", "the skill may be called in `with`: its effect is undone when the block ends", "scoped"),
-    Flag("noplan", "the planner does not use the skill", "planned", False),
-    Flag("fallback", "if an implementation fails while it runs, the next one that fits is tried", "fallback"),
+    Flag(
+        "scoped",
+        "the skill may be called in `with`: its effect is undone when the block ends",
+        "Scoped: for use in `with`; what it sets up is undone at the end.",
+        "scoped",
+    ),
+    Flag("noplan", "the planner does not use the skill", "Not used in planning.", "planned", False),
+    Flag(
+        "fallback",
+        "if an implementation fails while it runs, the next one that fits is tried",
+        "Another implementation takes over when one fails.",
+        "fallback",
+    ),
     Flag(
         "endless",
         "the skill never ends by itself, such as an overlay. Something around it must halt it, such as a `timeout` or "
         "the leading child of a `par lead`",
+        "Never ends by itself.",
         "endless",
     ),
 )

@@ -38,10 +38,14 @@ class Construct(msgspec.Struct, frozen=True):
 
 
 class Flag(msgspec.Struct, frozen=True):
-    """A word alone on a line of a skill; it gives `value` to the field `field` of the compiled skill."""
+    """A word alone on a line of a skill; it gives `value` to the field `field` of the compiled skill.
+
+    `meaning` is its row of the reference, and `page` the sentence on the page of a skill that has it.
+    """
 
     keyword: str
     meaning: str
+    page: str
     field: str
     value: bool = True
 

@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, assert_never
 
-from skillc_compiler.emit.docs.pausing import describe_pause
+from skillc_compiler.emit.docs.traits import describe_flags, describe_pause
 from skillc_dsl.units import to_si
 from skillc_model.conditions import Expression, Literal
 from skillc_model.format_condition import format_expression, format_literal
@@ -39,6 +39,7 @@ def _page(skill: Skill, library: SkillLibrary) -> str:
         parameters=[_parameter(each, vocabulary) for each in skill.parameters],
         conditions=[(title, listed) for title, listed in conditions if listed],
         duration=format_expression(skill.duration, vocabulary) if skill.duration else "",
+        flags=list(describe_flags(skill)),
         pause=describe_pause(skill.pause),
         implementations=[
             (each, _difference(each, skill, vocabulary), _body(each)) for each in library.implementations_of(skill.name)

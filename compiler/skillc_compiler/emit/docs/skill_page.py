@@ -13,7 +13,7 @@ from skillc_compiler.emit.docs import prose
 from skillc_compiler.emit.docs.linking import LinkWriter
 from skillc_compiler.emit.docs.listing import format_excerpt
 from skillc_compiler.emit.docs.mentions import find_called_skills, find_terms
-from skillc_compiler.emit.docs.pausing import describe_pause
+from skillc_compiler.emit.docs.traits import describe_flags, describe_pause
 from skillc_compiler.emit.docs.written import WrittenDeclarations
 from skillc_compiler.emit.picture import svg
 from skillc_compiler.emit.picture.drawing import draw_implementation
@@ -81,9 +81,7 @@ def _traits(skill: Skill, declared: s.SkillDeclaration, written: WrittenDeclarat
         *(f"takes `{written.words(each.value.span)}`" for each in durations),
         *(f"locks `{name}`" for name in skill.uses),
         *(f"adds to the motion of `{name}`" for name in skill.shares),
-        *(["for use in `with`: what it sets up is undone at the end"] if skill.scoped else []),
-        *([] if skill.planned else ["not used in planning"]),
-        *(["another implementation takes over when one fails"] if skill.fallback else []),
+        *(f"{sentence[0].lower()}{sentence[1:-1]}" for sentence in describe_flags(skill)),
         *filter(None, [describe_pause(skill.pause)]),
     ]
     return [prose.line(each) for each in said]

@@ -1,9 +1,12 @@
-"""The sentence about pauses on a skill's page."""
+"""What a skill's page says of its flags and pauses."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from skillc_dsl.descriptions.members import FLAGS
 from skillc_model.format_type import format_quantity
-from skillc_model.skills import PausePolicy
+from skillc_model.skills import PausePolicy, Skill
 from skillc_rdf.vocabulary.types import NumberType
 
 PLACES = {
@@ -21,3 +24,8 @@ def describe_pause(policy: PausePolicy) -> str:
         return PLACES[policy.where]
     after = f"after {format_quantity(policy.keep_s, NumberType('Time'))}" if policy.keep_s else "at once"
     return f"{PLACES[policy.where]}; a tool that presses is then taken off {after}"
+
+
+def describe_flags(skill: Skill) -> Iterator[str]:
+    """Yield a sentence for each flag that a skill has."""
+    return (flag.page for flag in FLAGS if getattr(skill, flag.field) is flag.value)
