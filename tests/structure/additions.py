@@ -76,7 +76,7 @@ DECORATOR: Edits = {
         ('    "once": _explore_once', '    "linger": _explore_linger,\n'),
         ("from skillc_compiler.analysis.loops", "from skillc_compiler.analysis.exploration import havoc_concurrent\n"),
     ),
-    "skillc_runtime.execution.tree.decorators": (
+    "skillc_runtime.execution.tree.nodes.decorators": (
         ("DECORATORS: Mapping", TICK),
         ("    tree.Try: TryNode", "    tree.Linger: LingerNode,\n"),
     ),

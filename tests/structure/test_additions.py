@@ -18,7 +18,7 @@ from skillc_dsl.formatting.formatter import format_source
 from skillc_dsl.source import Source
 from skillc_model import tree
 from skillc_model.skills import Skill
-from skillc_runtime.execution.tree.decorators import DECORATORS as TICKS
+from skillc_runtime.execution.tree.nodes.decorators import DECORATORS as TICKS
 from structure.additions import DECORATOR, FLAG
 
 LIBRARY = """\

@@ -10,9 +10,9 @@ from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.context import EPSILON_S, TreeContext
 from skillc_runtime.execution.tree.lexical_scope import LexicalScope
 from skillc_runtime.execution.tree.locks import Holders
-from skillc_runtime.execution.tree.nodes.loop_nodes import RepeatNode, RetryNode
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.nodes.leaf_nodes import evaluate_seconds
+from skillc_runtime.execution.tree.nodes.loop_nodes import RepeatNode, RetryNode
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.recording.failure import Failure
