@@ -84,9 +84,9 @@ def test_a_decorator_and_a_flag_more(tmp_path: Path) -> None:
     assert told["colours"]["linger"] == told["colours"]["gentle"] == "Token.Keyword"
     assert "… linger" in told["commands"]["graph"]["out"]
     written = "\n".join(path.read_text("utf-8") for path in (tmp_path / "build/trees").iterdir())
-    assert re.search(r'<Linger msec="2000">\s*<Sleep msec="1000"/>', written)
+    assert re.search(r'<Linger msec="2000">\s*<Sleep msec="1000" />', written)
     assert "Stays running for a time after its child has succeeded." in written
     library = json.loads((tmp_path / "build/library.json").read_text("utf-8"))
     assert library["skills"]["Stay"]["gentle"] is True
     assert "Does not hurt." in (tmp_path / "build/docs/Stay.md").read_text("utf-8")
-    assert "5 s" in told["commands"]["test"]["out"], told["commands"]["test"]
+    assert "5.0 s" in told["commands"]["test"]["out"], told["commands"]["test"]
