@@ -10,6 +10,8 @@ import pytest
 from docs.manual import MANUAL, manual
 from docs.pages import ROOT, blocks
 from skillc_compiler.manual import load_pages
+from skillc_dsl.descriptions.members import FLAGS
+from skillc_dsl.descriptions.nodes import DECORATORS
 from skillc_dsl.parsing.grammar import fixed_texts
 from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.source import Source
@@ -20,8 +22,9 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
 
 def tokens() -> set[tuple[str, str]]:
-    """Return the kinds and texts of all tokens in the examples of the language reference."""
+    """Return the kinds and texts of all tokens in the examples of the language reference, and in the forms of nodes."""
     texts = [block.text for block in blocks(REFERENCE) if block.language == "skill"]
+    texts += [*(each.written for each in DECORATORS), *(each.keyword for each in FLAGS)]
     return {(token.type, str(token)) for text in texts for token in tokenize(Source("example", text)).value}
 
 
