@@ -26,4 +26,5 @@ MADE = (
     MadeModule(made_words.STUDIO, made_words.make_studio_words),
     MadeModule(made_words.VS_CODE, made_words.make_grammar),
     MadeModule(made_words.REFERENCE, made_words.make_reference),
+    MadeModule(made_words.TREES, made_words.make_trees),
 )

@@ -7,6 +7,8 @@ import runpy
 from collections.abc import Iterable, Iterator, Sequence
 from textwrap import fill
 
+from msgspec.structs import astuple
+
 from docs.pages import ROOT
 from skillc_dsl.descriptions.constructs import first_word
 from skillc_dsl.descriptions.members import FLAGS, MEMBERS, PARAMETERS
@@ -16,6 +18,7 @@ from skillc_dsl.token_table import KEYWORDS, TYPES
 STUDIO = ROOT / "studio/src/editor/keywords.ts"
 VS_CODE = ROOT / "editors/vscode/syntaxes/skill.tmLanguage.json"
 REFERENCE = ROOT / "docs/language.md"
+TREES = ROOT / "docs/trees.md"
 
 
 def make_studio_words() -> str:
@@ -54,13 +57,19 @@ def make_reference() -> str:
     return text
 
 
-def _replace_table(text: str, head: str, rows: Sequence[tuple[str, str]]) -> str:
+def make_trees() -> str:
+    """Return the page on how trees run with the rows of its table of decorators."""
+    rows = [(each.kind, *astuple(each.ticks)) for each in DECORATORS]
+    return _replace_table(TREES.read_text("utf-8"), "decorator | start | tick | halts and releases | tried", rows)
+
+
+def _replace_table(text: str, head: str, rows: Sequence[tuple[str, ...]]) -> str:
     table = re.compile(rf"^\| {re.escape(head)} \|\n(?:\|.*\n)+", re.M)
     made, count = table.subn(lambda _: "".join(_lines(head, rows)), text, count=1)
     assert count == 1, head
     return made
 
 
-def _lines(head: str, rows: Sequence[tuple[str, str]]) -> Iterator[str]:
-    yield f"| {head} |\n|---|---|\n"
-    yield from (f"| `{written}` | {meaning} |\n" for written, meaning in rows)
+def _lines(head: str, rows: Sequence[tuple[str, ...]]) -> Iterator[str]:
+    yield f"| {head} |\n|{'---|' * (1 + head.count('|'))}\n"
+    yield from (f"| `{written}` | {' | '.join(cells)} |\n" for written, *cells in rows)

@@ -77,10 +77,11 @@ class Light(Shown):
 
 
 def rows(heading: str) -> list[list[str]]:
-    """Return the cells of the table below a heading, without its head."""
+    """Return the cells of the tables below a heading, without their heads."""
     section = PAGE.partition(f"\n## {heading}\n")[2].partition("\n## ")[0]
-    lines = [line for line in section.splitlines() if line.startswith("|")]
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+    tables = [part.splitlines() for part in section.split("\n\n") if part.lstrip().startswith("|")]
+    lines = [line for table in tables for line in [each for each in table if each][2:]]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
 
 
 def test_every_node_has_a_row() -> None:

@@ -22,6 +22,7 @@ ROW = """\
         Word("linger"),
         "linger 2 s { .. }",
         "after a success goes on for a time",
+        Ticks("the child", "the child, then whether the time is over", "", "as the child"),
         Picture("time", "…"),
         tree_cpp_doc="Stays running for a time after its child has succeeded.",
         slots=(Slot("time", "seconds", "msec"),),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_dsl.descriptions.rows import Decorator, Node, Picture, Slot, Word, reserved, words
+from skillc_dsl.descriptions.rows import Decorator, Node, Picture, Slot, Ticks, Word, reserved, words
 
 NODES = (
     Node(
@@ -91,6 +91,7 @@ DECORATORS = (
         Word("try", "nowhere"),
         "try { .. }",
         "turns failure into success, but never the violation of a hold or a halt",
+        Ticks("the child", "the child", "", "succeeds if the child would fail"),
         Picture("flow", "~"),
         "ForceSuccess",
         "Turns a failure of its child into success, but not that of a broken hold condition.",
@@ -100,18 +101,31 @@ DECORATORS = (
         Word("invert"),
         "invert { .. }",
         "exchanges success and failure",
+        Ticks("the child", "the child", "", "the opposite of the child"),
         Picture("flow", "!"),
         "Inverter",
         "Exchanges success and failure of its child, but not the failure of a broken hold condition.",
         on_success="failure",
         on_failure="success",
     ),
-    Decorator(Word("once"), "once { .. }", "runs its child at most once in a run of the skill", Picture("flow", "1")),
+    Decorator(
+        Word("once"),
+        "once { .. }",
+        "runs its child at most once in a run of the skill",
+        Ticks("the child, unless it has ended before", "the child", "", "as the child"),
+        Picture("flow", "1"),
+    ),
     Decorator(
         Word("retry"),
         "retry 3 { .. }",
         "runs the child until it succeeds, at most 3 times, but [not again](planning.md#what-a-run-learns) where it "
         "lacked space and nothing stands elsewhere since",
+        Ticks(
+            "the child",
+            "the child that runs; after a failure, the next round starts in the next tick",
+            "",
+            "as its first round",
+        ),
         Picture("flow", "↻"),
         "RetryUntilSuccessful",
         slots=(Slot("count", "count", "num_attempts"),),
@@ -121,6 +135,12 @@ DECORATORS = (
         Word("repeat"),
         "repeat 3 { .. }",
         "runs the child exactly 3 times, as long as it succeeds",
+        Ticks(
+            "the child",
+            "the child that runs; after a success, the next round starts in the next tick",
+            "",
+            "as its first round",
+        ),
         Picture("flow", "↻"),
         "Repeat",
         slots=(Slot("count", "count", "num_cycles"),),
@@ -130,6 +150,12 @@ DECORATORS = (
         Word("timeout"),
         "timeout 3 s { .. }",
         "fails when the child takes longer; a child that ends just then is in time",
+        Ticks(
+            "the child",
+            "the child, unless more than the time has passed",
+            "the child, in the first tick after its time",
+            "as the child",
+        ),
         Picture("time", "◷"),
         "Timeout",
         slots=(Slot("time", "seconds", "msec"),),

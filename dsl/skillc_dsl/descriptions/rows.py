@@ -81,6 +81,15 @@ class Slot(msgspec.Struct, frozen=True):
     port: str
 
 
+class Ticks(msgspec.Struct, frozen=True):
+    """What a node does at its start and in a tick, what it halts and releases, and what it is tried to be."""
+
+    start: str
+    tick: str
+    halts: str
+    tried: str
+
+
 class Decorator(msgspec.Struct, frozen=True):
     """A node with one child, `WORD SLOT .. { .. }`; several steps in its braces are a sequence.
 
@@ -93,6 +102,7 @@ class Decorator(msgspec.Struct, frozen=True):
     word: Word
     written: str
     meaning: str
+    ticks: Ticks
     picture: Picture
     tree_cpp: str = ""
     tree_cpp_doc: str = ""
