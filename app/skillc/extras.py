@@ -13,7 +13,7 @@ MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "run": ("mujoco", "numpy", "mcap", "matplotlib", "PIL", "rich", "av", "numba", "lz4", "zstandard"),
         "planner": ("up_fast_downward",),
-        "temporal": ("up_aries",),
+        "temporal": ("ortools",),
         "meshes": ("coacd",),
         "data": ("pandas", "pyarrow", "rdflib"),
         "server": ("httpx", "starlette", "uvicorn", "websockets", "prometheus_client", "h11", "httpcore"),

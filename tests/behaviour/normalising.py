@@ -14,7 +14,7 @@ RULES = tuple(
         (r'("\w*_ns": ?)\d{15,}', r"\1<moment>"),
         (r'("(?:wall_time_s|real_time_factor|planning_time_s|uptime_s)": ?)[-+.\de]+', r"\1<duration>"),
         (
-            r"(?m)^((checking|planning.*) \.\.|compiling the control laws.*|aries: a plan of .*)\n",
+            r"(?m)^((checking|planning.*) \.\.|compiling the control laws.*|CP-SAT: a plan of .*)\n",
             "",
         ),  # if it takes long
         (r" at 0x[0-9a-f]+", ""),

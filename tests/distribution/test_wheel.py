@@ -151,7 +151,7 @@ def test_what_the_dockerfile_installs_works(tmp_path: Path) -> None:
     call(program, "new", "cell", "--template", "pick-place", cwd=work, env=env)
     assert json.loads(call(program, "run", "--json", cwd=work / "cell", env=env))["status"] == "succeeded"
     found = {each["name"]: each["found"] for each in json.loads(call(program, "doctor", "--json", cwd=work, env=env))}
-    assert found["Fast Downward"] and found["av"] and found["aries"], found
+    assert found["Fast Downward"] and found["av"] and found["CP-SAT"], found
 
 
 def without_path() -> dict[str, str]:

@@ -79,7 +79,7 @@ ASSIGNMENTS: list[tuple[Assignment, FailedSteps]] = [
     ],
 )
 def test_the_answer_is_that_of_planning_in_this_process(assignment, failures, start) -> None:
-    planners = replace(find_planners(), for_makespan=None)  # Aries may answer otherwise the second time
+    planners = replace(find_planners(), for_makespan=None)  # CP-SAT may answer otherwise the second time
     with PlanningJob(assignment, library(), failures, planners, start=start) as job:
         answer = finished(job)
     assert answer == replan_task(assignment, library(), failures, planners)

@@ -10,7 +10,7 @@ import pytest
 from planners.programs import CRASH, ENDLESS, FILL, GARBAGE, HANG, HOG, LONG_LINE, SMALL, ends, program, started
 from planning.samples import CLEANED, LAB, WIPING
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.planning.aries.solver import Aries
+from skillc_runtime.planning.cp_sat.solver import CpSat
 from skillc_runtime.planning.fast_downward.solver import FastDownward, Programs
 from skillc_runtime.planning.plan import GaveUp
 from skillc_runtime.planning.problem.pose import pose_problem
@@ -36,7 +36,7 @@ def searching(folder: Path, script: str) -> object:
 
 def scheduling(folder: Path, script: str) -> object:
     """Look for a schedule with a program that behaves badly."""
-    return Aries(program(folder, "aries", script), SMALL).schedule(PROBLEM, CancelToken(SECONDS))
+    return CpSat((program(folder, "cp_sat", script),), SMALL).schedule(PROBLEM, None, CancelToken(SECONDS))
 
 
 PLACES = (translating, searching, scheduling)

@@ -25,7 +25,7 @@ from skillc_runtime.planning.cache import CachingPlanner, CachingScheduler
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
-from skillc_runtime.planning.schedule import Schedule
+from skillc_runtime.planning.schedule import FoundSchedule, Schedule
 from skillc_runtime.planning.search.astar import AStar
 
 PROBLEM = pose_problem(depot.library(), WORLD, BOTH).problem
@@ -47,11 +47,15 @@ class Counting:
         return self.answer
 
     def schedule(
-        self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress
-    ) -> Schedule | GaveUp:
+        self,
+        problem: Problem,
+        first: Schedule | None,
+        cancel: CancelToken,
+        report: ReportProgress = ignore_progress,
+    ) -> FoundSchedule | GaveUp:
         """Return a schedule."""
         self.asked.append(round(cancel.remaining_s))
-        return GOOD
+        return FoundSchedule(GOOD, 9.0)
 
 
 def test_the_same_problem_is_not_solved_twice(tmp_path: Path) -> None:
@@ -87,8 +91,11 @@ CachingPlanner(Counting(), FolderPlanCache(Path(sys.argv[1])), "one 1.0").plan(P
 def test_schedules_are_remembered_too(tmp_path: Path) -> None:
     scheduler = Counting()
     remembering = CachingScheduler(scheduler, FolderPlanCache(tmp_path), "one 1.0")
-    assert [remembering.schedule(PROBLEM, CancelToken(10.0)) for _ in range(2)] == [GOOD] * 2
+    found = [remembering.schedule(PROBLEM, None, CancelToken(10.0)) for _ in range(2)]
+    assert found == [FoundSchedule(GOOD, 9.0)] * 2
     assert len(scheduler.asked) == 1
+    remembering.schedule(PROBLEM, GOOD, CancelToken(10.0))
+    assert len(scheduler.asked) == 2, "the search would go on from another schedule"
 
 
 def test_who_has_more_time_than_a_plan_that_was_cut_short_asks_again(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import pytest
 
-from planners.test_makespan import BOTH, LIBRARY, PROGRAM, WORLD
+from planners.test_makespan import BOTH, COMMAND, LIBRARY, WORLD
 from planning.samples import CLEANED, LAB
 from planning.test_large import CROWD, SMALL
 from planning.test_solve import WIPING
@@ -47,11 +47,11 @@ def test_a_part_of_a_scene_is_called_so() -> None:
 
 def test_a_scheduler_reports_the_makespan_that_it_has_found() -> None:
     reports = list[PlanningProgress]()
-    if PROGRAM is None:
-        pytest.skip("aries is not installed")
+    if COMMAND is None:
+        pytest.skip("CP-SAT is not installed")
     found = minimise_makespan(LIBRARY, WORLD, BOTH, find_planners(), report=reports.append)
     assert isinstance(found, Scheduled)
-    assert_true([each for each in reports if each.planner == "aries"], found.schedule.makespan_s)
+    assert_true([each for each in reports if each.planner == "CP-SAT"], found.schedule.makespan_s)
 
 
 def assert_true(reports: Sequence[PlanningProgress], least_s: float) -> None:

@@ -18,9 +18,9 @@ from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.plan import GaveUp, Planner, PlanResult, Solved
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
-from skillc_runtime.planning.schedule import Schedule, Scheduler
+from skillc_runtime.planning.schedule import FoundSchedule, Schedule, Scheduler
 
-FORMAT = 4
+FORMAT = 5
 """Raised with every change of what cached answers mean."""
 
 FULL_SHARE = 0.95
@@ -52,7 +52,7 @@ class CachedPlan(msgspec.Struct, frozen=True):
 class CachedSchedule(msgspec.Struct, frozen=True):
     """A schedule, the time limit for finding it in s, and whether the scheduler ended before that limit."""
 
-    schedule: Schedule
+    found: FoundSchedule
     deadline_s: float
     ended_early: bool
 
@@ -96,18 +96,22 @@ class CachingScheduler:
         return self._scheduler.name
 
     def schedule(
-        self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress
-    ) -> Schedule | GaveUp:
+        self,
+        problem: Problem,
+        first: Schedule | None,
+        cancel: CancelToken,
+        report: ReportProgress = ignore_progress,
+    ) -> FoundSchedule | GaveUp:
         """Return the cached schedule, or solve the problem and store the schedule."""
         if problem.goal == FALSE:
-            return self._scheduler.schedule(problem, cancel, report)
-        key = _key(self._program, problem)
+            return self._scheduler.schedule(problem, first, cancel, report)
+        key = _key(f"{self._program}, {first!r}", problem)
         deadline_s = round(cancel.remaining_s, 2)
         cached = _decode(self._cache.get(key), CachedSchedule)
         if cached is not None and _is_reusable(cached, deadline_s):
-            return cached.schedule
-        answer = self._scheduler.schedule(problem, cancel, report)
-        if isinstance(answer, Schedule) and cancel.cancelled_because is None:
+            return cached.found
+        answer = self._scheduler.schedule(problem, first, cancel, report)
+        if isinstance(answer, FoundSchedule) and cancel.cancelled_because is None:
             entry = CachedSchedule(answer, deadline_s, _ended_early(cancel, deadline_s))
             self._cache.put(key, msgspec.json.encode(entry))
         return answer

@@ -6,8 +6,8 @@ from importlib.metadata import version
 
 import msgspec
 
-from skillc_runtime.planning.aries.solver import Aries, find_aries
 from skillc_runtime.planning.cache import CachingPlanner, CachingScheduler, PlanCache
+from skillc_runtime.planning.cp_sat.solver import CpSat, find_cp_sat
 from skillc_runtime.planning.fast_downward.solver import FastDownward, find_fast_downward
 from skillc_runtime.planning.plan import Planner
 from skillc_runtime.planning.process import machine_limits
@@ -27,7 +27,7 @@ class Planners(msgspec.Struct, frozen=True):
 def find_planners(cache: PlanCache | None = None) -> Planners:
     """Return the planners of this installation; answers of external programs are cached in `cache`."""
     strong = _fast_downward(cache)
-    return Planners((*strong, AStar()) if strong else (AStar(ADVICE),), _aries(cache))
+    return Planners((*strong, AStar()) if strong else (AStar(ADVICE),), _cp_sat(cache))
 
 
 def list_planners() -> tuple[Planner, ...]:
@@ -43,12 +43,12 @@ def _fast_downward(cache: PlanCache | None) -> tuple[Planner, ...]:
     return (planner if cache is None else CachingPlanner(planner, cache, _identify_program("up-fast-downward")),)
 
 
-def _aries(cache: PlanCache | None) -> Scheduler | None:
-    program = find_aries()
-    if program is None:
+def _cp_sat(cache: PlanCache | None) -> Scheduler | None:
+    command = find_cp_sat()
+    if command is None:
         return None
-    scheduler = Aries(program)
-    return scheduler if cache is None else CachingScheduler(scheduler, cache, _identify_program("up-aries"))
+    scheduler = CpSat(command)
+    return scheduler if cache is None else CachingScheduler(scheduler, cache, _identify_program("ortools"))
 
 
 def _identify_program(package: str) -> str:

@@ -62,6 +62,13 @@ class Scheduled(msgspec.Struct, frozen=True):
         return Solved(plan, self.optimal, self.planner, self.left_out, self.at_least_s, self.assumptions)
 
 
+class FoundSchedule(msgspec.Struct, frozen=True):
+    """A schedule that nothing has validated yet; no plan of the problem has a makespan below `at_least_s`, in s."""
+
+    schedule: Schedule
+    at_least_s: float
+
+
 class Scheduler(Protocol):
     """Finds plans with a short makespan."""
 
@@ -71,10 +78,14 @@ class Scheduler(Protocol):
         ...
 
     def schedule(
-        self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress
-    ) -> Schedule | GaveUp:
+        self,
+        problem: Problem,
+        first: Schedule | None,
+        cancel: CancelToken,
+        report: ReportProgress = ignore_progress,
+    ) -> FoundSchedule | GaveUp:
         """Return a schedule before `cancel` ends the search, and `report` how far it is while that goes on.
 
-        All failures are answers, not exceptions.
+        The search goes on from the `first` schedule, if there is one. All failures are answers, not exceptions.
         """
         ...

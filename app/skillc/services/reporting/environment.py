@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 
 from skillc.extras import install_command, missing_extras
-from skillc_runtime.planning.aries import solver as aries
+from skillc_runtime.planning.cp_sat.solver import find_cp_sat
 from skillc_runtime.planning.fast_downward import solver as fast_downward
 
 _OTHERS = {
@@ -65,11 +65,11 @@ def _planners() -> Iterator[Finding]:
     else:
         yield Finding("Fast Downward", False, "", f"plans for larger scenes; {install_command('planner')}")
     yield Finding("built-in A*", True, version("skillc"), "plans for small scenes, with proved minimal work")
-    if aries.find_aries():
-        yield Finding("aries", True, version("up-aries"), "schedules with a short makespan (--minimise makespan)")
+    if find_cp_sat():
+        yield Finding("CP-SAT", True, version("ortools"), "schedules with a short makespan (--minimise makespan)")
     else:
         missing = f"schedules with a shorter makespan; {install_command('temporal')}"
-        yield Finding("aries", False, "", missing)
+        yield Finding("CP-SAT", False, "", missing)
 
 
 def _simulation() -> Iterator[Finding]:

@@ -30,7 +30,7 @@ def makespan_lower_bound_s(posed: PosedProblem, schedule: Schedule, planner: Pla
 
     0 for a problem that leaves out something that may matter, or whose durations are estimates.
     """
-    if posed.narrowed or posed.restricted or posed.assumptions:
+    if is_bound_unknown(posed):
         return 0.0
     problem = posed.problem
     bound = critical_path_s(problem, cancel.share(CRITICAL_PATH_SHARE))
@@ -42,6 +42,11 @@ def makespan_lower_bound_s(posed: PosedProblem, schedule: Schedule, planner: Pla
         if isinstance(answer, Solved):
             bound = max(bound, answer.bound_s)
     return bound
+
+
+def is_bound_unknown(posed: PosedProblem) -> bool:
+    """Whether a bound for a problem is none for all plans: something may be missing, or durations are estimates."""
+    return bool(posed.narrowed or posed.restricted or posed.assumptions)
 
 
 def _work_by_device_s(schedule: Schedule, library: SkillLibrary) -> Iterator[tuple[str, float]]:

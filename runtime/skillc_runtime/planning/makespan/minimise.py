@@ -12,7 +12,7 @@ from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.planning.foresight import foresee
-from skillc_runtime.planning.makespan.lower_bound import TOLERANCE_S, makespan_lower_bound_s
+from skillc_runtime.planning.makespan.lower_bound import TOLERANCE_S, is_bound_unknown, makespan_lower_bound_s
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, Solved, Unsolvable
@@ -108,19 +108,23 @@ def _improve(
     """Return what the scheduler finds if its makespan is shorter, else the first schedule with a note."""
     if scheduler is None:
         return _add_note(first, "a temporal planner may find a shorter one: pip install 'skillc[temporal]'")
-    answer = scheduler.schedule(posed.problem, problem.cancel, problem.report)
+    schedule = first.schedule if isinstance(first, Scheduled) else None
+    answer = scheduler.schedule(posed.problem, schedule, problem.cancel, problem.report)
     if isinstance(answer, GaveUp):
         return _add_note(first, answer.why)
+    lower_bound_s = 0.0 if is_bound_unknown(posed) else answer.at_least_s
+    if isinstance(first, Scheduled):
+        lower_bound_s = max(lower_bound_s, first.at_least_s or 0.0)
+        first = _rate(first, lower_bound_s)
     try:
-        plan, tight = _tighten(answer, problem)
+        plan, tight = _tighten(answer.schedule, problem)
     except PlanError as error:
         return _add_note(first, f"{scheduler.name} returned a schedule that does not work: {error}")
     if isinstance(first, Scheduled) and tight.makespan_s >= first.schedule.makespan_s - TOLERANCE_S:
-        return _add_note(first, f"{scheduler.name} found none that is shorter")
-    lower_bound_s = first.at_least_s if isinstance(first, Scheduled) else None
+        return first if first.optimal == "proven" else _add_note(first, f"{scheduler.name} found none that is shorter")
     found = Scheduled(tight, plan, "best found", scheduler.name, scheduler.name)
     found = replace(found, left_out=posed.left_out, assumptions=posed.assumptions)
-    return _rate(found, lower_bound_s or 0.0)
+    return _rate(found, lower_bound_s)
 
 
 def _add_note(answer: Scheduled | GaveUp, note: str) -> Scheduled | GaveUp:
