@@ -28,12 +28,16 @@ class Selector(msgspec.Struct, frozen=True, tag="sel"):
     source: Position
 
 
-class Parallel(msgspec.Struct, frozen=True, tag="par"):
-    """Runs its children together until `all` succeed, `any` succeeds, one ends (`race`) or the first ends (`lead`)."""
+class Parallel(msgspec.Struct, frozen=True, tag="par", omit_defaults=True):
+    """Runs its children together until `all` succeed, `any` succeeds, one ends (`race`) or the first ends (`lead`).
+
+    In a body of a plan, with `all`, a child may have to wait for others: `after` has their indices, for each child.
+    """
 
     policy: OneOf["all", "any", "race", "lead"]
     children: tuple[Node, ...]
     source: Position
+    after: tuple[tuple[int, ...], ...] = ()
 
 
 class Retry(msgspec.Struct, frozen=True, tag="retry"):

@@ -107,7 +107,7 @@ def test_without_a_temporal_planner_the_plan_with_the_least_work_gets_times_and_
     assert isinstance(answer, Scheduled)
     assert (answer.plan.duration_s, answer.optimal, answer.planner) == (23.0, "best found", "built-in A*")
     assert answer.schedule.makespan_s >= 14.0
-    assert "has ended" in answer.times and "skillc[temporal]" in (answer.note or "")
+    assert "have ended" in answer.times and "skillc[temporal]" in (answer.note or "")
     assert answer.at_least_s is not None and 0.0 < answer.at_least_s <= 14.0
 
 

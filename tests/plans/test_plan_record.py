@@ -66,6 +66,7 @@ def test_a_step_is_tried_first_in_the_way_that_was_looked_at() -> None:
         InSeries((0, 1)),
         InParallel((0, InSeries((1, InParallel((2, 3)))))),
         InSeries((0, InParallel((1, 2)))),
+        InParallel((0, 1, 2, 3), ((), (), (0,), (0, 1))),
     ],
 )
 def test_an_arrangement_survives_its_recording(arrangement: Arrangement) -> None:

@@ -1,4 +1,4 @@
-"""The times of a plan are those of the body that runs it, where a step also waits for some that it does not need."""
+"""The times of a plan are those of the body that runs it, in which each step waits for those that it needs."""
 
 from __future__ import annotations
 
@@ -45,10 +45,10 @@ TAKE = step("Load", robot="carl", crate="box", from_="b")
 """Dora leaves once she has unloaded; Carl takes the box once it is there, and he is."""
 
 PLANS = {
-    "who leaves waits for who comes, though only the next step needs it": (
+    "who leaves does not wait for who comes, only who takes does": (
         (UNLOAD, COME, LEAVE, TAKE),
         "lab:dora at lab:c and lab:carl contain lab:box",
-        10.0,
+        7.0,
     ),
     "one after the other": ((UNLOAD, LEAVE), "lab:dora at lab:c and lab:b contain lab:box", 7.0),
     "side by side": ((COME, UNLOAD), "lab:carl at lab:b and lab:b contain lab:box", 5.0),

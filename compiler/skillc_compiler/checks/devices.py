@@ -1,4 +1,4 @@
-"""`uses` and `shares` of parameters that are not devices."""
+"""`uses` of what is no individual, and `shares` of what is no device."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ DEVICE = "http://www.inf.ufrgs.br/phi-group/ontologies/sumo.owl#Device"
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each `uses` and `shares` of a value, an output, or what is certainly no device."""
+    """Yield a problem for each `uses` and `shares` of a value, an output, or of what can certainly not be used so."""
     for skill in program.skills.values():
         for device in skill.devices:
             parameter = skill.parameter(device.parameter.text)
@@ -31,17 +31,18 @@ def check(program: Program) -> Iterator[Diagnostic]:
 def _check_device(
     vocabulary: Vocabulary, skill: Skill, device: s.DeviceUse, parameter: Parameter
 ) -> Iterator[Diagnostic]:
-    what = _reason(vocabulary, parameter)
+    what = _reason(vocabulary, parameter, device.kind)
     if what is None:
         return
-    fitting = [p.name for p in skill.parameters if p.type != UNKNOWN and _reason(vocabulary, p) is None]
+    fitting = [p.name for p in skill.parameters if p.type != UNKNOWN and _reason(vocabulary, p, "shares") is None]
     is_output = parameter.direction == "out"
+    meant = "individuals" if device.kind == "uses" else "devices"
     names = " or ".join(f"`{device.kind} {name}`" for name in fitting)
     cures = ("declare it with `in`" if is_output else "", f"write {names}" if names else "")
     yield Diagnostic(
         "not-a-device",
         device.parameter.span,
-        f"`{parameter.name}` {what}, and `{device.kind}` is for devices",
+        f"`{parameter.name}` {what}, and `{device.kind}` is for {meant}",
         help=" or ".join(filter(None, cures)) or "remove the line",
         labels=(Label(parameter.span, "declared here", is_cause=is_output), *_label_class(vocabulary, parameter)),
     )
@@ -52,8 +53,8 @@ def _label_class(vocabulary: Vocabulary, parameter: Parameter) -> tuple[Label, .
     return label_declaration(term) if term is not None else ()
 
 
-def _reason(vocabulary: Vocabulary, parameter: Parameter) -> str | None:
-    """Return why a parameter cannot be locked, None if it can."""
+def _reason(vocabulary: Vocabulary, parameter: Parameter, kind: str) -> str | None:
+    """Return why a parameter cannot be used or shared, None if it can."""
     if parameter.type == UNKNOWN:
         return None
     if not isinstance(parameter.type, Thing):
@@ -61,7 +62,7 @@ def _reason(vocabulary: Vocabulary, parameter: Parameter) -> str | None:
     if parameter.direction == "out":
         return "is an output, which has no value when the skill starts"
     cls = parameter.type.cls
-    if cls is None or cls == THING or vocabulary.is_a(cls, DEVICE):
+    if kind == "uses" or cls is None or cls == THING or vocabulary.is_a(cls, DEVICE):
         return None
     below = (iri for iri in vocabulary.classes if fits(vocabulary, Thing(iri), Thing(cls)))
     if DEVICE in vocabulary.classes and not any(vocabulary.is_a(iri, DEVICE) for iri in below):

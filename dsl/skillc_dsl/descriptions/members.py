@@ -54,7 +54,11 @@ MEMBERS = (
         meaning="an expression for the expected time; the planner minimises it",
         long=True,
     ),
-    Construct("member", reserved("uses"), meaning="locks a device while the skill runs"),
+    Construct(
+        "member",
+        reserved("uses"),
+        meaning="locks a device, or any other individual such as a place or a workpiece, while the skill runs",
+    ),
     Construct("member", reserved("shares"), meaning="adds to the motion of the skill that uses the device", long=True),
     Construct(
         "member",

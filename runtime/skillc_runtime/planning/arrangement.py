@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
 from typing import TypeAlias
 
 import msgspec
 
-from skillc_model.conditions import Condition
 from skillc_model.pddl.devices import locked_parameters
-from skillc_model.read_write import ReadWriteSet, facts_read
+from skillc_model.read_write import FactPattern, ReadWriteSet
 from skillc_model.skills import SkillLibrary
+from skillc_runtime.planning.deciding_reads import DecidingReads
 from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.plan import Plan, Step
-from skillc_runtime.planning.validation import compute_effects, follow_plan
+from skillc_runtime.planning.validation import bind_in, compute_effects, follow_plan
 from skillc_runtime.planning.world_changes import find_changed_facts, find_settled_facts
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -25,13 +26,14 @@ class InSeries(msgspec.Struct, frozen=True):
 
 
 class InParallel(msgspec.Struct, frozen=True):
-    """Parts that run at the same time."""
+    """Parts that run at the same time, each once the earlier ones with the indices in `after` have ended."""
 
     parts: tuple[Arrangement, ...]
+    after: tuple[tuple[int, ...], ...] = ()
 
 
 Arrangement: TypeAlias = "int | InSeries | InParallel"
-"""A series-parallel order of steps, which are given by their index in the plan."""
+"""A partial order of steps, which are given by their index in the plan, in series and in parallel where it can be."""
 
 
 def arrange_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> Arrangement:
@@ -60,10 +62,9 @@ def find_predecessors(plan: Plan, library: SkillLibrary, state: WorldState) -> t
 
 def _find_predecessors(plan: Plan, library: SkillLibrary, worlds: Sequence[WorldState]) -> tuple[frozenset[int], ...]:
     locked = locked_parameters(library)
-    sets = [
-        read_write_set(step, library, locked, before, after)
-        for step, before, after in zip(plan.steps, worlds, worlds[1:], strict=False)
-    ]
+    changes = tuple(pairwise(worlds))
+    reads = DecidingReads(fact for each in changes for fact in find_changed_facts(*each))
+    sets = [read_write_set(step, library, locked, each, reads) for step, each in zip(plan.steps, changes, strict=True)]
     predecessors: list[frozenset[int]] = []
     for late in range(len(sets)):
         direct = [each for each in range(late) if (each, late) in plan.apart or sets[each].conflicts(sets[late])]
@@ -74,7 +75,7 @@ def _find_predecessors(plan: Plan, library: SkillLibrary, worlds: Sequence[World
 def arrange_partial_order(steps: Sequence[int], before: Callable[[int, int], bool]) -> Arrangement:
     """Return steps with the partial order `before`, composed in series and in parallel.
 
-    An order that is not series-parallel is made stricter: first the steps that wait for none, then the others.
+    Steps come after those before them. Where the order is not series-parallel, each waits for those just before it.
     """
     if len(steps) < 2:
         return steps[0] if steps else InSeries(())
@@ -83,9 +84,14 @@ def arrange_partial_order(steps: Sequence[int], before: Callable[[int, int], boo
         return InParallel(tuple(arrange_partial_order(part, before) for part in parallel))
     in_order = _connected_components(steps, lambda one, other: not before(one, other) and not before(other, one))
     if len(in_order) == 1:
-        first = [each for each in steps if not any(before(other, each) for other in steps)]
-        in_order = [first, [each for each in steps if each not in first]]
+        return InParallel(tuple(steps), tuple(_just_before(each, steps, before) for each in steps))
     return _flatten(InSeries(tuple(arrange_partial_order(part, before) for part in in_order)))
+
+
+def _just_before(step: int, steps: Sequence[int], before: Callable[[int, int], bool]) -> tuple[int, ...]:
+    """Return the indices of the steps before one that are not before others of these."""
+    earlier = [(index, each) for index, each in enumerate(steps) if before(each, step)]
+    return tuple(index for index, each in earlier if not any(before(each, other) for _, other in earlier))
 
 
 def step_numbers(arrangement: Arrangement) -> tuple[int, ...]:
@@ -113,23 +119,31 @@ def _connected_components(steps: Iterable[int], linked: Callable[[int, int], boo
 
 
 def read_write_set(
-    step: Step, library: SkillLibrary, locked: Mapping[str, tuple[str, ...]], before: WorldState, after: WorldState
+    step: Step,
+    library: SkillLibrary,
+    locked: Mapping[str, tuple[str, ...]],
+    change: tuple[WorldState, WorldState],
+    reads: DecidingReads,
 ) -> ReadWriteSet:
-    """Return what a step reads and writes between two versions of the world; `locked`: device parameters by skill."""
-    vocabulary = before.vocabulary
-    reads = (fact for each in _conditions(step, library) for fact in facts_read(each, step.arguments, vocabulary))
+    """Return what a step writes between two versions of the world, and reads of what others write.
+
+    locked: device parameters by skill.
+    """
+    before, after = change
     settles = (fact for each in compute_effects(step, library, before) for fact in find_settled_facts(each, before))
     return ReadWriteSet(
-        reads=frozenset(reads),
+        reads=frozenset(_find_reads(step, library, before, reads)),
         writes=frozenset(find_changed_facts(before, after)),
         settles=frozenset(settles),
         devices=frozenset(step.arguments[name] for name in locked[step.skill] if name in step.arguments),
     )
 
 
-def _conditions(step: Step, library: SkillLibrary) -> Iterator[Condition]:
-    """Yield the preconditions and hold conditions of a step's skill and of all its implementations."""
+def _find_reads(step: Step, library: SkillLibrary, state: WorldState, reads: DecidingReads) -> Iterator[FactPattern]:
+    """Yield what the preconditions and hold conditions of a step's skill and of all its implementations read."""
     skill = library.skills[step.skill]
-    alternatives = ((each.pre, each.hold) for each in library.implementations_of(skill.name))
-    for requirements in ((skill.pre, skill.hold), *alternatives):
-        yield from (requirement.condition for group in requirements for requirement in group)
+    ways = ((each.parameters, (*each.pre, *each.hold)) for each in library.implementations_of(skill.name))
+    for parameters, requirements in ((skill.parameters, (*skill.pre, *skill.hold)), *ways):
+        bindings = bind_in(parameters, step, state)
+        for requirement in requirements:
+            yield from reads.find(requirement.condition, state, bindings)

@@ -103,7 +103,7 @@ def compute_step_duration_s(step: Step, library: SkillLibrary, state: WorldState
         duration = find_duration(library.skills[step.skill], implementation)
         if duration is None:
             return ASSUMED_SECONDS
-        seconds = evaluate_duration_s(duration, before, _bind(implementation.parameters, step, before))
+        seconds = evaluate_duration_s(duration, before, bind_in(implementation.parameters, step, before))
     except EvaluationError as reason:
         raise PlanError(str(reason)) from reason
     return seconds if isinstance(seconds, Fraction) else ASSUMED_SECONDS
@@ -120,7 +120,7 @@ def compute_work_s(plan: Plan, library: SkillLibrary, state: WorldState) -> floa
 
 def bind_parameters(step: Step, library: SkillLibrary, state: WorldState) -> Bindings:
     """Return the values of the skill's parameters in a step: those that the planner bound, defaults, or None."""
-    return _bind(library.skills[step.skill].parameters, step, state)
+    return bind_in(library.skills[step.skill].parameters, step, state)
 
 
 def find_startable_implementations(step: Step, library: SkillLibrary, state: WorldState) -> tuple[Implementation, ...]:
@@ -128,7 +128,7 @@ def find_startable_implementations(step: Step, library: SkillLibrary, state: Wor
     skill = library.skills.get(step.skill)
     if skill is None:
         raise PlanError("there is no such skill")
-    bindings = _bind(skill.parameters, step, state)
+    bindings = bind_in(skill.parameters, step, state)
     for problem in _find_problems(skill.parameters, (*skill.pre, *skill.hold), bindings, state):
         raise PlanError(problem)
     found: list[Implementation] = []
@@ -149,7 +149,7 @@ def filter_held_implementations(
 ) -> tuple[Implementation, ...]:
     """Return the implementations whose hold conditions all hold; PlanError if there is none, EvaluationError."""
     skill = library.skills[step.skill]
-    for problem in _find_problems((), skill.hold, _bind(skill.parameters, step, state), state):
+    for problem in _find_problems((), skill.hold, bind_in(skill.parameters, step, state), state):
         raise PlanError(problem)
     broken = {each.name: next(_find_broken_holds(each, step, state), None) for each in begun}
     held = tuple(each for each in begun if broken[each.name] is None)
@@ -159,16 +159,17 @@ def filter_held_implementations(
 
 
 def _find_broken_holds(implementation: Implementation, step: Step, state: WorldState) -> Iterator[str]:
-    yield from _find_problems((), implementation.hold, _bind(implementation.parameters, step, state), state)
+    yield from _find_problems((), implementation.hold, bind_in(implementation.parameters, step, state), state)
 
 
 def _find_implementation_problems(implementation: Implementation, step: Step, state: WorldState) -> Iterator[str]:
-    bindings = _bind(implementation.parameters, step, state)
+    bindings = bind_in(implementation.parameters, step, state)
     conditions = (*implementation.pre, *implementation.hold)
     yield from _find_problems(implementation.parameters, conditions, bindings, state)
 
 
-def _bind(parameters: tuple[Parameter, ...], step: Step, state: WorldState) -> dict[str, Value | None]:
+def bind_in(parameters: tuple[Parameter, ...], step: Step, state: WorldState) -> dict[str, Value | None]:
+    """Return the values of parameters, of a skill or of an implementation, in a step; EvaluationError of a default."""
     bindings: dict[str, Value | None] = dict(step.arguments)
     for parameter in parameters:
         if parameter.name not in bindings:

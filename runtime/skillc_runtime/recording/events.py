@@ -109,10 +109,14 @@ class PartLeftOut(msgspec.Struct, frozen=True):
 
 
 class StepGroup(msgspec.Struct, frozen=True, omit_defaults=True):
-    """Parts of a plan that run in series, or in `parallel`: indices of steps, and other groups."""
+    """Parts of a plan that run in series, or in `parallel`: indices of steps, and other groups.
+
+    In parallel, a part may have to wait for others: `after` has their indices, for each part.
+    """
 
     parts: tuple[int | StepGroup, ...]
     parallel: bool = False
+    after: tuple[tuple[int, ...], ...] = ()
 
 
 class ArrivedPlan(msgspec.Struct, frozen=True, kw_only=True):

@@ -1560,11 +1560,15 @@ export interface components {
         /**
          * StepGroup
          * @description Parts of a plan that run in series, or in `parallel`: indices of steps, and other groups.
+         *
+         *         In parallel, a part may have to wait for others: `after` has their indices, for each part.
          */
         StepGroup: {
             parts: (number | components["schemas"]["StepGroup"])[];
             /** @default false */
             parallel?: boolean;
+            /** @default [] */
+            after?: number[][];
         };
         /**
          * SpaceClaim

@@ -34,7 +34,7 @@ export interface GanttKnowledge {
   durations: ReadonlyMap<string, number>;
 }
 
-type Group = { parts: (number | Group)[]; parallel?: boolean };
+type Group = { parts: (number | Group)[]; parallel?: boolean; after?: number[][] };
 
 /** Return when each step is expected: one after the other, or as the groups of the plan say. */
 export function expectSteps(durations: readonly number[], arrangement: Group, begin: number): Span[] {
@@ -45,7 +45,14 @@ export function expectSteps(durations: readonly number[], arrangement: Group, be
       spans[part] = { from, to };
       return to;
     }
-    if (part.parallel === true) return Math.max(from, ...part.parts.map((each) => place(each, from)));
+    if (part.parallel === true) {
+      const ends: number[] = [];
+      for (const [index, each] of part.parts.entries()) {
+        const before = (part.after?.[index] ?? []).map((other) => ends[other] ?? from);
+        ends.push(place(each, Math.max(from, ...before)));
+      }
+      return Math.max(from, ...ends);
+    }
     return part.parts.reduce<number>((at, each) => place(each, at), from);
   };
   let end = place(arrangement, begin);

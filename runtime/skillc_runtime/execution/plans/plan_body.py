@@ -48,9 +48,9 @@ def _build_arrangement(arrangement: Arrangement, steps: Sequence[tree.Node]) -> 
         case InSeries(parts):
             children = tuple(_build_arrangement(part, steps) for part in parts)
             return tree.Sequence(children=children, reactive=False, source=children[0].source)
-        case InParallel(parts):
+        case InParallel(parts, after):
             children = tuple(_build_arrangement(part, steps) for part in parts)
-            return tree.Parallel(policy="all", children=children, source=children[0].source)
+            return tree.Parallel(policy="all", children=children, source=children[0].source, after=after)
         case _:
             assert_never(arrangement)
 

@@ -50,7 +50,9 @@ def record_arrangement(arrangement: Arrangement) -> StepGroup:
     if isinstance(arrangement, int):
         return StepGroup((arrangement,))
     parts = tuple(each if isinstance(each, int) else record_arrangement(each) for each in arrangement.parts)
-    return StepGroup(parts, isinstance(arrangement, InParallel))
+    if isinstance(arrangement, InParallel):
+        return StepGroup(parts, True, arrangement.after)
+    return StepGroup(parts)
 
 
 def restore_arrangement(recorded: StepGroup) -> Arrangement:
@@ -58,7 +60,7 @@ def restore_arrangement(recorded: StepGroup) -> Arrangement:
     parts = tuple(each if isinstance(each, int) else restore_arrangement(each) for each in recorded.parts)
     if len(parts) == 1:
         return parts[0]
-    return InParallel(parts) if recorded.parallel else InSeries(parts)
+    return InParallel(parts, recorded.after) if recorded.parallel else InSeries(parts)
 
 
 def record_plan(

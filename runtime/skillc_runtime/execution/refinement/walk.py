@@ -78,6 +78,8 @@ class Walk:
         match node:
             case tree.Sequence(children=children):
                 yield from self._in_order(children, here, scope)
+            case tree.Parallel(children=children, after=after) if after:
+                yield from self._in_order(children, here, scope)
             case tree.Parallel(children=children):
                 together = sorted(children, key=lambda child: not self._only_spreads(child, here, scope))
                 yield from (replace(end, spreads=here.spreads) for end in self._at_once(together, here, scope))

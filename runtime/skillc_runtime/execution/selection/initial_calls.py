@@ -41,8 +41,9 @@ def _initial_calls(node: tree.Node) -> Iterator[tree.Call]:
             yield from _initial_calls(first)
         case tree.With(call=call):
             yield call
-        case tree.Parallel(children=children, policy="all"):
-            for child in children:
-                yield from _initial_calls(child)
+        case tree.Parallel(children=children, policy="all", after=after):
+            for index, child in enumerate(children):
+                if not after or not after[index]:
+                    yield from _initial_calls(child)
         case _ if isinstance(node, tree.Decorator) and DECORATOR_OF[tree.kind_of(node)].on_failure != "success":
             yield from _initial_calls(node.child)

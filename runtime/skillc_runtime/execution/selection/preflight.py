@@ -92,6 +92,8 @@ class _Preflight:
         match node:
             case tree.Sequence(children=children):
                 return self._check_all(children, scope)
+            case tree.Parallel(children=children, after=after) if after:
+                return self._check_all(children, scope)  # each precedes those that wait for it
             case tree.Parallel(children=children):
                 return join_refusals(
                     self._foresight.together([partial(self.check, child, scope) for child in children])

@@ -18,6 +18,7 @@ from skillc_runtime.execution.tree.nodes.loop_nodes import ForEachNode, WhileNod
 from skillc_runtime.execution.tree.nodes.parallel import (
     ParallelAll,
     ParallelAny,
+    ParallelInOrder,
     ParallelLead,
     ParallelNode,
     ParallelRace,
@@ -75,6 +76,8 @@ def _build_composite(
             return (ReactiveSequenceNode if reactive else SequenceNode)(context, node.source, children)
         case tree.Selector(reactive=reactive):
             return (ReactiveSelectorNode if reactive else SelectorNode)(context, node.source, children)
+        case tree.Parallel(after=after) if after:
+            return ParallelInOrder(context, node.source, children, after)
         case tree.Parallel(policy=policy):
             return _PARALLEL[policy](context, node.source, children)
         case _:

@@ -17,7 +17,7 @@ from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, Solved, Unsolvable
 from skillc_runtime.planning.planners import Planners
-from skillc_runtime.planning.problem.chains import unroll_chains
+from skillc_runtime.planning.problem.chains import UnrolledProblem, unroll_chains
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
 from skillc_runtime.planning.problem.pose import PosedProblem
@@ -27,11 +27,14 @@ from skillc_runtime.planning.solve import DEADLINE_S, solve
 from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
 from skillc_runtime.world.state.world_state import WorldState
 
-EARLIEST_START = "each step starts when the part of the plan before it has ended"
-LEAST_WORK_SHARE = 0.5
-"""The share of the time for the plan with the least work; the rest is for one with a shorter makespan."""
-LOWER_BOUND_DEADLINE_S = 4.0
-"""The time limit for the lower bound of the makespan."""
+EARLIEST_START = "each step starts when those that it waits for have ended"
+LEAST_WORK_SHARE = 0.2
+"""The share of the time for the plan with the least work, if the rest is for one with a shorter makespan."""
+LOWER_BOUND_SHARE = 0.1
+"""The share of the time that is then left for a first lower bound of the makespan."""
+
+MOST_INDIVIDUALS = 500
+"""A scene with at most so many individuals that may be relevant is scheduled as a whole at first."""
 
 ScheduleResult: TypeAlias = Scheduled | Unsolvable | GaveUp
 
@@ -64,7 +67,7 @@ def minimise_makespan(
     cancel = cancel or CancelToken(DEADLINE_S)
     library, state = foresee(library, state, goal)
     problem = MakespanProblem(library, state, goal, tuple(without), cancel, report)
-    first_part = cancel.share(LEAST_WORK_SHARE)
+    first_part = cancel.share(LEAST_WORK_SHARE) if planners.for_makespan else cancel
     least_work = solve(library, state, goal, planners.for_work, first_part, without, report=report)
     if isinstance(least_work, Unsolvable) or (isinstance(least_work, GaveUp) and not least_work.searched):
         return least_work
@@ -73,18 +76,31 @@ def minimise_makespan(
     try:
         with cancelling(cancel):
             unrolled = unroll_chains(library, state, goal)
-            posed = unrolled.pose(without, AT_ONCE)
+            parts = _pose_parts(unrolled, without)
     except (TooManyValues, Cancelled) as why:
         return GaveUp(str(why))
     problem = replace(problem, library=unrolled.whole)
     first = _schedule_least_work(least_work, problem) if isinstance(least_work, Solved) else least_work
     if isinstance(first, Scheduled):
-        part = cancel.limited(LOWER_BOUND_DEADLINE_S)
+        part = cancel.share(LOWER_BOUND_SHARE)
+        posed = parts[0]
         lower_bound_s = makespan_lower_bound_s(posed, first.schedule, planners.for_work[0], part)
         first = _rate(replace(first, left_out=posed.left_out, assumptions=posed.assumptions), lower_bound_s)
         if first.optimal == "proven":
             return first
-    return _improve(first, planners.for_makespan, posed, problem)
+    for posed in parts:
+        answer = _improve(first, planners.for_makespan, posed, problem)
+        if cancel.reason is not None or (isinstance(answer, Scheduled) and answer.note is None):
+            break
+    return answer
+
+
+def _pose_parts(unrolled: UnrolledProblem, without: Sequence[Excluded]) -> tuple[PosedProblem, ...]:
+    """Return the problem for the whole scene unless it is large, and that for the part near the goal if it is not."""
+    near = unrolled.pose(without, AT_ONCE)
+    if not near.narrowed:
+        return (near,)
+    return (unrolled.pose(without), near) if near.candidate_count <= MOST_INDIVIDUALS else (near,)
 
 
 def _schedule_least_work(solved: Solved, problem: MakespanProblem) -> Scheduled | GaveUp:

@@ -18,7 +18,7 @@ from skillc_runtime.world.state.world_state import WorldState
 def schedule_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> Schedule:
     """Return the earliest times for the steps of a plan; PlanError if it does not work from `state`.
 
-    They are those of the body that runs the plan: each part starts when the part before it has ended.
+    They are those of the body that runs the plan: each step starts when those that it waits for have ended.
     """
     durations = step_durations_s(plan, library, state)
     times = sorted(
@@ -49,8 +49,12 @@ def _start_times(part: Arrangement, start: Fraction, durations: Sequence[Fractio
                 starts = tuple(_start_times(each, start, durations))
                 yield from starts
                 start = max((begin + durations[number] for number, begin in starts), default=start)
-        case InParallel(parts):
-            for each in parts:
-                yield from _start_times(each, start, durations)
+        case InParallel(parts, after):
+            ends: list[Fraction] = []
+            for index, each in enumerate(parts):
+                begin = max((ends[other] for other in after[index]), default=start) if after else start
+                starts = tuple(_start_times(each, begin, durations))
+                yield from starts
+                ends.append(max(time + durations[number] for number, time in starts))
         case _:
             assert_never(part)

@@ -17,6 +17,7 @@ from skillc_model.pddl.devices import locked_parameters
 from skillc_model.read_write import ReadWriteSet
 from skillc_model.skills import Implementation, SkillLibrary
 from skillc_runtime.planning.arrangement import read_write_set
+from skillc_runtime.planning.deciding_reads import DecidingReads
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.schedule import Schedule, TimedStep
 from skillc_runtime.planning.validation import (
@@ -92,7 +93,9 @@ class _ScheduleSimulation:
             expected_s = float(compute_step_duration_s(step, library, state, self._before))
             if abs(self._steps[number - 1].duration_s - expected_s) > INSTANT_S:
                 raise PlanError(f"it takes {expected_s:g} s, not {self._steps[number - 1].duration_s:g}")
-            facts = read_write_set(step, library, self._locked, state, apply_effects(step, library, state))
+            written = DecidingReads(fact for active in self._active.values() for fact in active.facts.writes)
+            change = state, apply_effects(step, library, state)
+            facts = read_write_set(step, library, self._locked, change, written)
             for other, active in self._active.items():
                 shared = active.facts.shares_with(facts)
                 if shared is not None:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import ClassVar
 
+from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.active_path import ActivePath
+from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.execution.tree.nodes.selector import combine_failures
@@ -87,6 +89,51 @@ class ParallelAll(ParallelNode):
 
     def decides(self, child: Node, status: Status) -> bool:
         return status is FAILURE
+
+
+class ParallelInOrder(ParallelAll):
+    """Starts a child as soon as those that it waits for have succeeded: `after` has their indices, for each child."""
+
+    __slots__ = ("_after", "_waiting")
+
+    def __init__(
+        self,
+        context: TreeContext,
+        source: Position,
+        children: tuple[Node, ...],
+        after: tuple[tuple[int, ...], ...],
+    ) -> None:
+        super().__init__(context, source, children)
+        self._after = after
+
+    def foresee(self, freed: Holders) -> Status:
+        first = [child for child, after in zip(self.children, self._after, strict=True) if not after]
+        return FAILURE if FAILURE in [child.dry_start(freed) for child in first] else RUNNING
+
+    def on_start(self) -> Status:
+        self._running, self._started = [], len(self.children)
+        self._waiting = list(range(len(self.children)))
+        return self._start_next(done=set())
+
+    def _drop_finished(self) -> Status:
+        self._running = [path for path in self._running if path.top.status is RUNNING]
+        left = {*self._waiting, *(self.children.index(path.top) for path in self._running)}
+        return self._start_next(done={*range(len(self.children))} - left)
+
+    def _start_next(self, done: set[int]) -> Status:
+        """Start the children whose predecessors are done, and in turn those that wait for what is done at once."""
+        for index in tuple(self._waiting):
+            if done.issuperset(self._after[index]):
+                self._waiting.remove(index)
+                path = ActivePath(self.children[index])
+                status = path.start()
+                if status is RUNNING:
+                    self._running.append(path)
+                elif status is FAILURE:
+                    return self._finish_with(path.top)
+                else:
+                    done.add(index)
+        return RUNNING if self._running else self.succeed()
 
 
 class ParallelAny(ParallelNode):

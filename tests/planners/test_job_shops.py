@@ -1,0 +1,92 @@
+"""Job shops: what is proved is the optimum of brute force, and steps wait only for those that they need."""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import cache
+
+import pytest
+
+from planners.job_shops import PUBLISHED, SHOP, JobShop, compile_shop, make_goal, make_world
+from planners.test_makespan import COMMAND, needs_cp_sat
+from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.planning.arrangement import find_predecessors
+from skillc_runtime.planning.cp_sat.solver import CpSat
+from skillc_runtime.planning.makespan.minimise import minimise_makespan
+from skillc_runtime.planning.makespan.scheduling import schedule_plan
+from skillc_runtime.planning.makespan.simulation import simulate_schedule
+from skillc_runtime.planning.plan import Plan, Step
+from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.search.astar import AStar
+
+library = cache(compile_shop)
+
+
+def step(job: int, operation: int, machine: int) -> Step:
+    names = {"operation": f"j{job}o{operation}", "job": f"j{job}", "machine": f"m{machine}"}
+    return Step("Work", {name: SHOP + value for name, value in names.items()})
+
+
+def find_least_makespan(shop: JobShop) -> int:
+    """Return the least makespan: of all sequences of operations, each as early as its job and machine allow it."""
+    best = [sum(time for job in shop.jobs for _, time in job)]
+
+    def go_on(done: Counter[int], jobs: Counter[int], machines: Counter[int]) -> None:
+        now = max(jobs.values(), default=0)
+        if now >= best[0]:
+            return
+        if done.total() == sum(map(len, shop.jobs)):
+            best[0] = now
+        for number, job in enumerate(shop.jobs):
+            if done[number] < len(job):
+                machine, time = job[done[number]]
+                end = max(jobs[number], machines[machine]) + time
+                go_on(done + Counter([number]), jobs | Counter({number: end}), machines | Counter({machine: end}))
+
+    go_on(Counter(), Counter(), Counter())
+    return best[0]
+
+
+def test_brute_force_knows_the_optimum() -> None:
+    assert find_least_makespan(JobShop((((0, 3), (1, 2)), ((1, 4), (0, 1))))) == 6
+    assert find_least_makespan(JobShop((((0, 3),), ((0, 4),)))) == 7
+
+
+def schedule(shop: JobShop, seconds: float = 30.0) -> Scheduled:
+    assert COMMAND is not None
+    planners = Planners((AStar(),), CpSat(COMMAND))
+    answer = minimise_makespan(library(), make_world(shop, library()), make_goal(shop), planners, CancelToken(seconds))
+    assert isinstance(answer, Scheduled), answer
+    assert simulate_schedule(answer.schedule, library(), make_world(shop, library()), make_goal(shop))
+    return answer
+
+
+@needs_cp_sat
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_the_optimum_is_found_and_proved(seed: int) -> None:
+    shop = JobShop.draw(3, 3, seed)
+    answer = schedule(shop)
+    assert (answer.optimal, answer.schedule.makespan_s) == ("proven", find_least_makespan(shop))
+
+
+@needs_cp_sat
+@pytest.mark.slow
+def test_a_published_optimum_is_found_and_proved() -> None:
+    answer = schedule(PUBLISHED["ft06"])
+    assert (answer.optimal, answer.schedule.makespan_s, answer.planner) == ("proven", 55.0, "CP-SAT")
+
+
+def test_operations_wait_only_for_those_of_their_job_and_machine() -> None:
+    shop = PUBLISHED["ft06"]
+    order = [(job, index) for index in range(6) for job in range(6)]
+    plan = Plan(tuple(step(job, index, shop.jobs[job][index][0]) for job, index in order), 197.0)
+    before = find_predecessors(plan, library(), make_world(shop, library()))
+    needed: list[set[int]] = []
+    for late, (job, index) in enumerate(order):
+        machine = shop.jobs[job][index][0]
+        direct = [n for n, (one, other) in enumerate(order[:late]) if one == job or shop.jobs[one][other][0] == machine]
+        needed.append(set(direct).union(*(needed[each] for each in direct)))
+    assert [set(each) for each in before] == needed
+    assert schedule_plan(plan, library(), make_world(shop, library())).makespan_s < 100.0
