@@ -14,14 +14,15 @@ from resource import RUSAGE_CHILDREN, getrusage
 from statistics import median
 from tempfile import TemporaryDirectory
 
+from skillc.server.jobs.kinds.rehearsal import Unattended
 from skillc.services.recording.picture_making import PictureOrder, Pictures
 from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.run import running
 from skillc.services.run.running import RunOptions, run_task
 from skillc.services.tasks.loading import load_task
-from skillc.workers.rehearsing import _Unattended
 from skillc_runtime.evaluation.report.figure import render_figure
 from skillc_runtime.evaluation.report.write import write_figures
+from skillc_runtime.execution.pace import Pace
 from skillc_runtime.film.footage import Footage
 from skillc_runtime.film.framing import Framing, posed
 from skillc_runtime.film.render_film import SIZES, render_film
@@ -87,7 +88,7 @@ def run_once(folder: Path) -> PictureOrder:
     running.report_run = measured  # type: ignore[assignment]
     spec = RunSpec(task=TASK, out=str(folder))
     with load_task(spec, SilentReporter()) as task:
-        run_task(task, RunOptions(spec, tick_timeout_s=None), _Unattended(), SilentReporter(), films)
+        run_task(task, RunOptions(spec, tick_timeout_s=None), Unattended(Pace()), SilentReporter(), films)
     from matplotlib.figure import Figure
 
     empty = median(cpu_s(lambda: render_figure(lambda: Figure(figsize=(8, 4)))) for _ in range(PAIRS))

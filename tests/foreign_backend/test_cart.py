@@ -141,7 +141,7 @@ def test_what_only_a_simulation_can_do_is_left_out_or_refused(server: RunningSer
         pressed = {"type": "emergency-stop"}
         answer = server.client.post("/cells/yard/disturbances", json=pressed)
         assert "yard is no simulation" in answer.text
-        assert cell.rehearse("carts").result.status == "succeeded", "in a twin, which does not move the cart"
+        assert cell.rehearse("carts").status == "succeeded", "in a twin, which does not move the cart"
     assert where(server) == 0.0
 
 

@@ -13,12 +13,12 @@ from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.settings import CellSettings
 from skillc.cells.snapshot import decode_snapshot
-from skillc.contract.jobs import PreviewPlan, Rehearse
 from skillc.contract.operation import OperationRequest, OperationStatus
+from skillc.contract.plan import PlanRequest
 from skillc.contract.rehearsal import RehearsalRequest
+from skillc.server.jobs.kinds.plan import preview_plan
+from skillc.server.jobs.kinds.rehearsal import rehearse
 from skillc.services.reporting.reporter import SilentReporter
-from skillc.workers.planning import preview_plan
-from skillc.workers.rehearsing import rehearse
 from skillc_ontology import catalogue
 from skillc_runtime.recording.events import PlanMade
 from skillc_runtime.recording.states import ENDS
@@ -71,7 +71,7 @@ def test_the_look_begins_where_the_arms_are(tmp_path: Path) -> None:
 def test_a_preview_looks_from_where_the_arms_are_as_the_operation_would(tmp_path: Path) -> None:
     with open_cell(settings_of(tmp_path, write_door(tmp_path, 0.5, -20.0, 0.75)), SilentReporter()) as host:
         known = decode_snapshot(host.take_snapshot(with_arms=True))
-        found = preview_plan(PreviewPlan(None, GOAL, {}, "work", 30.0), known)
+        found = preview_plan(PlanRequest(goal=GOAL), known)
         host.submit("same", OperationRequest(goal=GOAL, approve=True))
         planned = wait_for(host, "same", "planned")
     assert known.postures is not None and len(known.postures) == 1
@@ -87,9 +87,9 @@ def test_a_preview_looks_from_where_the_arms_are_as_the_operation_would(tmp_path
 def test_a_preview_says_why_the_arm_cannot_carry_it_out_unless_nobody_looks(tmp_path: Path) -> None:
     with open_cell(settings_of(tmp_path, write_door(tmp_path, 0.45, -20.0, 0.75)), SilentReporter()) as host:
         known = decode_snapshot(host.take_snapshot(with_arms=True))
-    found = preview_plan(PreviewPlan(None, GOAL, {}, "work", 30.0), known)
+    found = preview_plan(PlanRequest(goal=GOAL), known)
     assert found.status == "gave-up" and "joint 4 would be at -3." in found.failure
-    unseen = preview_plan(PreviewPlan(None, GOAL, {}, "work", 30.0, geometry=False), known)
+    unseen = preview_plan(PlanRequest(goal=GOAL, geometry=False), known)
     assert (unseen.status, unseen.space) == ("solved", None)
 
 
@@ -102,10 +102,10 @@ def test_a_rehearsal_of_a_plan_that_was_previewed_does_not_look_again(
     with open_cell(settings_of(tmp_path, write_door(tmp_path, 0.5, -20.0, 0.75)), SilentReporter()) as host:
         known = decode_snapshot(host.take_snapshot(with_arms=True))
         twin = decode_snapshot(host.take_twin())
-    preview_plan(PreviewPlan(None, GOAL, {}, "work", 30.0), known)
+    preview_plan(PlanRequest(goal=GOAL), known)
     (found,) = looks.rglob("*")
     kept = found.stat()
-    rehearsed = rehearse(Rehearse(RehearsalRequest(goal=GOAL, film=False), str(tmp_path / "out")), twin)
+    rehearsed = rehearse(RehearsalRequest(goal=GOAL), tmp_path / "out", twin)
     assert rehearsed.status == "succeeded"
     assert list(looks.rglob("*")) == [found] and found.stat().st_mtime_ns == kept.st_mtime_ns
 

@@ -55,6 +55,23 @@ class RunningServer:
         assert answer.status_code == 201, answer.text
         return dict(answer.json())
 
+    def begin(self, kind: str, **request: Any) -> Any:
+        """Begin a job of a kind, and return it."""
+        answer = self.client.post("/jobs", json={"kind": kind, **request})
+        assert answer.status_code == 201, answer.text
+        return answer.json()
+
+    def wait_for_job(self, job: str, *states: str) -> Any:
+        """Wait until a job is in one of the states, by default one in which it goes on no more, and return it."""
+        ends = states or ("ended", "failed", "cancelled", "interrupted")
+        return wait_until(lambda: self.client.get(f"/jobs/{job}").json(), lambda it: it.get("state") in ends)
+
+    def find_outcome(self, job: str) -> Any:
+        """Return the outcome of a job."""
+        answer = self.client.get(f"/jobs/{job}/result")
+        assert answer.status_code == 200, answer.text
+        return answer.json()["outcome"]
+
     def put_back(self, pace: float = 1.0) -> None:
         """Bring all crates to where they were at first, so that there is something to carry; `pace` is that afterwards.
 

@@ -25,9 +25,10 @@ from server.running import RunningServer, find_cell_process, serving, wait_until
 from server.test_keys import submit
 from server.test_orders import add, find_submitted
 from server.test_state import state
-from server.test_trials import post, wait_for
+from server.test_trials import post
 from skillc.cells.journal.reading import JournalReader
 from skillc.cli.main import skillc
+from skillc.server.jobs.store import SERIES, TRIALS
 from skillc_runtime.recording.events import TaskEnded
 
 CRATE = "lab:crate-0"
@@ -71,10 +72,19 @@ def a_session_and_a_database_of_an_older_format_survive(server: RunningServer) -
     with closing(sqlite3.connect(server.folder / "served/server.sqlite")) as database:
         database.execute("DROP TABLE sessions")
         database.execute("ALTER TABLE tokens DROP COLUMN agent")
+        for each in (*("DROP TABLE jobs", "DROP TABLE job_events"), SERIES, TRIALS):
+            database.execute(each)
+        trial = b'{"seed": 7, "status": "succeeded"}'
+        database.execute("INSERT INTO trial_series VALUES (1, 'old', 'yard', '{\"task\": \"carry_all\"}', 'ended', '')")
+        database.execute("INSERT INTO trials VALUES ('old', 7, 1, ?)", (trial,))
+        database.commit()
         database.execute("PRAGMA user_version = 3")
     migrated = yield
     assert migrated is not None and migrated.client.post("/session").status_code == 204
     assert (server.folder / "served/server.sqlite.format-3").exists()
+    old = migrated.client.get("/jobs/old").json()
+    assert (old["cell"], old["state"], old["done"], old["wanted"]) == ("yard", "ended", 1, 50)
+    assert [each["seed"] for each in migrated.find_outcome("old")["series"]["trials"]] == [7]
 
 
 def a_backup_is_restored_in_the_place_of_a_state_that_nobody_uses(server: RunningServer) -> Story:
@@ -149,17 +159,36 @@ def orders_that_were_due_meanwhile_are_submitted_once(server: RunningServer) -> 
     assert len(set(numbers)) == len(numbers)
 
 
-def trials_are_interrupted_and_what_is_done_is_kept(server: RunningServer) -> Story:
+def jobs_of_each_kind_are_interrupted_and_begun_again(server: RunningServer) -> Story:
+    operation = server.submit(goal="lab:Start contain lab:crate-3")["id"]  # it is there: other stories count crates
+    server.wait_for(operation, "succeeded")
     ended = post(server, number=1)["id"]
-    wait_for(server, ended, "ended")
-    broken = post(server, number=1000)["id"]
-    wait_until(lambda: server.client.get(f"/trials/{broken}").json(), lambda found: found["done"] > 1)
+    server.wait_for_job(ended, "ended")
+    trials = post(server, number=1000)["id"]
+    wait_until(lambda: server.client.get(f"/jobs/{trials}").json(), lambda found: found["done"] > 1)
+    requests = {
+        "rehearsal": {"goal": f"lab:Start contain {CRATE}"},
+        "report": {"operation": operation, "film": False},
+        "trial-replay": {"trials": ended, "seed": 0},
+        "plan": {"goal": f"lab:Start contain {CRATE}"},
+    }
+    begun = [server.begin(kind, **request)["id"] for kind, request in requests.items()]
     server = yield from next_life()
-    kept = {each["id"]: each for each in server.client.get("/cells/yard/trials").json()}
-    assert kept[ended]["state"] == "ended" and kept[ended]["passed"] == 1
-    assert (kept[broken]["state"], kept[broken]["reason"]) == ("interrupted", "the server has ended")
-    result = server.client.get(f"/trials/{broken}/result").json()
-    assert result["done"] == len(result["trials"]) == kept[broken]["done"] > 1
+    kept = {each["id"]: each for each in server.client.get("/jobs").json()}
+    assert {ended, trials, *begun} <= kept.keys(), "none is lost"
+    assert (kept[ended]["state"], kept[ended]["failed"]) == ("ended", 0)
+    assert (kept[trials]["state"], kept[trials]["reason"]) == ("interrupted", "the server has ended")
+    series = server.find_outcome(trials)["series"]
+    assert series["done"] == len(series["trials"]) == kept[trials]["done"] > 1
+    interrupted = [each for each in begun if kept[each]["state"] == "interrupted"]
+    assert interrupted, "they wait for each other"
+    for each in interrupted:
+        assert server.client.post(f"/jobs/{each}/restart").status_code == 200
+    again = [server.wait_for_job(each) for each in begun]
+    assert [(each["state"], each["reason"]) for each in again] == [("ended", "")] * len(begun)
+    assert server.client.post(f"/jobs/{trials}/restart").json()["done"] == kept[trials]["done"]
+    wait_until(lambda: server.client.get(f"/jobs/{trials}").json()["done"], lambda done: done > kept[trials]["done"])
+    assert server.client.delete(f"/jobs/{trials}").status_code == 204
 
 
 def run_beside(folder: Path) -> Result:
@@ -243,12 +272,12 @@ def operations_have_an_end_and_the_exit_code_is_0(server: RunningServer) -> Stor
 
 
 STORIES: tuple[Callable[[RunningServer], Story], ...] = (
+    jobs_of_each_kind_are_interrupted_and_begun_again,
     a_session_and_a_database_of_an_older_format_survive,
     a_backup_is_restored_in_the_place_of_a_state_that_nobody_uses,
     only_the_owner_reads_the_state,
     a_request_whose_key_was_noted_is_submitted_once_later,
     orders_that_were_due_meanwhile_are_submitted_once,
-    trials_are_interrupted_and_what_is_done_is_kept,
     a_store_belongs_to_its_cell_and_what_others_changed_is_adopted_by_a_person,
     operations_have_an_end_and_the_exit_code_is_0,
 )

@@ -16,16 +16,15 @@ from skillc.server.problems import DIAGNOSTICS, KEY_REUSED, LEASE_HELD, NOT_ALLO
 GOAL = "lab:Goal contain lab:crate-9"
 PLACE = {"path": "goal", "line": 1, "column": 18, "end_line": 1, "end_column": 29}
 WAYS = (
-    ("operations", {"goal": GOAL}, 409),
-    ("plans", {"goal": GOAL}, 422),
-    ("rehearsals", {"goal": GOAL}, 422),
-    ("orders", {"request": {"goal": GOAL}, "at": "2100-01-01T00:00:00Z"}, 422),
+    ("cells/yard/operations", {"goal": GOAL}, 409),
+    ("jobs", {"kind": "rehearsal", "goal": GOAL}, 422),
+    ("cells/yard/orders", {"request": {"goal": GOAL}, "at": "2100-01-01T00:00:00Z"}, 422),
 )
 
 
 @pytest.mark.parametrize(("path", "body", "status"), WAYS, ids=[path for path, *_ in WAYS])
 def test_the_errors_of_a_goal_are_data(server: RunningServer, path: str, body: dict[str, Any], status: int) -> None:
-    problem = server.client.post(f"/cells/yard/{path}", json=body).json()
+    problem = server.client.post(f"/{path}", json=body).json()
     assert (problem["status"], problem["type"], problem["title"]) == (status, DIAGNOSTICS.type, DIAGNOSTICS.title)
     (found,) = problem["diagnostics"]
     assert (found["name"], found["severity"]) == ("unknown-individual", "error")

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from server.running import RunningServer, wait_until
+from server.running import RunningServer
 from server.test_client_commands import here, type_in  # noqa: F401  a fixture
 from skillc_runtime.recording.events import TaskEnded
 from skillc_runtime.recording.mcap.reader import read_recording
@@ -17,48 +17,46 @@ GOAL = "lab:Goal contain lab:crate-2"
 
 
 def rehearse(server: RunningServer, **request: Any) -> Any:
-    answer = server.client.post("/cells/yard/rehearsals", json=request)
-    assert answer.status_code == 201, answer.text
-    return wait_until(
-        lambda: server.client.get(f"/rehearsals/{answer.json()['id']}").json(), lambda found: found["state"] == "ended"
-    )
+    done = server.wait_for_job(server.begin("rehearsal", **request)["id"])
+    assert (done["state"], done["done"], done["reason"]) == ("ended", 1, "")
+    return {**done, "result": server.find_outcome(done["id"])["run"]}
 
 
 def test_a_goal_is_rehearsed_and_nothing_is_done(server: RunningServer) -> None:
     server.put_back()
     before = server.client.get("/cells/yard/world").json()
     done = rehearse(server, goal=GOAL)
-    assert done["result"]["status"] == "succeeded" and not done["film"]
+    assert done["result"]["status"] == "succeeded" and done["files"] == []
     assert [(each["skill"], each["status"]) for each in done["result"]["plan"]] == [
         ("Load", "success"),
         ("Unload", "success"),
     ]
     assert done["result"]["sim_time_s"] == pytest.approx(0.4, abs=0.2)
     assert server.client.get("/cells/yard/world").json() == before
-    assert done["id"] in [each["id"] for each in server.client.get("/cells/yard/rehearsals").json()]
-    assert server.client.get(f"/rehearsals/{done['id']}/film").status_code == 404
-    assert server.client.delete(f"/rehearsals/{done['id']}").status_code == 204
-    assert server.client.get(f"/rehearsals/{done['id']}").status_code == 404
+    assert done["id"] in [each["id"] for each in server.client.get("/jobs", params={"cell": "yard"}).json()]
+    assert server.client.get(f"/jobs/{done['id']}/files/film.mp4").status_code == 404
+    assert server.client.delete(f"/jobs/{done['id']}").status_code == 204
+    assert server.client.get(f"/jobs/{done['id']}").status_code == 404
 
 
 def test_a_rehearsal_is_recorded_to_be_played(server: RunningServer, tmp_path: Path) -> None:
     server.put_back()
     done = rehearse(server, goal=GOAL, record=True)
-    assert done["recording"] and not done["film"]
-    answer = server.client.get(f"/rehearsals/{done['id']}/recording")
+    assert done["files"] == ["recording.mcap"]
+    answer = server.client.get(f"/jobs/{done['id']}/files/recording.mcap")
     (tmp_path / "twin.mcap").write_bytes(answer.content)
     recorded = read_recording(tmp_path / "twin.mcap")
     assert not recorded.note and isinstance(recorded.envelopes[-1].event, TaskEnded)
     without = rehearse(server, goal=GOAL)
-    assert not without["recording"] and server.client.get(f"/rehearsals/{without['id']}/recording").status_code == 404
+    assert server.client.get(f"/jobs/{without['id']}/files/recording.mcap").status_code == 404
 
 
 def test_what_cannot_be_rehearsed_is_refused_with_the_reason(server: RunningServer) -> None:
     for request, why in (({"task": "carry_al"}, "did you mean `carry_all`"), ({}, "exactly one")):
-        refused = server.client.post("/cells/yard/rehearsals", json=request)
+        refused = server.client.post("/jobs", json={"kind": "rehearsal", **request})
         assert refused.status_code == 422 and why in refused.json()["detail"]
     assert rehearse(server, goal="lab:Cart-1 contain lab:Goal")["result"]["status"] == "refused"
-    assert server.client.post("/cells/yard/rehearsals", json={"goal": GOAL, "seed": -1}).status_code == 422
+    assert server.client.post("/jobs", json={"kind": "rehearsal", "goal": GOAL, "seed": -1}).status_code == 422
 
 
 def test_an_operation_that_goes_on_is_not_disturbed(server: RunningServer) -> None:

@@ -8,39 +8,38 @@ from pathlib import Path
 import pytest
 
 import skillc
-from server.running import RunningServer, serving, wait_until
+from server.running import RunningServer, serving
 
 CARRY = {"task": "carry", "arguments": {"crate": "lab:crate-0", "to": "lab:Goal"}}
 
 
 def test_a_report_has_result_and_pages_that_a_browser_runs_no_script_of(server: RunningServer) -> None:
     server.put_back()
-    simulations = server.folder / "served/simulations"
-    before = [*simulations.glob("*")]
+    files = server.folder / "served/jobs"
+    before = [*files.glob("*")]
     operation = server.submit(**CARRY)["id"]
-    path = f"/operations/{operation}/report"
-    assert server.client.get(path).status_code == 404
     server.wait_for(operation, "succeeded")
-    begun = server.client.post(path)
-    assert begun.status_code == 202 and begun.json()["operation"] == operation
-    made = wait_until(lambda: server.client.get(path).json(), lambda found: found["state"] == "ended")
-    assert made["reason"] == "" and made["result"]["status"] == "succeeded"
+    begun = server.begin("report", operation=operation)
+    assert (begun["cell"], begun["owner"]) == ("yard", "admin")
+    made = server.wait_for_job(begun["id"])
+    assert made["reason"] == "" and server.find_outcome(made["id"])["run"]["status"] == "succeeded"
+    path = f"/jobs/{made['id']}"
     assert {"report.html", "result.json"} <= set(made["files"])
-    page = server.client.get(f"{path}/report.html")
+    page = server.client.get(f"{path}/files/report.html")
     assert page.status_code == 200 and page.headers["content-type"].startswith("text/html")
     assert page.headers["content-security-policy"].startswith("sandbox; default-src 'none'")
     for name in ("..%2f..%2fadmin.token", "nothing.html", "%2fetc%2fpasswd"):
-        assert server.client.get(f"{path}/{name}").status_code == 404
+        assert server.client.get(f"{path}/files/{name}").status_code == 404
     assert server.client.delete(path).status_code == 204
-    assert server.client.get(path).status_code == server.client.get(f"{path}/report.html").status_code == 404
-    assert [*simulations.glob("*")] == before
+    assert server.client.get(path).status_code == server.client.get(f"{path}/files/report.html").status_code == 404
+    assert [*files.glob("*")] == before
 
 
 def test_no_report_is_made_of_what_goes_on(server: RunningServer) -> None:
     server.put_back()
     operation = server.submit(task="carry_all", approve=True)["id"]
     server.wait_for(operation, "planned")
-    refused = server.client.post(f"/operations/{operation}/report")
+    refused = server.client.post("/jobs", json={"kind": "report", "operation": operation})
     assert refused.status_code == 409 and "is planned: a report is made of what has ended" in refused.text
     server.client.post(f"/operations/{operation}/stop", json={})
 
@@ -51,6 +50,6 @@ def test_clients_write_it_to_a_folder(tmp_path: Path) -> None:
         operation = connected.cell().start("carry", arguments=CARRY["arguments"])
         operation.wait(timeout_s=60.0)
         report = operation.report(tmp_path / "report")
-    assert report.result is not None and report.result.status == "succeeded"
+    assert report.status == "succeeded"
     assert json.loads((tmp_path / "report/result.json").read_text())["status"] == "succeeded"
     assert (tmp_path / "report/report.html").exists()

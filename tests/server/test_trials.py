@@ -14,10 +14,9 @@ import pytest
 from server.running import RunningServer, serving, wait_until
 from server.test_client_commands import here, terminal_environment, type_in  # noqa: F401  a fixture
 from skillc.api.trials import trials
-from skillc.server.trials import running
+from skillc.server.context import MAX_SIMULATIONS
 
 CARRY = {"task": "carry", "arguments": {"crate": "lab:crate-1", "to": "lab:Goal"}}
-ENDS = ("ended", "interrupted")
 SLOW = """
 class Stuck(Primitive):
     def tick(self) -> Status:
@@ -27,13 +26,11 @@ class Stuck(Primitive):
 
 
 def post(server: RunningServer, cell: str = "yard", **request: Any) -> Any:
-    answer = server.client.post(f"/cells/{cell}/trials", json={**CARRY, "number": 3, **request})
-    assert answer.status_code == 202, answer.text
-    return answer.json()
+    return server.begin("trials", **{**CARRY, "cell": cell, "number": 3, **request})
 
 
-def wait_for(server: RunningServer, name: str, *states: str) -> Any:
-    return wait_until(lambda: server.client.get(f"/trials/{name}").json(), lambda found: found["state"] in states)
+def list_trials(server: RunningServer) -> list[Any]:
+    return [each for each in server.client.get("/jobs").json() if each["request"]["kind"] == "trials"]
 
 
 def without_times(series: dict[str, Any]) -> dict[str, Any]:
@@ -45,15 +42,19 @@ def test_trials_start_from_the_scene_and_the_cell_does_nothing(server: RunningSe
     server.put_back()
     before = server.client.get("/cells/yard/world").json()
     begun = post(server, seed=5)
-    done = wait_for(server, begun["id"], *ENDS)
-    assert (done["state"], done["reason"], done["done"], done["passed"]) == ("ended", "", 3, 3)
-    result = server.client.get(f"/trials/{begun['id']}/result").json()
+    done = server.wait_for_job(begun["id"])
+    assert (done["state"], done["reason"], done["done"], done["failed"], done["wanted"]) == ("ended", "", 3, 0, 3)
+    result = server.find_outcome(begun["id"])["series"]
     assert (result["task"], result["wanted"], result["passed"]) == ("carry(crate: lab:crate-1, to: lab:Goal)", 3, 3)
     assert [(each["seed"], each["status"]) for each in result["trials"]] == [(n, "succeeded") for n in (5, 6, 7)]
     assert server.client.get("/cells/yard/world").json() == before
-    assert begun["id"] in [each["id"] for each in server.client.get("/cells/yard/trials").json()]
-    assert server.client.delete(f"/trials/{begun['id']}").status_code == 204
-    assert server.client.get(f"/trials/{begun['id']}").status_code == 404
+    assert begun["id"] in [each["id"] for each in list_trials(server)]
+    log = server.client.get(f"/jobs/{begun['id']}/events").json()
+    assert [each["sequence"] for each in log] == [1, 2, 3, 4, 5, 6]
+    assert [each["done"] for each in log] == [0, 0, 1, 2, 3, 3] and log[2]["message"] == "seed 5: passed"
+    assert server.client.get(f"/jobs/{begun['id']}/events", params={"after": 5}).json() == log[5:]
+    assert server.client.delete(f"/jobs/{begun['id']}").status_code == 204
+    assert server.client.get(f"/jobs/{begun['id']}").status_code == 404
 
 
 @pytest.mark.parametrize(
@@ -70,26 +71,40 @@ def test_trials_start_from_the_scene_and_the_cell_does_nothing(server: RunningSe
 def test_trials_that_cannot_be_run_are_refused(
     server: RunningServer, request_: dict[str, Any], status: int, said: str
 ) -> None:
-    before = server.client.get("/cells/yard/trials").json()
-    answer = server.client.post("/cells/yard/trials", json=request_)
+    before = list_trials(server)
+    answer = server.client.post("/jobs", json={"kind": "trials", **request_})
     assert answer.status_code == status and said in answer.text
-    assert server.client.get("/cells/yard/trials").json() == before
+    assert list_trials(server) == before
 
 
 def test_only_so_many_series_wait_and_one_that_is_removed_ends(server: RunningServer) -> None:
-    begun = [post(server, number=1000) for _ in range(running.MAX_UNFINISHED)]
+    begun = [post(server, number=1000) for _ in range(MAX_SIMULATIONS)]
     first, second = begun[0]["id"], begun[1]["id"]
-    wait_until(lambda: server.client.get(f"/trials/{first}").json(), lambda found: found["done"] > 0)
-    assert server.client.get(f"/trials/{second}").json()["state"] == "waiting"
-    assert server.client.post("/cells/yard/trials", json=CARRY).status_code == 429
+    wait_until(lambda: server.client.get(f"/jobs/{first}").json(), lambda found: found["done"] > 0)
+    assert server.client.get(f"/jobs/{second}").json()["state"] == "waiting"
+    assert server.client.post("/jobs", json={"kind": "trials", **CARRY}).status_code == 429
     operation = server.submit(goal="lab:Goal contain lab:crate-2")["id"]
     assert server.wait_for(operation, "succeeded"), "the cell goes on"
     for each in begun[2:]:
-        assert server.client.delete(f"/trials/{each['id']}").status_code == 204
-    assert server.client.delete(f"/trials/{first}").status_code == 204
-    wait_for(server, second, "going on")
-    assert server.client.delete(f"/trials/{second}").status_code == 204
-    wait_for(server, post(server, number=1)["id"], "ended")
+        assert server.client.delete(f"/jobs/{each['id']}").status_code == 204
+    assert server.client.delete(f"/jobs/{first}").status_code == 204
+    server.wait_for_job(second, "running")
+    cancelled = server.client.post(f"/jobs/{second}/cancel").json()
+    assert (cancelled["state"], cancelled["reason"]) == ("cancelled", "by admin")
+    server.wait_for_job(post(server, number=1)["id"], "ended")
+    assert server.client.delete(f"/jobs/{second}").status_code == 204
+
+
+def test_trials_that_were_cancelled_go_on_with_those_that_are_missing(server: RunningServer) -> None:
+    begun = post(server, number=6, seed=40)["id"]
+    wait_until(lambda: server.client.get(f"/jobs/{begun}").json(), lambda found: found["done"] > 0)
+    cancelled = server.client.post(f"/jobs/{begun}/cancel").json()
+    assert 0 < cancelled["done"] == len(server.find_outcome(begun)["series"]["trials"]) < 6
+    again = server.client.post(f"/jobs/{begun}/restart").json()
+    assert (again["state"], again["done"]) == ("waiting", cancelled["done"])
+    assert server.wait_for_job(begun)["state"] == "ended"
+    assert [each["seed"] for each in server.find_outcome(begun)["series"]["trials"]] == [*range(40, 46)]
+    assert server.client.post(f"/jobs/{begun}/restart").status_code == 409
 
 
 def test_trials_are_run_from_the_shell(here: RunningServer) -> None:  # noqa: F811
@@ -104,46 +119,43 @@ def test_trials_are_run_from_the_shell(here: RunningServer) -> None:  # noqa: F8
 
 
 def test_who_no_longer_waits_for_trials_ends_them(here: RunningServer) -> None:  # noqa: F811
-    before = {each["id"] for each in here.client.get("/cells/yard/trials").json()}
+    before = {each["id"] for each in list_trials(here)}
     words = ("trials", "carry_all", "--cell", "yard", "-n", "1000")
     shell = subprocess.Popen((sys.executable, "-m", "skillc", *words), env=terminal_environment())
-    wait_until(
-        lambda: [each["done"] for each in here.client.get("/cells/yard/trials").json() if each["id"] not in before],
-        lambda done: any(done),
-    )
+    wait_until(lambda: [each["done"] for each in list_trials(here) if each["id"] not in before], lambda done: any(done))
     shell.send_signal(signal.SIGINT)
     assert shell.wait(30.0) == 130
-    assert {each["id"] for each in here.client.get("/cells/yard/trials").json()} <= before
+    assert [each["state"] for each in list_trials(here) if each["id"] not in before] == ["cancelled"]
 
 
 @pytest.mark.sim
 def test_a_server_gets_the_same_figures_as_trials_without_one(tmp_path: Path) -> None:
     with serving(tmp_path) as server:
         begun = post(server, task="carry_all", arguments={}, number=2, seed=3)
-        wait_for(server, begun["id"], *ENDS)
-        served = server.client.get(f"/trials/{begun['id']}/result").json()
+        server.wait_for_job(begun["id"])
+        served = server.find_outcome(begun["id"])["series"]
     local = json.loads(json.dumps(trials(f"{tmp_path}:carry_all", 2, seed=3).to_dict()))
     assert served["passed"] == 2 and without_times(served) == without_times(local)
 
 
 def test_a_trial_is_run_again_as_it_was_and_recorded(server: RunningServer) -> None:
     begun = post(server, seed=5)
-    wait_for(server, begun["id"], *ENDS)
-    result = server.client.get(f"/trials/{begun['id']}/result").json()
+    server.wait_for_job(begun["id"])
+    result = server.find_outcome(begun["id"])["series"]
     assert all(each["seeds"] == [5, 6, 7] and len(each["values"]) == 3 for each in result["spreads"])
-    path = f"/trials/{begun['id']}/replays/6"
-    assert server.client.get(path).status_code == 404
-    assert server.client.post(path).status_code == 201
-    replay = wait_until(lambda: server.client.get(path).json(), lambda found: found["state"] == "ended")
-    assert replay["recording"] and replay["reason"] == ""
+    replay = server.wait_for_job(server.begin("trial-replay", trials=begun["id"], seed=6)["id"])
+    assert (replay["state"], replay["files"], replay["cell"]) == ("ended", ["recording.mcap"], "yard")
+    run = server.find_outcome(replay["id"])["run"]
     trial = next(each for each in result["trials"] if each["seed"] == 6)
-    assert (replay["result"]["seed"], replay["result"]["sim_time_s"]) == (6, trial["sim_time_s"])
-    assert server.client.get(f"{path}/recording").content.startswith(b"\x89MCAP")
-    assert server.client.post(path).json() == replay
+    assert (run["seed"], run["sim_time_s"]) == (6, trial["sim_time_s"])
+    assert server.client.get(f"/jobs/{replay['id']}/files/recording.mcap").content.startswith(b"\x89MCAP")
 
 
 def test_a_trial_that_a_series_does_not_have_is_not_run(server: RunningServer) -> None:
     begun = post(server, seed=5)
-    for seed in ("8", "4", "-1", "six", "9" * 40):
-        assert server.client.post(f"/trials/{begun['id']}/replays/{seed}").status_code == 404, seed
-    server.client.delete(f"/trials/{begun['id']}")
+    for seed, status in ((8, 409), (4, 409), (-1, 409), ("six", 422)):
+        request = {"kind": "trial-replay", "trials": begun["id"], "seed": seed}
+        assert server.client.post("/jobs", json=request).status_code == status, seed
+    server.client.delete(f"/jobs/{begun['id']}")
+    gone = server.client.post("/jobs", json={"kind": "trial-replay", "trials": begun["id"], "seed": 5})
+    assert gone.status_code == 404

@@ -69,7 +69,7 @@ def test_what_another_client_does_is_seen_and_its_question_is_one_click_away(pag
     start(page, "carry_all")
     wait_for_state(page, FINISHED)
     expect(strip(page)).to_contain_text("Nothing goes on in yard.")
-    page.get_by_role("tab", name="Trials").click()
+    page.get_by_role("tab", name="Jobs").click()
     with client_of(server, "ada", "operate") as ada:
         asks = ada.post("/cells/yard/operations", json={"task": "confirm"}).json()["id"]
         item = strip(page).get_by_role("button", name="confirm")

@@ -10,7 +10,6 @@ from playwright.sync_api import BrowserContext, Page, expect
 
 from running_cells.hostile import LINK, LONG, MARKUP, TEXT, THING, write_hostile_yard
 from server.running import RunningServer, serving
-from server.test_trials import ENDS, wait_for
 from studio.conftest import OUT
 from studio.opening import EXPECTED_ERRORS, open_studio, origin_of, wait_for_state
 
@@ -143,7 +142,7 @@ def test_hostile_texts_are_text_in_runs_comparisons_and_trials(page: Page, hosti
         operation = hostile.submit(task="doubt", arguments={"about": "lab:crate-1"})["id"]
         hostile.client.post(f"/operations/{operation}/stop", json={"reason": reason})
         hostile.wait_for(operation, "stopped")
-    begun = hostile.client.post("/cells/yard/trials", json={"task": LONG, "number": 2}).json()["id"]
+    begun = hostile.begin("trials", task=LONG, number=2)["id"]
     page.keyboard.press("h")
     page.locator(".run-item", has_text="doubt").nth(1).locator(".run-show").click()
     page.get_by_role("tab", name="Why").click()
@@ -152,8 +151,8 @@ def test_hostile_texts_are_text_in_runs_comparisons_and_trials(page: Page, hosti
     page.locator(".comparison-table").wait_for()
     _check(page, "comparison")
     page.keyboard.press("Escape")
-    page.get_by_role("tab", name="Trials").click()
-    wait_for(hostile, begun, *ENDS)
+    page.get_by_role("tab", name="Jobs").click()
+    hostile.wait_for_job(begun)
     expect(page.locator(".series").first).to_contain_text("passed")
     _check(page, "series", LONG)
     page.locator(".series").first.click()

@@ -175,8 +175,8 @@ def walk_past(page: Page, cells: RunningServer, look: Look) -> None:
     page.get_by_role("button", name="Back to the cell").wait_for()
     look("replay")
     page.get_by_role("button", name="Back to the cell").click()
-    page.get_by_role("tab", name="Trials").click()
-    page.get_by_role("button", name="New series").click()
+    page.get_by_role("tab", name="Jobs").click()
+    page.get_by_role("button", name="New trials").click()
     page.get_by_label("Task", exact=True).select_option("carry")
     look("new trials")
 

@@ -12,8 +12,6 @@ from playwright.sync_api import Browser, BrowserContext, Page, Route, expect
 from server.running import RunningServer, is_listening, start_server, wait_until
 from server.test_leases import client_of
 from server.test_trials import CARRY
-from server.test_trials import ENDS as ENDS_OF_SERIES
-from server.test_trials import wait_for as wait_for_series
 from studio.conftest import OUT, PATIENCE
 from studio.opening import choose, open_studio, put_back, wait_for_state
 
@@ -69,7 +67,7 @@ def show_comparison(page: Page) -> None:
 
 def show_series(page: Page) -> None:
     page.keyboard.press("h")
-    page.get_by_role("tab", name="Trials").click()
+    page.get_by_role("tab", name="Jobs").click()
     page.locator(".series").first.click()
     page.get_by_role("main", name="Trials of carry").wait_for()
 
@@ -144,15 +142,15 @@ def watching(browser: Browser, server: RunningServer) -> Iterator[Page]:
     put_back(server)
     for _ in range(2):
         server.client.post(f"/operations/{start_rest(server.client, server)}/stop")
-    begun = server.client.post("/cells/yard/trials", json={**CARRY, "number": 1}).json()
-    wait_for_series(server, begun["id"], *ENDS_OF_SERIES)
+    begun = server.begin("trials", **CARRY, number=1)
+    server.wait_for_job(begun["id"])
     context = browser.new_context(viewport={"width": 1280, "height": 800})
     context.set_default_timeout(8_000 * PATIENCE)
     page = context.new_page()
     open_studio(page, server)
     yield page
     context.close()
-    server.client.delete(f"/trials/{begun['id']}")
+    server.client.delete(f"/jobs/{begun['id']}")
 
 
 @pytest.mark.parametrize("state", STATES)

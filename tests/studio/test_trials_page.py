@@ -6,7 +6,6 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from server.running import RunningServer
-from server.test_trials import ENDS, wait_for
 from studio.accessibility import check_axe
 
 
@@ -17,8 +16,8 @@ def test_the_worst_case_of_a_series_is_one_click_from_its_replay(
     page: Page, server: RunningServer, scheme: str
 ) -> None:
     page.keyboard.press("h")
-    page.get_by_role("tab", name="Trials").click()
-    page.get_by_role("button", name="New series").click()
+    page.get_by_role("tab", name="Jobs").click()
+    page.get_by_role("button", name="New trials").click()
     page.get_by_label("Task", exact=True).select_option("carry")
     page.get_by_role("combobox", name="crate").fill("lab:crate-1")
     page.get_by_role("combobox", name="to", exact=True).fill("lab:Goal")
@@ -27,12 +26,12 @@ def test_the_worst_case_of_a_series_is_one_click_from_its_replay(
     page.get_by_role("button", name="Begin").click()
     page.locator(".series").first.wait_for()
     begun = page.locator(".series").first.get_attribute("title") or ""
-    wait_for(server, begun, *ENDS)
+    server.wait_for_job(begun)
     expect(page.locator(".series").first).to_contain_text("5 passed")
     page.locator(".series").first.click()
     shown = page.get_by_role("main", name="Trials of carry")
     shown.locator(".distribution").first.wait_for()
-    told = server.client.get(f"/trials/{begun}/result").json()
+    told = server.find_outcome(begun)["series"]
     expect(shown.locator(".distribution")).to_have_count(len(told["spreads"]))
     expect(shown.locator(".distribution").first.locator(".dot")).to_have_count(5)
     check_axe(page, f"trials-{scheme}")
@@ -46,13 +45,13 @@ def test_the_worst_case_of_a_series_is_one_click_from_its_replay(
     shown.get_by_role("button", name="Forget").click()
     shown.get_by_role("button", name="Forget them").click()
     expect(shown).to_be_hidden()
-    assert server.client.get(f"/trials/{begun}").status_code == 404
+    assert server.client.get(f"/jobs/{begun}").status_code == 404
 
 
 def test_trials_that_cannot_be_run_are_refused_where_they_are_written(page: Page) -> None:
     page.keyboard.press("h")
-    page.get_by_role("tab", name="Trials").click()
-    page.get_by_role("button", name="New series").click()
+    page.get_by_role("tab", name="Jobs").click()
+    page.get_by_role("button", name="New trials").click()
     page.get_by_label("Task", exact=True).select_option("carry")
     expect(page.get_by_role("button", name="Begin")).to_be_disabled()
     page.get_by_role("combobox", name="crate").fill("lab:no-such-crate")

@@ -9,12 +9,11 @@ import pytest
 from running_cells.test_reality import TABLE, make_settings, reality
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.snapshot import decode_snapshot
-from skillc.contract.jobs import Rehearse
 from skillc.contract.operation import OperationRequest
 from skillc.contract.rehearsal import RehearsalRequest
+from skillc.server.jobs.kinds.rehearsal import rehearse
 from skillc.services.project.backends import BackendName
 from skillc.services.reporting.reporter import SilentReporter
-from skillc.workers.rehearsing import rehearse
 from skillc_runtime.backends.simulation.checkpoint import decode_checkpoint
 
 MAX_TICKS = 20_000
@@ -40,7 +39,7 @@ def test_a_twin_holds_what_the_gripper_reports(tmp_path: Path, backend: BackendN
         known = decode_snapshot(host.take_twin())
         before = host.world.sequence
         folder = tmp_path / "rehearsal"
-        done = rehearse(Rehearse(RehearsalRequest(task=TABLE[1], film=filmed), str(folder)), known)
+        done = rehearse(RehearsalRequest(task=TABLE[1], film=filmed), folder, known)
         assert (done.status, [each.skill for each in done.plan]) == ("succeeded", ["Wipe"]), done.failure
         assert host.world.sequence == before and (folder / "film.mp4").exists() == filmed
 

@@ -62,7 +62,7 @@ def run_trials(
             seed=seed,
             disturb=disturb,
             deadline_s=deadline_s,
-            watch=lambda series: show_done(series.done),
+            watch=lambda job: show_done(job.done),
         ).series
 
 

@@ -47,6 +47,7 @@ SECTIONS = {
         "orders",
         "queue",
         "rehearse",
+        "jobs",
         "attach",
         "logs",
         "pace",

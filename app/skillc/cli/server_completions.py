@@ -72,6 +72,11 @@ def complete_order(context: click.Context, _parameter: click.Parameter, begun: s
     return _offer({name: made.task or made.goal or made.call or "" for name, made in requests.items()}, begun)
 
 
+def complete_job(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Return the jobs, with how they are."""
+    return _offer({each.id: each.state for each in _ask_server(context, lambda server: server.jobs())}, begun)
+
+
 def complete_checkpoint(context: click.Context, _parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """Return the checkpoints of the cell of a command, with who has saved them."""
     found = _ask_server(context, lambda server: server.cell(context.params.get("cell")).checkpoints())

@@ -11,8 +11,7 @@ from uuid import uuid4
 
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.calls import CellCalls
-from skillc.client.experiments import rehearse, run_trials
-from skillc.client.facts import collect_facts
+from skillc.client.experiments import run_job
 from skillc.client.feed import follow_samples
 from skillc.client.requests import (
     PLANNING_S,
@@ -26,24 +25,27 @@ from skillc.contract.api.endpoints import (
     ADD_ORDER,
     DISTURB_CELL,
     EDIT_WORLD,
+    LIST_FACTS,
     LIST_OPERATIONS,
     LIST_WRITES,
-    PREVIEW_PLAN,
     QUERY_WORLD,
+    READ_JOB_FILE,
+    REMOVE_JOB,
     REMOVE_ORDER,
     SET_PACE,
     SUBMIT_OPERATION,
     WRITE_WORLD,
 )
 from skillc.contract.cell import CellStatus, Disturbance, PaceSetting
+from skillc.contract.job import FILM, Job, PlanResult, RunResult, TaskResult, TrialsResult
 from skillc.contract.order import Order
 from skillc.contract.plan import PlanPreview
-from skillc.contract.rehearsal import Rehearsal
 from skillc.contract.runs.history import HistoryPage
 from skillc.contract.sample import Sample
-from skillc.contract.trials import TrialDisturbance, TrialSeries
+from skillc.contract.trials import TrialDisturbance
 from skillc.contract.world import (
     DocumentForm,
+    FactPage,
     QueryRows,
     WorldEdit,
     WorldFact,
@@ -56,7 +58,7 @@ from skillc.values.arguments import read_pace, require_choice, require_text
 from skillc.values.run_keywords import OperationKeywords, OrderKeywords
 from skillc.values.trials import Trials
 
-OPERATIONS, WRITES, TRIALS = 100, 100, 50
+OPERATIONS, WRITES, TRIALS, FACTS = 100, 100, 50, 1000
 
 
 class AsyncCell(CellCalls):
@@ -119,8 +121,11 @@ class AsyncCell(CellCalls):
         geometry: bool = True,
     ) -> PlanPreview:
         """Plan for a task of the cell's library, or a goal, as its world is now; parameters as of `skillc.plan`."""
-        request = describe_plan(task, goal, arguments, minimise, prove, deadline_s, geometry)
-        return await self._connection.call(PREVIEW_PLAN, self.name, body=request)
+        request = describe_plan(self.name, task, goal, arguments, minimise, prove, deadline_s, geometry)
+        job, outcome = await run_job(self._connection, request)
+        await self._connection.call(REMOVE_JOB, job.id)
+        assert isinstance(outcome, PlanResult), "that is the outcome of plans"
+        return outcome.plan
 
     async def rehearse(
         self,
@@ -132,14 +137,19 @@ class AsyncCell(CellCalls):
         seed: int = 0,
         deadline_s: float | None = None,
         film: str | Path | None = None,
-    ) -> Rehearsal:
+    ) -> TaskResult:
         """Do in a simulated twin of the cell, as it is known now, what `start` would do; return how that ended.
 
         `seed` determines how the reality of the twin differs from the facts, `deadline_s` is in its time. With `film`
-        a film is written to this MP4 file. RefusedError if the request cannot be carried out.
+        a film is written to this MP4 file, unless nothing has moved. RefusedError if the request cannot be carried out.
         """
-        request = describe_rehearsal(task, goal, call, arguments, seed, deadline_s, film is not None)
-        return await rehearse(self._connection, self.name, request, Path(film) if film else None)
+        request = describe_rehearsal(self.name, task, goal, call, arguments, seed, deadline_s, film is not None)
+        job, outcome = await run_job(self._connection, request)
+        if film is not None and FILM in job.files:
+            await self._connection.download(READ_JOB_FILE, job.id, FILM, file=Path(film))
+        await self._connection.call(REMOVE_JOB, job.id)
+        assert isinstance(outcome, RunResult), "that is the outcome of rehearsals"
+        return outcome.run
 
     async def trials(
         self,
@@ -150,16 +160,18 @@ class AsyncCell(CellCalls):
         seed: int = 0,
         disturb: TrialDisturbance = "none",
         deadline_s: float | None = None,
-        watch: Callable[[TrialSeries], None] | None = None,
+        watch: Callable[[Job], None] | None = None,
     ) -> Trials:
         """Run a task with `number` successive seeds from the cell's scene, and judge the runs; as `skillc.trials`.
 
         The cell itself does nothing, and its world now does not matter. One trial may take `deadline_s` s of wall time.
-        `watch` is called with each progress. The server keeps the series; it forgets it if this is cancelled.
+        `watch` is called with each progress. The server keeps the job; it is cancelled if this is.
         RefusedError if the trials cannot be run.
         """
-        request = describe_trials(task, arguments, number, seed, disturb, deadline_s)
-        return Trials(await run_trials(self._connection, self.name, request, watch))
+        request = describe_trials(self.name, task, arguments, number, seed, disturb, deadline_s)
+        _, outcome = await run_job(self._connection, request, watch)
+        assert isinstance(outcome, TrialsResult), "that is the outcome of trials"
+        return Trials(outcome.series)
 
     async def facts(
         self, subject: str | None = None, type: str | None = None, search: str | None = None
@@ -168,7 +180,13 @@ class AsyncCell(CellCalls):
 
         With `search` only those about individuals whose names, labels, classes or texts contain these words.
         """
-        return await collect_facts(self._connection, self.name, subject, type, search)
+        found: list[WorldFact] = []
+        while True:
+            wanted = FactPage(subject, type, search, len(found), FACTS)
+            page = await self._connection.call(LIST_FACTS, self.name, query=wanted)
+            found += page.facts
+            if len(found) >= page.total or not page.facts:
+                return tuple(found)
 
     async def query(self, sparql: str) -> QueryRows:
         """Answer a SPARQL query about its world."""

@@ -11,14 +11,23 @@ from uuid import uuid4
 
 from skillc.client.calls import OperationCalls
 from skillc.client.errors import UnavailableError
-from skillc.client.experiments import make_report
+from skillc.client.experiments import run_job
 from skillc.client.feed import follow_operation
 from skillc.client.retries import Retries
 from skillc.contract import commands
-from skillc.contract.api.endpoints import GIVE_COMMAND, READ_RECORDING, SHOW_OPERATION, STOP_OPERATION, SUBMIT_OPERATION
+from skillc.contract.api.endpoints import (
+    GIVE_COMMAND,
+    READ_JOB_FILE,
+    READ_RECORDING,
+    REMOVE_JOB,
+    SHOW_OPERATION,
+    STOP_OPERATION,
+    SUBMIT_OPERATION,
+)
 from skillc.contract.commands import Command
+from skillc.contract.job import RunResult, TaskResult
 from skillc.contract.operation import ENDS, Contact, Decision, OperationRequest, OperationStatus, State
-from skillc.contract.report import OperationReport
+from skillc.contract.report import ReportRequest
 from skillc.contract.stopping import StopReason
 from skillc.errors import RequestError
 from skillc.events import Envelope, Prompt, StateChanged, TaskEnded
@@ -95,12 +104,20 @@ class AsyncOperation(OperationCalls):
         await self._connection.download(READ_RECORDING, self.id, file=file)
         return file
 
-    async def report(self, folder: str | Path, film: bool = True) -> OperationReport:
-        """Write its report with figures and film to a folder, once it has ended; the server runs it again for that.
+    async def report(self, folder: str | Path, film: bool = True) -> TaskResult:
+        """Write its report with figures and film to a folder, once it has ended, and return the result in it.
 
+        The server runs it again for that.
         Without `film` that takes a fraction of the time. RefusedError if it has not ended, or cannot be repeated.
         """
-        return await make_report(self._connection, self.id, Path(folder), film)
+        job, outcome = await run_job(self._connection, ReportRequest(operation=self.id, film=film))
+        place = Path(folder)
+        place.mkdir(parents=True, exist_ok=True)
+        for each in job.files:
+            await self._connection.download(READ_JOB_FILE, job.id, each, file=place / Path(each).name)
+        await self._connection.call(REMOVE_JOB, job.id)
+        assert isinstance(outcome, RunResult), "that is the outcome of reports"
+        return outcome.run
 
     async def approve(self) -> None:
         """Run the plan that waits for approval."""

@@ -6,43 +6,43 @@ from skillc.client.connection import Connection
 from skillc.contract.access import TokenInfo
 from skillc.contract.api.endpoints import (
     ACKNOWLEDGE_FAULT,
+    CANCEL_JOB,
     CHANGE_LIBRARY_SOURCE,
     COMPARE_RUNS,
     EXPLAIN_RUN,
-    JUDGE_TRIALS,
     LIST_AUDIT_ENTRIES,
     LIST_CELLS,
     LIST_CHECKPOINTS,
+    LIST_JOB_EVENTS,
+    LIST_JOBS,
     LIST_LIBRARIES,
     LIST_LIBRARY_SOURCES,
     LIST_ORDERS,
     LIST_POSES,
     LIST_QUEUE,
-    LIST_REHEARSALS,
     LIST_ROBOTS,
     LIST_THINGS,
     LIST_TOKENS,
-    LIST_TRIALS,
     PLACE_THING,
     READ_LIBRARY_SOURCE,
     READ_SIGNALS,
     RELEASE_LEASE,
     REMOVE_CHECKPOINT,
-    REMOVE_TRIALS,
+    REMOVE_JOB,
     REORDER_QUEUE,
-    REPLAY_TRIAL,
     RESET_CELL,
+    RESTART_JOB,
     RESTORE_CELL,
     REVOKE_TOKEN,
     SAVE_CELL,
     SHOW_CELL,
     SHOW_COVERAGE,
+    SHOW_JOB,
+    SHOW_JOB_RESULT,
     SHOW_LEASE,
     SHOW_LIBRARY,
     SHOW_MODEL,
-    SHOW_REPLAY,
     SHOW_TREE,
-    SHOW_TRIALS,
     SHOW_VERSION,
     STOP_CELL,
     TAKE_LEASE,
@@ -52,19 +52,18 @@ from skillc.contract.audit import AuditEntry, AuditPage
 from skillc.contract.cell import CellCheckpoint, CellStatus, CheckpointName, ResetReason
 from skillc.contract.device import DeviceStatus
 from skillc.contract.geometry import CellModel, SurfaceCoverage
+from skillc.contract.job import Job, JobEvent, JobEventPage, JobPage, JobResult
 from skillc.contract.lease import Lease, LeaseRequest
 from skillc.contract.library import LibraryDescription, LibraryStatus
 from skillc.contract.operation import OperationStatus
 from skillc.contract.order import Order
 from skillc.contract.queue import QueueOrder
-from skillc.contract.rehearsal import Rehearsal
 from skillc.contract.runs.explanation import Question, RunExplanation
 from skillc.contract.runs.run_diff import OtherRun, RunDiff
 from skillc.contract.runs.run_tree import OperationTree
 from skillc.contract.runs.signals import SignalPage, SignalRows
 from skillc.contract.source import SourceChange, SourceInfo, SourcePath, SourceText
 from skillc.contract.stopping import StopReason
-from skillc.contract.trials import Series, TrialReplay, TrialSeries
 from skillc.contract.world import PlacedThing, WorldPlacement
 
 
@@ -85,6 +84,40 @@ class ServerCalls:
     async def libraries(self) -> tuple[LibraryStatus, ...]:
         """List the libraries, and why the one on disk is not used."""
         return await self._connection.call(LIST_LIBRARIES)
+
+    async def jobs(self, cell: str | None = None) -> tuple[Job, ...]:
+        """List the jobs of all cells, or of one.
+
+        Which jobs: those of a cell, or of all.
+        """
+        return await self._connection.call(LIST_JOBS, query=JobPage(cell=cell))
+
+    async def job(self, job: str) -> Job:
+        """Show a job."""
+        return await self._connection.call(SHOW_JOB, job)
+
+    async def job_result(self, job: str) -> JobResult:
+        """Show what came of a job; of trials also while they go on."""
+        return await self._connection.call(SHOW_JOB_RESULT, job)
+
+    async def job_events(self, job: str, after: int = 0, wait_s: float = 0.0) -> tuple[JobEvent, ...]:
+        """Read the log of a job, or wait for its next line.
+
+        Which lines of a log: those after a number. If there are none yet, they are waited for, `wait_s` s at most.
+        """
+        return await self._connection.call(LIST_JOB_EVENTS, job, query=JobEventPage(after=after, wait_s=wait_s))
+
+    async def cancel_job(self, job: str) -> Job:
+        """End a job that goes on; nothing happens to others."""
+        return await self._connection.call(CANCEL_JOB, job)
+
+    async def restart_job(self, job: str) -> Job:
+        """Begin a job again that failed, was cancelled or interrupted; trials go on with those that are missing."""
+        return await self._connection.call(RESTART_JOB, job)
+
+    async def remove_job(self, job: str) -> None:
+        """End and forget a job, with its log, its result and its files."""
+        return await self._connection.call(REMOVE_JOB, job)
 
     async def list_library_sources(self, library: str) -> tuple[SourceInfo, ...]:
         """List the texts of a library, and those that it may import."""
@@ -118,26 +151,6 @@ class ServerCalls:
     async def revoke_token(self, name: str) -> None:
         """Revoke a token."""
         return await self._connection.call(REVOKE_TOKEN, name)
-
-    async def show_trials(self, series: str) -> TrialSeries:
-        """Show how far a series of trials is."""
-        return await self._connection.call(SHOW_TRIALS, series)
-
-    async def judge_trials(self, series: str) -> Series:
-        """Judge the trials of a series that are done."""
-        return await self._connection.call(JUDGE_TRIALS, series)
-
-    async def remove_trials(self, series: str) -> None:
-        """End and forget a series of trials."""
-        return await self._connection.call(REMOVE_TRIALS, series)
-
-    async def replay_trial(self, series: str, seed: str) -> TrialReplay:
-        """Run a trial of a series again, and record it."""
-        return await self._connection.call(REPLAY_TRIAL, series, seed)
-
-    async def show_replay(self, series: str, seed: str) -> TrialReplay:
-        """Show how far a trial is that is run again."""
-        return await self._connection.call(SHOW_REPLAY, series, seed)
 
     async def list_audit_entries(self, after: int = 0, limit: int = 1000) -> tuple[AuditEntry, ...]:
         """Read the audit log: what was changed, by whom, and what was refused.
@@ -264,14 +277,6 @@ class CellCalls:
     async def robots(self) -> tuple[DeviceStatus, ...]:
         """List the devices of a cell, and which operation holds each."""
         return await self._connection.call(LIST_ROBOTS, self.name)
-
-    async def list_rehearsals(self) -> tuple[Rehearsal, ...]:
-        """List the rehearsals for a cell."""
-        return await self._connection.call(LIST_REHEARSALS, self.name)
-
-    async def list_trials(self) -> tuple[TrialSeries, ...]:
-        """List the series of trials for a cell."""
-        return await self._connection.call(LIST_TRIALS, self.name)
 
 
 class OperationCalls:

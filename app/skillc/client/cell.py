@@ -16,14 +16,17 @@ from skillc.client.waiting import WaitingCell
 from skillc.contract.cell import CellCheckpoint, CellStatus, Disturbance
 from skillc.contract.device import DeviceStatus
 from skillc.contract.geometry import CellModel, SurfaceCoverage
+from skillc.contract.job import (
+    Job,
+    TaskResult,
+)
 from skillc.contract.lease import Lease
 from skillc.contract.library import LibraryDescription
 from skillc.contract.operation import OperationStatus
 from skillc.contract.order import Order
 from skillc.contract.plan import PlanPreview
-from skillc.contract.rehearsal import Rehearsal
 from skillc.contract.sample import Sample
-from skillc.contract.trials import TrialDisturbance, TrialSeries
+from skillc.contract.trials import TrialDisturbance
 from skillc.contract.world import (
     PlacedThing,
     QueryRows,
@@ -137,14 +140,6 @@ class ServerCell(WaitingCell):
         """List the devices of a cell, and which operation holds each."""
         return self._loop.run(self._client.robots())
 
-    def list_rehearsals(self) -> tuple[Rehearsal, ...]:
-        """List the rehearsals for a cell."""
-        return self._loop.run(self._client.list_rehearsals())
-
-    def list_trials(self) -> tuple[TrialSeries, ...]:
-        """List the series of trials for a cell."""
-        return self._loop.run(self._client.list_trials())
-
     def start(
         self, task: str | None = None, *, key: str | None = None, **settings: Unpack[OperationKeywords]
     ) -> ServerOperation:
@@ -221,11 +216,11 @@ class ServerCell(WaitingCell):
         seed: int = 0,
         deadline_s: float | None = None,
         film: str | Path | None = None,
-    ) -> Rehearsal:
+    ) -> TaskResult:
         """Do in a simulated twin of the cell, as it is known now, what `start` would do; return how that ended.
 
         `seed` determines how the reality of the twin differs from the facts, `deadline_s` is in its time. With `film`
-        a film is written to this MP4 file. RefusedError if the request cannot be carried out.
+        a film is written to this MP4 file, unless nothing has moved. RefusedError if the request cannot be carried out.
         """
         return self._loop.run(
             self._client.rehearse(
@@ -242,12 +237,12 @@ class ServerCell(WaitingCell):
         seed: int = 0,
         disturb: TrialDisturbance = "none",
         deadline_s: float | None = None,
-        watch: Callable[[TrialSeries], None] | None = None,
+        watch: Callable[[Job], None] | None = None,
     ) -> Trials:
         """Run a task with `number` successive seeds from the cell's scene, and judge the runs; as `skillc.trials`.
 
         The cell itself does nothing, and its world now does not matter. One trial may take `deadline_s` s of wall time.
-        `watch` is called with each progress. The server keeps the series; it forgets it if this is cancelled.
+        `watch` is called with each progress. The server keeps the job; it is cancelled if this is.
         RefusedError if the trials cannot be run.
         """
         return self._loop.run(

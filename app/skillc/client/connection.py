@@ -164,9 +164,14 @@ def _find_error(answer: httpx.Response, address: ServerAddress) -> ServiceError:
     if answer.status_code == UNAUTHORIZED:
         unknown = f"the server at {address.url.rpartition('/api')[0]} does not know this token"
         return RefusedError(unknown, answer.status_code)
+    return describe_problem(problem)
+
+
+def describe_problem(problem: ProblemDetails) -> RefusedError:
+    """Return what a server says of what it has not done as an error."""
     return RefusedError(
         problem.detail,
-        answer.status_code,
+        problem.status,
         problem.allowed or (),
         problem.type,
         tuple(map(from_data, problem.diagnostics or ())),

@@ -1,82 +1,59 @@
-"""What is tried in simulation for a cell of a server: the client waits for the end, and ends what nobody waits for."""
+"""What is worked out for a cell of a server: the client waits for the end, and ends what nobody waits for any more."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
 from http import HTTPStatus
-from pathlib import Path
 
-from skillc.client.connection import Connection
-from skillc.client.errors import RefusedError
+from skillc.client.connection import Connection, describe_problem
+from skillc.client.errors import RefusedError, UnavailableError
+from skillc.client.retries import Retries
 from skillc.contract.api.endpoints import (
-    JUDGE_TRIALS,
-    MAKE_REPORT,
-    READ_FILM,
-    READ_REPORT_FILE,
-    REHEARSE,
-    REMOVE_REHEARSAL,
-    REMOVE_REPORT,
-    REMOVE_TRIALS,
-    RUN_TRIALS,
-    SHOW_REHEARSAL,
-    SHOW_REPORT,
-    SHOW_TRIALS,
+    ADD_JOB,
+    CANCEL_JOB,
+    LIST_JOB_EVENTS,
+    SHOW_JOB,
+    SHOW_JOB_RESULT,
 )
-from skillc.contract.rehearsal import Rehearsal, RehearsalRequest
-from skillc.contract.report import OperationReport, ReportRequest
-from skillc.contract.trials import Series, TrialSeries, TrialsRequest
+from skillc.contract.job import ONGOING, Job, JobEventPage, JobOutcome, JobRequest
 
-LOOK_S = 0.3
+WAIT_S = 5.0
 
 
-async def rehearse(connection: Connection, cell: str, request: RehearsalRequest, film: Path | None) -> Rehearsal:
-    """Begin a rehearsal for a cell; return it once it has ended, with its film in a file."""
-    found = await connection.call(REHEARSE, cell, body=request)
+async def run_job(
+    connection: Connection, request: JobRequest, watch: Callable[[Job], None] | None = None
+) -> tuple[Job, JobOutcome]:
+    """Begin a job; return it once it has ended, with its outcome. `watch` is called with each progress.
+
+    If this is cancelled, the job is. RefusedError, with what is wrong, if it fails or somebody cancels it.
+    """
+    job = await connection.call(ADD_JOB, body=request)
     try:
-        while found.state != "ended":  # wait ends: the server limits how long a rehearsal takes
-            await asyncio.sleep(LOOK_S)
-            found = await connection.call(SHOW_REHEARSAL, found.id)
-        if found.result is None:
-            raise RefusedError(found.reason, HTTPStatus.CONFLICT)
-        if film is not None and found.film:
-            await connection.download(READ_FILM, found.id, file=film)
-    finally:
-        await connection.call(REMOVE_REHEARSAL, found.id)
-    return found
-
-
-async def make_report(connection: Connection, operation: str, folder: Path, film: bool) -> OperationReport:
-    """Let the server make the report of an operation, with a film or without, and write its files to a folder."""
-    found = await connection.call(MAKE_REPORT, operation, body=ReportRequest(film))
-    try:
-        while found.state != "ended":  # wait ends: the server limits how long a report takes
-            await asyncio.sleep(LOOK_S)
-            found = await connection.call(SHOW_REPORT, operation)
-        if found.result is None:
-            raise RefusedError(found.reason, HTTPStatus.CONFLICT)
-        folder.mkdir(parents=True, exist_ok=True)
-        for each in found.files:
-            await connection.download(READ_REPORT_FILE, operation, each, file=folder / Path(each).name)
-    finally:
-        await connection.call(REMOVE_REPORT, operation)
-    return found
-
-
-async def run_trials(
-    connection: Connection, cell: str, request: TrialsRequest, watch: Callable[[TrialSeries], None] | None
-) -> Series:
-    """Begin trials for a cell; return them once they have ended, judged. `watch` is called with each progress."""
-    found = await connection.call(RUN_TRIALS, cell, body=request)
-    try:
-        while found.state in ("waiting", "going on"):  # wait ends: each trial has a time limit
-            await asyncio.sleep(LOOK_S)
-            before, found = found, await connection.call(SHOW_TRIALS, found.id)
-            if watch is not None and found != before:
-                watch(found)
+        job = await follow_job(connection, job, watch)
     except asyncio.CancelledError:
-        await connection.call(REMOVE_TRIALS, found.id)
+        await connection.call(CANCEL_JOB, job.id)
         raise
-    if found.reason:
-        raise RefusedError(found.reason, HTTPStatus.CONFLICT)
-    return await connection.call(JUDGE_TRIALS, found.id)
+    if job.problem is not None:
+        raise describe_problem(job.problem)
+    if job.state != "ended":
+        raise RefusedError(f"{job.id} was {job.state}: {job.reason}", HTTPStatus.CONFLICT)
+    return job, (await connection.call(SHOW_JOB_RESULT, job.id)).outcome
+
+
+async def follow_job(connection: Connection, job: Job, watch: Callable[[Job], None] | None = None) -> Job:
+    """Return a job once it goes on no more; `watch` is called with each progress. The server may be away meanwhile."""
+    retries, page = Retries(), JobEventPage(wait_s=WAIT_S)
+    while job.state in ONGOING:
+        try:
+            events = await connection.call(LIST_JOB_EVENTS, job.id, query=page)
+            job = await connection.call(SHOW_JOB, job.id) if events else job
+        except UnavailableError as error:
+            await retries.wait(error)
+            continue
+        retries.succeeded()
+        if events:
+            page = JobEventPage(events[-1].sequence, WAIT_S)
+            if watch is not None:
+                watch(job)
+    return job

@@ -16,6 +16,7 @@ from skillc.client.retries import Retries
 from skillc.contract.api.endpoint import Stream
 from skillc.contract.api.endpoints import STREAM_EVENTS, STREAM_SAMPLES
 from skillc.contract.cell import CellStatus
+from skillc.contract.job import JobChanged
 from skillc.contract.messages import Happened, StatusChanged
 from skillc.contract.operation import OperationStatus
 from skillc.contract.runs.history import EventsHello
@@ -62,11 +63,13 @@ async def follow_states(connection: Connection) -> AsyncGenerator[Status, None]:
     retries, hello = Retries(), EventsHello(connection.address.token)
     while True:
         try:
-            async with aclosing(_receive(connection, STREAM_EVENTS, hello, list[Happened | StatusChanged])) as batches:
+            kind = list[Happened | StatusChanged | JobChanged]
+            async with aclosing(_receive(connection, STREAM_EVENTS, hello, kind)) as batches:
                 async for batch in batches:
                     retries.succeeded()
                     for each in batch:
-                        yield each.status if isinstance(each, StatusChanged) else each.operation
+                        if not isinstance(each, JobChanged):
+                            yield each.status if isinstance(each, StatusChanged) else each.operation
             raise UnavailableError(f"the server at {connection.address.url} ends")
         except UnavailableError as error:
             await retries.wait(error)

@@ -8,8 +8,8 @@ from pathlib import Path
 from skillc.client.async_operation import Depth
 from skillc.client.waiting import WaitingOperation
 from skillc.contract.commands import Command
+from skillc.contract.job import TaskResult
 from skillc.contract.operation import Decision, OperationStatus, State
-from skillc.contract.report import OperationReport
 from skillc.contract.runs.explanation import RunExplanation
 from skillc.contract.runs.run_diff import RunDiff
 from skillc.contract.runs.run_tree import OperationTree
@@ -67,9 +67,10 @@ class ServerOperation(WaitingOperation):
         """
         return self._loop.run(self._client.recording(path))
 
-    def report(self, folder: str | Path, film: bool = True) -> OperationReport:
-        """Write its report with figures and film to a folder, once it has ended; the server runs it again for that.
+    def report(self, folder: str | Path, film: bool = True) -> TaskResult:
+        """Write its report with figures and film to a folder, once it has ended, and return the result in it.
 
+        The server runs it again for that.
         Without `film` that takes a fraction of the time. RefusedError if it has not ended, or cannot be repeated.
         """
         return self._loop.run(self._client.report(folder, film))

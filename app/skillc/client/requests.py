@@ -47,6 +47,7 @@ def describe_order(request: OperationRequest, at: datetime, times: OrderKeywords
 
 
 def describe_plan(
+    cell: str,
     task: str | None,
     goal: str | None,
     arguments: Arguments,
@@ -57,6 +58,7 @@ def describe_plan(
 ) -> PlanRequest:
     """Return a request for a plan."""
     return PlanRequest(
+        cell=cell,
         task=optional_text(task, "the task"),
         goal=optional_text(goal, "the goal"),
         arguments=read_arguments(arguments),
@@ -68,6 +70,7 @@ def describe_plan(
 
 
 def describe_rehearsal(
+    cell: str,
     task: str | None,
     goal: str | None,
     call: str | None,
@@ -78,6 +81,7 @@ def describe_rehearsal(
 ) -> RehearsalRequest:
     """Return a request for a rehearsal, with a film of it."""
     return RehearsalRequest(
+        cell=cell,
         task=optional_text(task, "the task"),
         goal=optional_text(goal, "the goal"),
         call=optional_text(call, "the skill call"),
@@ -89,10 +93,17 @@ def describe_rehearsal(
 
 
 def describe_trials(
-    task: str, arguments: Arguments, number: int, seed: int, disturb: TrialDisturbance, deadline_s: float | None
+    cell: str,
+    task: str,
+    arguments: Arguments,
+    number: int,
+    seed: int,
+    disturb: TrialDisturbance,
+    deadline_s: float | None,
 ) -> TrialsRequest:
     """Return a request for a series of trials."""
     return TrialsRequest(
+        cell=cell,
         task=require_text(task, "the task"),
         arguments=read_arguments(arguments),
         number=require_count(number, "the number of trials", 1),

@@ -12,9 +12,9 @@ from skillc.contract.access import Role, TokenInfo
 from skillc.contract.api.version import VersionInfo
 from skillc.contract.audit import AuditEntry
 from skillc.contract.cell import CellStatus
+from skillc.contract.job import Job, JobEvent, JobResult
 from skillc.contract.library import LibraryStatus
 from skillc.contract.source import SourceInfo, SourceText
-from skillc.contract.trials import Series, TrialReplay, TrialSeries
 
 
 class Server(WaitingServer):
@@ -34,6 +34,40 @@ class Server(WaitingServer):
     def libraries(self) -> tuple[LibraryStatus, ...]:
         """List the libraries, and why the one on disk is not used."""
         return self._loop.run(self._client.libraries())
+
+    def jobs(self, cell: str | None = None) -> tuple[Job, ...]:
+        """List the jobs of all cells, or of one.
+
+        Which jobs: those of a cell, or of all.
+        """
+        return self._loop.run(self._client.jobs(cell))
+
+    def job(self, job: str) -> Job:
+        """Show a job."""
+        return self._loop.run(self._client.job(job))
+
+    def job_result(self, job: str) -> JobResult:
+        """Show what came of a job; of trials also while they go on."""
+        return self._loop.run(self._client.job_result(job))
+
+    def job_events(self, job: str, after: int = 0, wait_s: float = 0.0) -> tuple[JobEvent, ...]:
+        """Read the log of a job, or wait for its next line.
+
+        Which lines of a log: those after a number. If there are none yet, they are waited for, `wait_s` s at most.
+        """
+        return self._loop.run(self._client.job_events(job, after, wait_s))
+
+    def cancel_job(self, job: str) -> Job:
+        """End a job that goes on; nothing happens to others."""
+        return self._loop.run(self._client.cancel_job(job))
+
+    def restart_job(self, job: str) -> Job:
+        """Begin a job again that failed, was cancelled or interrupted; trials go on with those that are missing."""
+        return self._loop.run(self._client.restart_job(job))
+
+    def remove_job(self, job: str) -> None:
+        """End and forget a job, with its log, its result and its files."""
+        self._loop.run(self._client.remove_job(job))
 
     def list_library_sources(self, library: str) -> tuple[SourceInfo, ...]:
         """List the texts of a library, and those that it may import."""
@@ -62,26 +96,6 @@ class Server(WaitingServer):
     def revoke_token(self, name: str) -> None:
         """Revoke a token."""
         self._loop.run(self._client.revoke_token(name))
-
-    def show_trials(self, series: str) -> TrialSeries:
-        """Show how far a series of trials is."""
-        return self._loop.run(self._client.show_trials(series))
-
-    def judge_trials(self, series: str) -> Series:
-        """Judge the trials of a series that are done."""
-        return self._loop.run(self._client.judge_trials(series))
-
-    def remove_trials(self, series: str) -> None:
-        """End and forget a series of trials."""
-        self._loop.run(self._client.remove_trials(series))
-
-    def replay_trial(self, series: str, seed: str) -> TrialReplay:
-        """Run a trial of a series again, and record it."""
-        return self._loop.run(self._client.replay_trial(series, seed))
-
-    def show_replay(self, series: str, seed: str) -> TrialReplay:
-        """Show how far a trial is that is run again."""
-        return self._loop.run(self._client.show_replay(series, seed))
 
     def list_audit_entries(self, after: int = 0, limit: int = 1000) -> tuple[AuditEntry, ...]:
         """Read the audit log: what was changed, by whom, and what was refused.

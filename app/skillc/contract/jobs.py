@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
 import msgspec
 
 from skillc.contract.diagnosis import NO_DIAGNOSIS, Diagnosis
-from skillc.contract.rehearsal import RehearsalRequest
-from skillc.contract.trials import TrialsRequest
 from skillc.contract.world import WorldFormat
 
 
@@ -76,63 +74,8 @@ class CheckOperation(msgspec.Struct, frozen=True, tag="check"):
     breakpoints: tuple[str, ...]
 
 
-class PreviewPlan(msgspec.Struct, frozen=True, tag="plan"):
-    """Plan for a task with arguments, or for a goal; the search ends after `deadline_s` s.
-
-    With `geometry` plans are looked at in space, from where the arms are.
-    """
-
-    task: str | None
-    goal: str | None
-    arguments: dict[str, str]
-    measure: Measure
-    deadline_s: float
-    geometry: bool = True
-
-
-class Rehearse(msgspec.Struct, frozen=True, tag="rehearse"):
-    """Do in a simulated twin of the cell what an operation would; what it wants of it is written to a folder."""
-
-    request: RehearsalRequest
-    folder: str
-
-
-class MakeReport(msgspec.Struct, frozen=True, tag="report"):
-    """Write the report of the operation that is recorded in a file to a folder, with a film or without."""
-
-    recording: str
-    folder: str
-    film: bool = True
-
-
-class CheckTrials(msgspec.Struct, frozen=True, tag="check trials"):
-    """Check that trials can be run from the file of a scene."""
-
-    request: TrialsRequest
-    scene: str
-
-
-class RunTrial(msgspec.Struct, frozen=True, tag="trial"):
-    """Run the trial of a seed from the file of a scene; None for the seed only loads and plans."""
-
-    request: TrialsRequest
-    scene: str
-    seed: int | None
-
-
-class RecordTrial(msgspec.Struct, frozen=True, tag="record trial"):
-    """Run the trial of a seed from the file of a scene again, and record it in a folder."""
-
-    request: TrialsRequest
-    scene: str
-    seed: int
-    folder: str
-
-
 WorldJob: TypeAlias = QueryWorld | ListFacts | WriteWorld | ListTerms | ListThings | ListWrites | ListPoses
-AnsweredJob: TypeAlias = WorldJob | ListDevices | CheckOperation | PreviewPlan
-SimulationJob: TypeAlias = Rehearse | MakeReport | CheckTrials | RunTrial | RecordTrial
-Job: TypeAlias = AnsweredJob | SimulationJob
+Job: TypeAlias = WorldJob | ListDevices | CheckOperation
 
 
 class JobRefused(msgspec.Struct, frozen=True):
@@ -140,6 +83,3 @@ class JobRefused(msgspec.Struct, frozen=True):
 
     why: str = ""
     diagnosis: Diagnosis = NO_DIAGNOSIS
-
-
-Measure: TypeAlias = Literal["work", "proven work", "makespan"]

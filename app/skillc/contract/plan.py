@@ -6,25 +6,32 @@ from typing import Annotated, Literal
 
 import msgspec
 
+from skillc.contract.values import CheckedBody
 from skillc_runtime.recording.space_claim import SpaceClaim
 
 MAX_PLANNING_S = 60.0
 
 
-class PlanRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A task of the cell's library with arguments, or a goal as a condition or as PDDL, to plan for.
+class PlanRequest(CheckedBody, frozen=True, kw_only=True, tag_field="kind", tag="plan", forbid_unknown_fields=True):
+    """A task of a cell's library with arguments, or a goal as a condition or as PDDL, to plan for.
 
-    `prove` searches until the least work is proved; the search ends after `deadline_s` s. With `geometry` plans are
-    looked at in space, from where the arms are.
+    `cell` may be left out if there is only one. `prove` searches until the least work is proved; the search ends after
+    `deadline_s` s. With `geometry` plans are looked at in space, from where the arms are.
     """
 
+    cell: str | None = None
     task: str | None = None
     goal: str | None = None
-    arguments: dict[str, str] = {}
+    arguments: dict[str, str] = msgspec.field(default_factory=dict)
     minimise: Literal["work", "makespan"] = "work"
     prove: bool = False
     deadline_s: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_PLANNING_S)] = 30.0
     geometry: bool = True
+
+    def check(self) -> None:
+        """Raise ValueError if it is to be proved that a plan has the least makespan."""
+        if self.prove and self.minimise == "makespan":
+            raise ValueError("`prove` is for the work; a makespan has a lower bound")
 
 
 class PreviewedStep(msgspec.Struct, frozen=True):

@@ -13,7 +13,7 @@ from skillc.contract.runs.run_jobs import RunJob
 from skillc.server.http.api_call import ApiCall
 from skillc.server.http.outcome import raise_refused
 from skillc.server.problems import ApiRefusal
-from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs
+from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs, Work
 
 T = TypeVar("T")
 
@@ -25,7 +25,16 @@ async def ask_about(call: ApiCall, job: Job, kind: type[T], seconds: float, want
 
     The worker is killed if the client goes.
     """
-    snapshot = raise_refused(await call.server.find_cell(call.path["cell"]).request(wanted))
+    return await ask_with(call, job, await take_snapshot(call, call.path["cell"], wanted), kind, seconds)
+
+
+async def take_snapshot(call: ApiCall, cell: str, wanted: TakeSnapshot = KNOWN_FACTS) -> bytes:
+    """Return what is `wanted` of a cell as it is now, encoded; ApiRefusal if there is no such cell, or it is off."""
+    return raise_refused(await call.server.find_cell(cell).request(wanted))
+
+
+async def ask_with(call: ApiCall, job: Job | Work, snapshot: bytes, kind: type[T], seconds: float) -> T:
+    """Let a worker do a job for a snapshot of a cell, or other work; ApiRefusal if there is no answer."""
     return await _wait(call, call.server.workers.answer(job, snapshot, kind, seconds))
 
 

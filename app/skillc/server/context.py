@@ -18,18 +18,14 @@ from skillc.server.access.rates import TokenBuckets
 from skillc.server.access.watchers import Watchers
 from skillc.server.hub import EventHub
 from skillc.server.idempotency import RequestKeys
+from skillc.server.jobs.running import Jobs, Lane, LaneName
+from skillc.server.jobs.store import JobStore
 from skillc.server.metrics import Metrics
 from skillc.server.orders.store import Orders
 from skillc.server.problems import ApiRefusal
-from skillc.server.rehearsals import Rehearsals
-from skillc.server.reports import Reports
 from skillc.server.served_library import ServedLibrary
-from skillc.server.simulation_jobs import SimulationJobs
-from skillc.server.state import SIMULATIONS, ServerState
+from skillc.server.state import JOB_FILES, ServerState
 from skillc.server.supervisor import CellSupervisor
-from skillc.server.trials.replays import TrialReplays
-from skillc.server.trials.running import TrialRuns
-from skillc.server.trials.store import TrialStore
 from skillc.workers.pool import Workers
 from skillc.workers.programs import read_run
 
@@ -37,6 +33,13 @@ FAILURES_PER_S, FAILURES = 0.2, 100.0
 """How many requests and WebSockets without a valid token an address may make."""
 MAX_OF_CLIENT, MAX_SERVERS = 4, 8
 """How many language servers a client has, and how many there are; each is a process."""
+
+MAX_PLANS, MAX_SIMULATIONS = 20, 8
+"""How many plans, and how many jobs that simulate, wait or are made."""
+
+
+def _one_worker() -> Workers:
+    return Workers(count=1)
 
 
 def _now_utc() -> datetime:
@@ -55,12 +58,8 @@ class ServerContext:
     codes: LoginCodes = field(default_factory=LoginCodes)
     failures: TokenBuckets = field(default_factory=lambda: TokenBuckets(FAILURES_PER_S, FAILURES))
     workers: Workers = field(default_factory=Workers)
-    jobs: SimulationJobs = field(init=False)
+    jobs: Jobs = field(init=False)
     run_readers: Workers = field(default_factory=partial(Workers, read_run))
-    rehearsals: Rehearsals = field(init=False)
-    trial_replays: TrialReplays = field(init=False)
-    reports: Reports = field(init=False)
-    trials: TrialRuns = field(init=False)
     watchers: Watchers = field(default_factory=Watchers)
     language_servers: Watchers = field(
         default_factory=partial(Watchers, "language servers", MAX_OF_CLIENT, MAX_SERVERS)
@@ -72,11 +71,13 @@ class ServerContext:
     metrics: Metrics = field(init=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "jobs", SimulationJobs(self.state.folder / SIMULATIONS))
-        object.__setattr__(self, "rehearsals", Rehearsals(self.jobs))
-        object.__setattr__(self, "trial_replays", TrialReplays(self.jobs))
-        object.__setattr__(self, "reports", Reports(self.jobs))
-        object.__setattr__(self, "trials", TrialRuns(TrialStore(self.state.database)))
+        lanes: dict[LaneName, Lane] = {
+            "plans": Lane.of(self.workers, MAX_PLANS),
+            "simulations": Lane.of(_one_worker(), MAX_SIMULATIONS),
+            "trials": Lane.of(_one_worker(), MAX_SIMULATIONS),
+        }
+        jobs = Jobs(JobStore(self.state.database), self.state.folder / JOB_FILES, lanes, self.hub.publish)
+        object.__setattr__(self, "jobs", jobs)
         object.__setattr__(self, "audit", AuditLog(self.state.database))
         object.__setattr__(self, "keys", RequestKeys(self.state.database))
         object.__setattr__(self, "orders", Orders(self.state.database))
@@ -97,8 +98,12 @@ class ServerContext:
             raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no library `{name}`; there is {_join(found)}")
         return found[name]
 
-    def find_cell(self, name: str) -> CellSupervisor:
-        """Return a cell; ApiRefusal (404) if there is none of this name."""
+    def find_cell(self, name: str | None) -> CellSupervisor:
+        """Return a cell, the only one without a name; ApiRefusal (404) if there is none of this name, or several."""
+        if name is None and len(self.cells) == 1:
+            return next(iter(self.cells.values()))
+        if name is None:
+            raise ApiRefusal(HTTPStatus.NOT_FOUND, f"name the cell; there is {_join(self.cells)}")
         if name not in self.cells:
             raise ApiRefusal(HTTPStatus.NOT_FOUND, f"there is no cell `{name}`; there is {_join(self.cells)}")
         return self.cells[name]

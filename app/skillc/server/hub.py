@@ -1,22 +1,23 @@
-"""Passes what happens to those who listen; for who does not read, only the newest of each operation and cell waits."""
+"""Passes what happens to those who listen; for who does not read, only the newest of each waits."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TypeAlias
+from typing import TypeAlias, assert_never
 
+from skillc.contract.job import JobChanged
 from skillc.contract.messages import Happened, StatusChanged
 
 MAX_WAITING = 256
 """How many news may wait for one listener. They say how far an operation is: events are read from the journal."""
 
-News: TypeAlias = Happened | StatusChanged
+News: TypeAlias = Happened | StatusChanged | JobChanged
 
 
 class Listener:
-    """A queue of news, the newest of each operation and cell."""
+    """A queue of news, the newest of each operation, cell and job."""
 
     def __init__(self) -> None:
         self._latest: dict[str, News] = {}
@@ -24,7 +25,7 @@ class Listener:
 
     def put(self, news: News) -> None:
         """Add news in place of older ones about the same."""
-        key = f"operation {news.operation.id}" if isinstance(news, Happened) else f"cell {news.status.name}"
+        key = _name_subject(news)
         self._latest.pop(key, None)
         self._latest[key] = news
         while len(self._latest) > MAX_WAITING:
@@ -38,6 +39,18 @@ class Listener:
         taken = list(self._latest.values())
         self._latest.clear()
         return taken
+
+
+def _name_subject(news: News) -> str:
+    match news:
+        case Happened(operation=operation):
+            return f"operation {operation.id}"
+        case StatusChanged(status=status):
+            return f"cell {status.name}"
+        case JobChanged(job=job):
+            return f"job {job.id}"
+        case _:
+            assert_never(news)
 
 
 class EventHub:

@@ -100,10 +100,8 @@ async def _serve(
         with announced(state, address):
             await server.serve(sockets=[listener])
     finally:
-        context.workers.close()
-        context.jobs.close()
+        await context.jobs.close()
         context.run_readers.close()
-        await context.trials.close()
         for task in going:
             task.cancel()
         for task in going:

@@ -18,8 +18,8 @@ from skillc.server.access.sessions import Sessions
 from skillc.server.access.tokens import PREFIX, Tokens
 from skillc.server.access.tokens import TABLE as TOKENS
 from skillc.server.idempotency import TABLE as REQUESTS
+from skillc.server.jobs.store import JOB_EVENTS, JOBS, SERIES, TRIALS, add_jobs
 from skillc.server.orders.store import TABLE as ORDERS
-from skillc.server.trials.store import SERIES, TRIALS
 from skillc_runtime.store.store_lock import StoreLock
 
 
@@ -40,9 +40,10 @@ def _add_agents(database: sqlite3.Connection) -> None:
     database.execute("ALTER TABLE tokens ADD COLUMN agent INTEGER NOT NULL DEFAULT 0")
 
 
-TABLES = (TOKENS, AUDIT, REQUESTS, ORDERS, SERIES, TRIALS, SESSIONS)
-SCHEMA = Schema(5, ";\n".join(TABLES), {1: _add_orders, 2: _add_trials, 3: _add_sessions, 4: _add_agents})
-LOCK, DATABASE, CELLS, SIMULATIONS = "lock", "server.sqlite", "cells", "simulations"
+TABLES = (TOKENS, AUDIT, REQUESTS, ORDERS, SESSIONS, JOBS, JOB_EVENTS)
+MIGRATIONS = {1: _add_orders, 2: _add_trials, 3: _add_sessions, 4: _add_agents, 5: add_jobs}
+SCHEMA = Schema(6, ";\n".join(TABLES), MIGRATIONS)
+LOCK, DATABASE, CELLS, JOB_FILES = "lock", "server.sqlite", "cells", "jobs"
 ADMIN = "admin"
 """The name of the token that the command line uses by itself."""
 

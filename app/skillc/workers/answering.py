@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import TypeAlias, assert_never
@@ -17,7 +17,6 @@ from skillc.cells.snapshot import CellSnapshot, decode_snapshot
 from skillc.contract.device import Device
 from skillc.contract.jobs import (
     CheckOperation,
-    CheckTrials,
     Job,
     JobRefused,
     ListDevices,
@@ -26,17 +25,10 @@ from skillc.contract.jobs import (
     ListTerms,
     ListThings,
     ListWrites,
-    MakeReport,
-    PreviewPlan,
     QueryWorld,
-    RecordTrial,
-    Rehearse,
-    RunTrial,
-    SimulationJob,
     WorldJob,
     WriteWorld,
 )
-from skillc.contract.plan import PlanPreview
 from skillc.contract.sample import PoseNumbers
 from skillc.contract.world import PlacedThing, QueryRows, StatableFacts, WorldFact, WorldFacts, WorldText, WorldWrite
 from skillc.errors import DiagnosticsError, ServiceError
@@ -45,14 +37,8 @@ from skillc.services.tasks.breakpoints import parse_breakpoints
 from skillc.services.views.scene_show import list_placed
 from skillc.services.views.scenes import describe_state, find_individuals, query_document, view_world
 from skillc.workers.devices import list_devices
-from skillc.workers.planning import preview_plan
-from skillc.workers.rehearsing import rehearse
-from skillc.workers.reporting import make_report
 from skillc.workers.terms import list_terms
-from skillc.workers.trying import check_trials, record_trial, run_trial
 from skillc.workers.world_text import write_world
-from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.scene.load import load_documents, sheet_documents
 from skillc_runtime.scene.query import QueryError
 from skillc_runtime.world.space.frame_tree import FrameError
@@ -65,6 +51,7 @@ from skillc_runtime.world.state.names import NoSuchName, resolve_individual
 MAX_ROWS = 10_000
 """How many rows of the answer to a query are returned."""
 
+Work: TypeAlias = Callable[[CellSnapshot], object]
 JobAnswer: TypeAlias = (
     QueryRows
     | WorldFacts
@@ -74,20 +61,18 @@ JobAnswer: TypeAlias = (
     | tuple[WorldWrite, ...]
     | tuple[Device, ...]
     | dict[str, PoseNumbers]
-    | PlanPreview
-    | TaskResult
-    | Trial
     | None
 )
 
 
-def answer_job(request: tuple[Job, bytes] | None) -> bytes | JobRefused:
+def answer_job(request: tuple[Job | Work, bytes] | None) -> bytes | JobRefused:
     """Return the answer to a job for an encoded snapshot, as JSON, or why there is none; None asks if it is ready."""
     if request is None:
         return b""
     job, snapshot = request
     try:
-        return msgspec.json.encode(_answer(job, decode_snapshot(snapshot)))
+        known = decode_snapshot(snapshot)
+        return msgspec.json.encode(job(known) if callable(job) else _answer(job, known))
     except DiagnosticsError as error:
         return JobRefused(diagnosis=diagnose(error))
     except (ServiceError, QueryError, NoSuchName, DatabaseError) as error:
@@ -97,13 +82,9 @@ def answer_job(request: tuple[Job, bytes] | None) -> bytes | JobRefused:
 
 
 def _answer(job: Job, known: CellSnapshot) -> JobAnswer:
-    if isinstance(job, SimulationJob):
-        return _simulate(job, known)
     if isinstance(job, WorldJob):
         return _answer_about_world(job, known)
     match job:
-        case PreviewPlan():
-            return preview_plan(job, known)
         case ListDevices():
             return list_devices(known.state)
         case CheckOperation():
@@ -130,23 +111,6 @@ def _answer_about_world(job: WorldJob, known: CellSnapshot) -> JobAnswer:
             return _list_writes(job, known)
         case ListPoses():
             return _list_poses(known)
-        case _:
-            assert_never(job)
-
-
-def _simulate(job: SimulationJob, known: CellSnapshot) -> TaskResult | Trial | None:
-    match job:
-        case Rehearse():
-            return rehearse(job, known)
-        case MakeReport():
-            return make_report(job, known)
-        case CheckTrials():
-            check_trials(job, known)
-            return None
-        case RunTrial():
-            return run_trial(job, known)
-        case RecordTrial():
-            return record_trial(job, known)
         case _:
             assert_never(job)
 

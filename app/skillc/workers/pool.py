@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
-from typing import TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import msgspec
 
@@ -17,6 +17,9 @@ from skillc.workers.programs import Program, do_job
 from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess, WorkerResult
 
+if TYPE_CHECKING:
+    from skillc.cells.snapshot import CellSnapshot
+
 MAX_WORKERS, MAX_WAITING = 2, 20
 """How many jobs are done at once, and how many wait."""
 TURN_S = 30.0
@@ -25,7 +28,9 @@ START_S = 60.0
 """How long a process may take to start, in s."""
 
 T = TypeVar("T")
-Request: TypeAlias = tuple[Job | RunJob, bytes]
+Work: TypeAlias = "Callable[[CellSnapshot], object]"
+"""A function that can be pickled, which does something with what a cell knows: its value is the answer."""
+Request: TypeAlias = "tuple[Job | RunJob | Work, bytes]"
 
 
 class JobFailed(Exception):
@@ -67,7 +72,7 @@ class Workers:
     def __post_init__(self) -> None:
         self._free = asyncio.Semaphore(self.count)
 
-    async def answer(self, job: Job | RunJob, snapshot: bytes, kind: type[T], seconds: float) -> T:
+    async def answer(self, job: Job | RunJob | Work, snapshot: bytes, kind: type[T], seconds: float) -> T:
         """Return the answer to a job for an encoded snapshot; JobFailed, JobTimedOut or TooManyJobs otherwise.
 
         If this is cancelled, the process is killed.

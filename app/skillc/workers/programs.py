@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
-from skillc.contract.jobs import Job, JobRefused
+from skillc.contract.jobs import JobRefused
 from skillc.contract.runs.run_jobs import RunJob
 from skillc_runtime.platforms.memory import limit_memory
 
@@ -16,7 +16,7 @@ MEMORY_BYTES = 4 * 2**30
 """The largest address space of a worker."""
 
 
-def do_job(request: tuple[Job, bytes] | None) -> bytes | JobRefused:
+def do_job(request: tuple[Any, bytes] | None) -> bytes | JobRefused:
     """Answer a job in this process, whose memory is limited from now on."""
     from skillc.workers.answering import answer_job
 

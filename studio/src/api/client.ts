@@ -1,6 +1,6 @@
 // Requests to the server. What it refuses is an error with its own words.
 import { REQUESTS, type Requests } from "./requests";
-import type { OperationRequest, ProblemDetails, TrialsRequest } from "./types";
+import type { JobRequest, OperationRequest, ProblemDetails } from "./types";
 import { Turns } from "./turns";
 
 /** The event that a request was refused because nobody is logged in any more. */
@@ -176,26 +176,22 @@ export const api = {
   terms: (cell: string, subject: string) => call("list_terms", [cell], { query: { subject } }),
   query: (cell: string, sparql: string) => call("query_world", [cell], { body: { sparql } }),
   edit: (cell: string, edits: string[], why: string) => call("edit_world", [cell], { body: { edits, why } }),
-  plan: (cell: string, wish: PlanWish, signal: AbortSignal) =>
-    call("preview_plan", [cell], { body: wish, signal }),
-  /** Do something in a simulated twin of the cell; its recording can be played. */
-  rehearse: (cell: string, wish: PlanWish) => call("rehearse", [cell], { body: { ...wish, record: true } }),
-  rehearsalRecording: (id: string) => call("read_rehearsal_recording", [id]),
-  rehearsal: (id: string) => call("show_rehearsal", [id]),
+  beginJob: (body: JobRequest, signal?: AbortSignal) =>
+    call("add_job", [], signal === undefined ? { body } : { body, signal }),
+  jobResult: (id: string) => call("show_job_result", [id]),
+  jobEvents: (id: string) => call("list_job_events", [id]),
+  jobFile: (id: string, file: string) => call("read_job_file", [id, file]),
+  /** The address of a page that a job has left. */
+  jobPage: (id: string, file: string) => locate("read_job_file", [id, file]),
+  cancelJob: (id: string) => call("cancel_job", [id]),
+  restartJob: (id: string) => call("restart_job", [id]),
+  removeJob: (id: string) => call("remove_job", [id]),
   devices: (cell: string) => call("list_robots", [cell]),
   lease: (cell: string) => call("show_lease", [cell]),
   /** Take the lease of a cell, or prolong it; `takeover` ends that of another client. */
   takeLease: (cell: string, durationS: number, takeover = false) =>
     call("take_lease", [cell], { body: { duration_s: durationS, takeover } }),
   releaseLease: (cell: string) => call("release_lease", [cell]),
-  trials: (cell: string) => call("list_trials", [cell]),
-  beginTrials: (cell: string, body: TrialsRequest) => call("run_trials", [cell], { body }),
-  removeTrials: (id: string) => call("remove_trials", [id]),
-  trialsResult: (id: string) => call("judge_trials", [id]),
-  /** Run a trial again in simulation, and record it. */
-  replayTrial: (id: string, seed: number) => call("replay_trial", [id, String(seed)]),
-  trialReplay: (id: string, seed: number) => call("show_replay", [id, String(seed)]),
-  trialRecording: (id: string, seed: number) => call("read_replay", [id, String(seed)]),
   submit: (cell: string, body: OperationRequest, key: string) =>
     call("submit_operation", [cell], { body, headers: { "Idempotency-Key": key } }),
   operations: (cell: string, query: Requests["list_operations"]["query"] = {}) =>
@@ -215,9 +211,6 @@ export const api = {
   stop: (cell: string, reason: string) => call("stop_cell", [cell], { body: { reason }, isUrgent: true }),
   setPace: (cell: string, factor: number | null) => call("set_pace", [cell], { body: { factor } }),
   acknowledge: (cell: string) => call("acknowledge_fault", [cell]),
-  report: (id: string) => call("show_report", [id]),
-  makeReport: (id: string) => call("make_report", [id], { body: { film: false } }),
-  reportPage: (id: string) => locate("read_report_file", [id, "report.html"]),
   tree: (id: string) => call("show_tree", [id]),
   why: (id: string, question: string) => call("explain_run", [id], { query: { question } }),
   signals: (id: string, match: string, afterS: number | null, everyS: number) =>

@@ -320,79 +320,65 @@ export interface Requests {
     body: undefined;
     answer: Required<Schemas["DeviceStatus"]>[];
   };
-  /** Plan for a task or a goal as the world is now; nothing is done. */
-  preview_plan: {
-    path: [cell: string];
+  /** Begin work for a cell: `plan`, `rehearsal`, `trials`, `trial-replay` or `report`; all but a plan need `operate`. */
+  add_job: {
+    path: [];
     query: Record<string, never>;
-    body: Schemas["PlanRequest"];
-    answer: Required<Schemas["PlanPreview"]>;
+    body: Schemas["PlanRequest"] | Schemas["RehearsalRequest"] | Schemas["TrialsRequest"] | Schemas["TrialReplayRequest"] | Schemas["ReportRequest"];
+    answer: Required<Schemas["Job"]>;
   };
-  /** Try an operation in a simulated twin of a cell. */
-  rehearse: {
-    path: [cell: string];
-    query: Record<string, never>;
-    body: Schemas["RehearsalRequest"];
-    answer: Required<Schemas["Rehearsal"]>;
+  /** List the jobs of all cells, or of one. */
+  list_jobs: {
+    path: [];
+    query: { cell?: string | null };
+    body: undefined;
+    answer: Required<Schemas["Job"]>[];
   };
-  /** List the rehearsals for a cell. */
-  list_rehearsals: {
-    path: [cell: string];
+  /** Show a job. */
+  show_job: {
+    path: [job: string];
     query: Record<string, never>;
     body: undefined;
-    answer: Required<Schemas["Rehearsal"]>[];
+    answer: Required<Schemas["Job"]>;
   };
-  /** Show a rehearsal, with its result once it has ended. */
-  show_rehearsal: {
-    path: [rehearsal: string];
+  /** Show what came of a job; of trials also while they go on. */
+  show_job_result: {
+    path: [job: string];
     query: Record<string, never>;
     body: undefined;
-    answer: Required<Schemas["Rehearsal"]>;
+    answer: Required<Schemas["JobResult"]>;
   };
-  /** End and forget a rehearsal. */
-  remove_rehearsal: {
-    path: [rehearsal: string];
-    query: Record<string, never>;
+  /** Read the log of a job, or wait for its next line. */
+  list_job_events: {
+    path: [job: string];
+    query: { after?: number; wait_s?: number };
     body: undefined;
-    answer: undefined;
+    answer: Required<Schemas["JobEvent"]>[];
   };
-  /** Read the film of a rehearsal. */
-  read_film: {
-    path: [rehearsal: string];
-    query: Record<string, never>;
-    body: undefined;
-    answer: ArrayBuffer;
-  };
-  /** Read the recording of a rehearsal, an MCAP file. */
-  read_rehearsal_recording: {
-    path: [rehearsal: string];
+  /** Read a file that a job has left: a recording, a film, a report, a picture. */
+  read_job_file: {
+    path: [job: string, file: string];
     query: Record<string, never>;
     body: undefined;
     answer: ArrayBuffer;
   };
-  /** Make the report of an operation that has ended, by running it again in simulation. */
-  make_report: {
-    path: [operation: string];
-    query: Record<string, never>;
-    body: Schemas["ReportRequest"];
-    answer: Required<Schemas["OperationReport"]>;
-  };
-  /** Show the report of an operation, with its result and the names of its files. */
-  show_report: {
-    path: [operation: string];
+  /** End a job that goes on; nothing happens to others. */
+  cancel_job: {
+    path: [job: string];
     query: Record<string, never>;
     body: undefined;
-    answer: Required<Schemas["OperationReport"]>;
+    answer: Required<Schemas["Job"]>;
   };
-  /** Read a file of a report: the report itself, the film, a picture. */
-  read_report_file: {
-    path: [operation: string, file: string];
+  /** Begin a job again that failed, was cancelled or interrupted; trials go on with those that are missing. */
+  restart_job: {
+    path: [job: string];
     query: Record<string, never>;
     body: undefined;
-    answer: ArrayBuffer;
+    answer: Required<Schemas["Job"]>;
   };
-  /** End and forget a report. */
-  remove_report: {
-    path: [operation: string];
+  /** End and forget a job, with its log, its result and its files. */
+  remove_job: {
+    path: [job: string];
     query: Record<string, never>;
     body: undefined;
     answer: undefined;
@@ -467,62 +453,6 @@ export interface Requests {
     body: undefined;
     answer: undefined;
   };
-  /** Run a task many times in simulation, from the scene of a cell. */
-  run_trials: {
-    path: [cell: string];
-    query: Record<string, never>;
-    body: Schemas["TrialsRequest"];
-    answer: Required<Schemas["TrialSeries"]>;
-  };
-  /** List the series of trials for a cell. */
-  list_trials: {
-    path: [cell: string];
-    query: Record<string, never>;
-    body: undefined;
-    answer: Required<Schemas["TrialSeries"]>[];
-  };
-  /** Show how far a series of trials is. */
-  show_trials: {
-    path: [series: string];
-    query: Record<string, never>;
-    body: undefined;
-    answer: Required<Schemas["TrialSeries"]>;
-  };
-  /** Judge the trials of a series that are done. */
-  judge_trials: {
-    path: [series: string];
-    query: Record<string, never>;
-    body: undefined;
-    answer: Required<Schemas["Series"]>;
-  };
-  /** End and forget a series of trials. */
-  remove_trials: {
-    path: [series: string];
-    query: Record<string, never>;
-    body: undefined;
-    answer: undefined;
-  };
-  /** Run a trial of a series again, and record it. */
-  replay_trial: {
-    path: [series: string, seed: string];
-    query: Record<string, never>;
-    body: undefined;
-    answer: Required<Schemas["TrialReplay"]>;
-  };
-  /** Show how far a trial is that is run again. */
-  show_replay: {
-    path: [series: string, seed: string];
-    query: Record<string, never>;
-    body: undefined;
-    answer: Required<Schemas["TrialReplay"]>;
-  };
-  /** Read the recording of a trial that was run again, an MCAP file. */
-  read_replay: {
-    path: [series: string, seed: string];
-    query: Record<string, never>;
-    body: undefined;
-    answer: ArrayBuffer;
-  };
   /** Read the audit log: what was changed, by whom, and what was refused. */
   list_audit_entries: {
     path: [];
@@ -591,17 +521,15 @@ export const REQUESTS: Record<keyof Requests, Place> = {
   list_libraries: { method: "GET", path: "/libraries" },
   show_library: { method: "GET", path: "/cells/{cell}/library" },
   list_robots: { method: "GET", path: "/cells/{cell}/robots" },
-  preview_plan: { method: "POST", path: "/cells/{cell}/plans" },
-  rehearse: { method: "POST", path: "/cells/{cell}/rehearsals" },
-  list_rehearsals: { method: "GET", path: "/cells/{cell}/rehearsals" },
-  show_rehearsal: { method: "GET", path: "/rehearsals/{rehearsal}" },
-  remove_rehearsal: { method: "DELETE", path: "/rehearsals/{rehearsal}" },
-  read_film: { method: "GET", path: "/rehearsals/{rehearsal}/film", isFile: true },
-  read_rehearsal_recording: { method: "GET", path: "/rehearsals/{rehearsal}/recording", isFile: true },
-  make_report: { method: "POST", path: "/operations/{operation}/report" },
-  show_report: { method: "GET", path: "/operations/{operation}/report" },
-  read_report_file: { method: "GET", path: "/operations/{operation}/report/{file}", isFile: true },
-  remove_report: { method: "DELETE", path: "/operations/{operation}/report" },
+  add_job: { method: "POST", path: "/jobs" },
+  list_jobs: { method: "GET", path: "/jobs" },
+  show_job: { method: "GET", path: "/jobs/{job}" },
+  show_job_result: { method: "GET", path: "/jobs/{job}/result" },
+  list_job_events: { method: "GET", path: "/jobs/{job}/events" },
+  read_job_file: { method: "GET", path: "/jobs/{job}/files/{file}", isFile: true },
+  cancel_job: { method: "POST", path: "/jobs/{job}/cancel" },
+  restart_job: { method: "POST", path: "/jobs/{job}/restart" },
+  remove_job: { method: "DELETE", path: "/jobs/{job}" },
   make_login_code: { method: "POST", path: "/login-codes" },
   show_session: { method: "GET", path: "/session" },
   log_in: { method: "POST", path: "/session" },
@@ -612,14 +540,6 @@ export const REQUESTS: Record<keyof Requests, Place> = {
   list_tokens: { method: "GET", path: "/tokens" },
   add_token: { method: "POST", path: "/tokens" },
   revoke_token: { method: "DELETE", path: "/tokens/{name}" },
-  run_trials: { method: "POST", path: "/cells/{cell}/trials" },
-  list_trials: { method: "GET", path: "/cells/{cell}/trials" },
-  show_trials: { method: "GET", path: "/trials/{series}" },
-  judge_trials: { method: "GET", path: "/trials/{series}/result" },
-  remove_trials: { method: "DELETE", path: "/trials/{series}" },
-  replay_trial: { method: "POST", path: "/trials/{series}/replays/{seed}" },
-  show_replay: { method: "GET", path: "/trials/{series}/replays/{seed}" },
-  read_replay: { method: "GET", path: "/trials/{series}/replays/{seed}/recording", isFile: true },
   list_audit_entries: { method: "GET", path: "/audit" },
   show_metrics: { method: "GET", path: "/metrics", isFile: true },
 };

@@ -2559,6 +2559,255 @@ export interface components {
             real_time: boolean;
         };
         /**
+         * Job
+         * @description A job: what is requested by whom, in which cell, and how far it is: `done` of `wanted` parts, `failed` of these.
+         *
+         *         `reason` is why it is in its state, empty if that is clear; `problem` says more of one that has failed, as a refusal
+         *         of a request does. One is `interrupted` if the server has ended before. `files` are the names of what it has left.
+         */
+        Job: {
+            id: string;
+            cell: string;
+            owner: string;
+            request: components["schemas"]["PlanRequest"] | components["schemas"]["RehearsalRequest"] | components["schemas"]["TrialsRequest"] | components["schemas"]["TrialReplayRequest"] | components["schemas"]["ReportRequest"];
+            /**
+             * @default waiting
+             * @enum {unknown}
+             */
+            state?: "cancelled" | "ended" | "failed" | "interrupted" | "running" | "waiting";
+            /** @default  */
+            reason?: string;
+            /** @default null */
+            problem?: components["schemas"]["ProblemDetails"] | null;
+            /** @default 0 */
+            done?: number;
+            /** @default 0 */
+            failed?: number;
+            /** @default 1 */
+            wanted?: number;
+            /** @default [] */
+            files?: string[];
+        };
+        /**
+         * PlanRequest
+         * @description A task of a cell's library with arguments, or a goal as a condition or as PDDL, to plan for.
+         *
+         *         `cell` may be left out if there is only one. `prove` searches until the least work is proved; the search ends after
+         *         `deadline_s` s. With `geometry` plans are looked at in space, from where the arms are.
+         */
+        PlanRequest: {
+            /** @enum {unknown} */
+            kind: "plan";
+            /** @default null */
+            cell?: string | null;
+            /** @default null */
+            task?: string | null;
+            /** @default null */
+            goal?: string | null;
+            /** @default {} */
+            arguments?: {
+                [key: string]: string;
+            };
+            /**
+             * @default work
+             * @enum {unknown}
+             */
+            minimise?: "makespan" | "work";
+            /** @default false */
+            prove?: boolean;
+            /** @default 30 */
+            deadline_s?: number;
+            /** @default true */
+            geometry?: boolean;
+        };
+        /**
+         * RehearsalRequest
+         * @description A task of a cell's library with arguments, a goal, or a call of a skill, to try in a simulated twin of the cell.
+         *
+         *         `cell` may be left out if there is only one. It is filmed with `film`, and recorded with `record`.
+         */
+        RehearsalRequest: {
+            /** @enum {unknown} */
+            kind: "rehearsal";
+            /**
+             * @description The name of a task.
+             * @default null
+             */
+            task?: string | null;
+            /**
+             * @description The values of the task's parameters, as in a call, such as `lab:Tray-1` or `8 N`.
+             * @default {}
+             */
+            arguments?: {
+                [key: string]: string;
+            };
+            /**
+             * @description Instead of a task: plan for this goal, a condition, PDDL or JSON.
+             * @default null
+             */
+            goal?: string | null;
+            /**
+             * @description Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`.
+             * @default null
+             */
+            call?: string | null;
+            /** @default null */
+            cell?: string | null;
+            /**
+             * @description Determines how the twin differs from what is known.
+             * @default 0
+             */
+            seed?: number;
+            /**
+             * @description Let the task fail if it has not ended after these seconds of the twin's time.
+             * @default 600
+             */
+            deadline_s?: number;
+            /**
+             * @description Look whether the arms can carry out a plan, before anything moves.
+             * @default true
+             */
+            geometry?: boolean;
+            /** @default false */
+            film?: boolean;
+            /** @default false */
+            record?: boolean;
+        };
+        /**
+         * TrialsRequest
+         * @description A task of a cell's library with arguments, to run `number` times from the cell's scene, with seeds from `seed`.
+         *
+         *         `cell` may be left out if there is only one. `disturb` is what disturbs each trial; one may take `deadline_s` s of
+         *         wall time.
+         */
+        TrialsRequest: {
+            /** @enum {unknown} */
+            kind: "trials";
+            /** @default null */
+            cell?: string | null;
+            task: string;
+            /** @default {} */
+            arguments?: {
+                [key: string]: string;
+            };
+            /** @default 50 */
+            number?: number;
+            /** @default 0 */
+            seed?: number;
+            /**
+             * @default none
+             * @enum {unknown}
+             */
+            disturb?: "missing" | "none" | "obstacle" | "push" | "take";
+            /** @default 3600 */
+            deadline_s?: number;
+        };
+        /**
+         * TrialReplayRequest
+         * @description A trial to run again and record: that with a `seed` of the trials that the job `trials` has run.
+         */
+        TrialReplayRequest: {
+            /** @enum {unknown} */
+            kind: "trial-replay";
+            trials: string;
+            seed: number;
+        };
+        /**
+         * ReportRequest
+         * @description An operation that has ended, to make a report of: without a `film` it takes a fraction of the time.
+         */
+        ReportRequest: {
+            /** @enum {unknown} */
+            kind: "report";
+            operation: string;
+            /** @default true */
+            film?: boolean;
+        };
+        /**
+         * ProblemDetails
+         * @description Why a request was refused; nothing has changed. `detail` says what to do.
+         *
+         *         `type` is `about:blank`, and `title` the phrase of the status, unless there is more to know than the status.
+         *         `allowed` are the commands that the state of an operation allows. `diagnostics` are the errors of a goal, a call or
+         *         an argument, as of `skillc check --json`, and `texts` what they point into, by path; long texts are left out.
+         */
+        ProblemDetails: {
+            /** @default about:blank */
+            type?: string;
+            title: string;
+            status: number;
+            detail: string;
+            /** @default null */
+            allowed?: string[] | null;
+            /** @default null */
+            diagnostics?: components["schemas"]["DiagnosticData"][] | null;
+            /** @default null */
+            texts?: {
+                [key: string]: string;
+            } | null;
+        };
+        /**
+         * DiagnosticData
+         * @description A problem: its name, as `skillc explain` knows it, where it is, and what to do about it.
+         */
+        DiagnosticData: {
+            column: number;
+            end_column: number;
+            end_line: number;
+            fix: components["schemas"]["FixData"] | null;
+            help: string;
+            labels: components["schemas"]["LabelData"][];
+            line: number;
+            message: string;
+            name: string;
+            path: string;
+            /** @enum {unknown} */
+            severity: "error" | "note" | "warning";
+        };
+        /**
+         * FixData
+         * @description An edit that removes the problem: `text` replaces the range; one that is not `safe` may change a meaning.
+         */
+        FixData: {
+            column: number;
+            end_column: number;
+            end_line: number;
+            line: number;
+            message: string;
+            path: string;
+            safe: boolean;
+            text: string;
+        };
+        /**
+         * LabelData
+         * @description Another place that a diagnostic is about.
+         */
+        LabelData: {
+            column: number;
+            end_column: number;
+            end_line: number;
+            line: number;
+            message: string;
+            path: string;
+        };
+        /**
+         * JobResult
+         * @description The result of the job with an id.
+         */
+        JobResult: {
+            job: string;
+            outcome: components["schemas"]["PlanResult"] | components["schemas"]["RunResult"] | components["schemas"]["TrialsResult"];
+        };
+        /**
+         * PlanResult
+         * @description The result of a plan.
+         */
+        PlanResult: {
+            /** @enum {unknown} */
+            kind: "plan";
+            plan: components["schemas"]["PlanPreview"];
+        };
+        /**
          * PlanPreview
          * @description The answer of the planners for the world after the write `sequence`; as `skillc plan` prints it in `text`.
          *
@@ -2632,106 +2881,13 @@ export interface components {
             harmless: boolean;
         };
         /**
-         * PlanRequest
-         * @description A task of the cell's library with arguments, or a goal as a condition or as PDDL, to plan for.
-         *
-         *         `prove` searches until the least work is proved; the search ends after `deadline_s` s. With `geometry` plans are
-         *         looked at in space, from where the arms are.
+         * RunResult
+         * @description The result of what was run in simulation: a rehearsal, a trial again, an operation for its report.
          */
-        PlanRequest: {
-            /** @default null */
-            task?: string | null;
-            /** @default null */
-            goal?: string | null;
-            /** @default {} */
-            arguments?: {
-                [key: string]: string;
-            };
-            /**
-             * @default work
-             * @enum {unknown}
-             */
-            minimise?: "makespan" | "work";
-            /** @default false */
-            prove?: boolean;
-            /** @default 30 */
-            deadline_s?: number;
-            /** @default true */
-            geometry?: boolean;
-        };
-        /**
-         * Rehearsal
-         * @description A rehearsal of a request in a twin of a cell, as the cell was when it was requested.
-         *
-         *         `result` is null until it has ended, and then if the request could not be carried out: `reason` says why. `film`
-         *         and `recording` are whether there is one.
-         */
-        Rehearsal: {
-            id: string;
-            cell: string;
-            request: components["schemas"]["RehearsalRequest"];
-            /**
-             * @default going on
-             * @enum {unknown}
-             */
-            state?: "ended" | "going on";
-            /** @default  */
-            reason?: string;
-            /** @default null */
-            result?: components["schemas"]["TaskResult"] | null;
-            /** @default false */
-            film?: boolean;
-            /** @default false */
-            recording?: boolean;
-        };
-        /**
-         * RehearsalRequest
-         * @description A task of the cell's library with arguments, a goal, or a call of a skill, to try in a simulated twin.
-         *
-         *         It is filmed with `film`, and recorded with `record`.
-         */
-        RehearsalRequest: {
-            /**
-             * @description The name of a task.
-             * @default null
-             */
-            task?: string | null;
-            /**
-             * @description The values of the task's parameters, as in a call, such as `lab:Tray-1` or `8 N`.
-             * @default {}
-             */
-            arguments?: {
-                [key: string]: string;
-            };
-            /**
-             * @description Instead of a task: plan for this goal, a condition, PDDL or JSON.
-             * @default null
-             */
-            goal?: string | null;
-            /**
-             * @description Instead of a task: call a skill, as in `Wipe(surface: lab:Table-1)`.
-             * @default null
-             */
-            call?: string | null;
-            /**
-             * @description Determines how the twin differs from what is known.
-             * @default 0
-             */
-            seed?: number;
-            /**
-             * @description Let the task fail if it has not ended after these seconds of the twin's time.
-             * @default 600
-             */
-            deadline_s?: number;
-            /**
-             * @description Look whether the arms can carry out a plan, before anything moves.
-             * @default true
-             */
-            geometry?: boolean;
-            /** @default false */
-            film?: boolean;
-            /** @default false */
-            record?: boolean;
+        RunResult: {
+            /** @enum {unknown} */
+            kind: "run";
+            run: components["schemas"]["TaskResult"];
         };
         /**
          * TaskResult
@@ -3066,150 +3222,13 @@ export interface components {
             source: components["schemas"]["Position"];
         };
         /**
-         * OperationReport
-         * @description The report of an operation. `result` is null until it is made, and then if it cannot be: `reason` says why.
-         *
-         *         `files` are the names of what can be read of it: the report, a film, figures and pictures.
+         * TrialsResult
+         * @description The result of trials: those that are done, judged.
          */
-        OperationReport: {
-            operation: string;
-            /**
-             * @default going on
-             * @enum {unknown}
-             */
-            state?: "ended" | "going on";
-            /** @default  */
-            reason?: string;
-            /** @default null */
-            result?: components["schemas"]["TaskResult"] | null;
-            /** @default [] */
-            files?: string[];
-        };
-        /**
-         * ReportRequest
-         * @description What a report has: without a `film` it is made in a fraction of the time.
-         */
-        ReportRequest: {
-            /** @default true */
-            film?: boolean;
-        };
-        /**
-         * LoginCode
-         * @description A code that a request may have in the place of a token, once, within 60 s.
-         */
-        LoginCode: {
-            code: string;
-        };
-        /**
-         * SessionInfo
-         * @description Who makes a request: the name of its token, and what it may do.
-         */
-        SessionInfo: {
-            name: string;
+        TrialsResult: {
             /** @enum {unknown} */
-            role: "admin" | "edit" | "operate" | "view";
-        };
-        /**
-         * SourceInfo
-         * @description A text of a library, by the path that places in events and diagnostics have; `editable` if it is its own.
-         */
-        SourceInfo: {
-            path: string;
-            editable: boolean;
-        };
-        /**
-         * SourceText
-         * @description A text; `hash` is that of the file, by which a change says what it is based on.
-         */
-        SourceText: {
-            path: string;
-            editable: boolean;
-            hash: string;
-            text: string;
-        };
-        /**
-         * SourceChange
-         * @description A new text, in the place of the one whose file has the hash `base_hash`.
-         */
-        SourceChange: {
-            text: string;
-            base_hash: string;
-        };
-        /**
-         * TokenInfo
-         * @description A token as it is listed, without its secret; `created_ns` is in ns since 1970-01-01 UTC.
-         */
-        TokenInfo: {
-            name: string;
-            /** @enum {unknown} */
-            role: "admin" | "edit" | "operate" | "view";
-            created_ns: number;
-            /** @default false */
-            agent?: boolean;
-        };
-        /**
-         * MadeToken
-         * @description A token that was made; `token` is shown this once.
-         */
-        MadeToken: {
-            name: string;
-            /** @enum {unknown} */
-            role: "admin" | "edit" | "operate" | "view";
-            token: string;
-        };
-        /**
-         * NewToken
-         * @description A token to be made. What an `agent` asks for waits for the approval of somebody else.
-         */
-        NewToken: {
-            name: string;
-            /** @enum {unknown} */
-            role: "admin" | "edit" | "operate" | "view";
-            /** @default false */
-            agent?: boolean;
-        };
-        /**
-         * TrialSeries
-         * @description Trials of a task from the scene of a cell: how many are `done`, and how many of these met all criteria.
-         *
-         *         `interrupted`: the server has ended before. `reason` is why no more were done.
-         */
-        TrialSeries: {
-            id: string;
-            cell: string;
-            request: components["schemas"]["TrialsRequest"];
-            /** @enum {unknown} */
-            state: "ended" | "going on" | "interrupted" | "waiting";
-            /** @default  */
-            reason?: string;
-            /** @default 0 */
-            done?: number;
-            /** @default 0 */
-            passed?: number;
-        };
-        /**
-         * TrialsRequest
-         * @description A task of the cell's library with arguments, to run `number` times from the cell's scene, with seeds from `seed`.
-         *
-         *         `disturb` is what disturbs each trial; one may take `deadline_s` s of wall time.
-         */
-        TrialsRequest: {
-            task: string;
-            /** @default {} */
-            arguments?: {
-                [key: string]: string;
-            };
-            /** @default 50 */
-            number?: number;
-            /** @default 0 */
-            seed?: number;
-            /**
-             * @default none
-             * @enum {unknown}
-             */
-            disturb?: "missing" | "none" | "obstacle" | "push" | "take";
-            /** @default 3600 */
-            deadline_s?: number;
+            kind: "trials";
+            series: components["schemas"]["Series"];
         };
         /**
          * Series
@@ -3412,23 +3431,93 @@ export interface components {
             missed_m: number | null;
         };
         /**
-         * TrialReplay
-         * @description A trial of a series that is run again. `recording` is whether it has one; `reason` is why it has no `result`.
+         * JobEvent
+         * @description A line of the log of a job: its state and how much was done at a time, in ns since 1970, and what happened.
+         *
+         *         `sequence` counts from 1.
          */
-        TrialReplay: {
-            series: string;
-            seed: number;
-            /**
-             * @default going on
-             * @enum {unknown}
-             */
-            state?: "ended" | "going on";
-            /** @default  */
-            reason?: string;
-            /** @default null */
-            result?: components["schemas"]["TaskResult"] | null;
+        JobEvent: {
+            sequence: number;
+            wall_time_ns: number;
+            /** @enum {unknown} */
+            state: "cancelled" | "ended" | "failed" | "interrupted" | "running" | "waiting";
+            done: number;
+            message: string;
+        };
+        /**
+         * LoginCode
+         * @description A code that a request may have in the place of a token, once, within 60 s.
+         */
+        LoginCode: {
+            code: string;
+        };
+        /**
+         * SessionInfo
+         * @description Who makes a request: the name of its token, and what it may do.
+         */
+        SessionInfo: {
+            name: string;
+            /** @enum {unknown} */
+            role: "admin" | "edit" | "operate" | "view";
+        };
+        /**
+         * SourceInfo
+         * @description A text of a library, by the path that places in events and diagnostics have; `editable` if it is its own.
+         */
+        SourceInfo: {
+            path: string;
+            editable: boolean;
+        };
+        /**
+         * SourceText
+         * @description A text; `hash` is that of the file, by which a change says what it is based on.
+         */
+        SourceText: {
+            path: string;
+            editable: boolean;
+            hash: string;
+            text: string;
+        };
+        /**
+         * SourceChange
+         * @description A new text, in the place of the one whose file has the hash `base_hash`.
+         */
+        SourceChange: {
+            text: string;
+            base_hash: string;
+        };
+        /**
+         * TokenInfo
+         * @description A token as it is listed, without its secret; `created_ns` is in ns since 1970-01-01 UTC.
+         */
+        TokenInfo: {
+            name: string;
+            /** @enum {unknown} */
+            role: "admin" | "edit" | "operate" | "view";
+            created_ns: number;
             /** @default false */
-            recording?: boolean;
+            agent?: boolean;
+        };
+        /**
+         * MadeToken
+         * @description A token that was made; `token` is shown this once.
+         */
+        MadeToken: {
+            name: string;
+            /** @enum {unknown} */
+            role: "admin" | "edit" | "operate" | "view";
+            token: string;
+        };
+        /**
+         * NewToken
+         * @description A token to be made. What an `agent` asks for waits for the approval of somebody else.
+         */
+        NewToken: {
+            name: string;
+            /** @enum {unknown} */
+            role: "admin" | "edit" | "operate" | "view";
+            /** @default false */
+            agent?: boolean;
         };
         /**
          * AuditEntry
@@ -3444,73 +3533,6 @@ export interface components {
             action: string;
             status: number;
             detail: string;
-        };
-        /**
-         * ProblemDetails
-         * @description Why a request was refused; nothing has changed. `detail` says what to do.
-         *
-         *         `type` is `about:blank`, and `title` the phrase of the status, unless there is more to know than the status.
-         *         `allowed` are the commands that the state of an operation allows. `diagnostics` are the errors of a goal, a call or
-         *         an argument, as of `skillc check --json`, and `texts` what they point into, by path; long texts are left out.
-         */
-        ProblemDetails: {
-            /** @default about:blank */
-            type?: string;
-            title: string;
-            status: number;
-            detail: string;
-            /** @default null */
-            allowed?: string[] | null;
-            /** @default null */
-            diagnostics?: components["schemas"]["DiagnosticData"][] | null;
-            /** @default null */
-            texts?: {
-                [key: string]: string;
-            } | null;
-        };
-        /**
-         * DiagnosticData
-         * @description A problem: its name, as `skillc explain` knows it, where it is, and what to do about it.
-         */
-        DiagnosticData: {
-            column: number;
-            end_column: number;
-            end_line: number;
-            fix: components["schemas"]["FixData"] | null;
-            help: string;
-            labels: components["schemas"]["LabelData"][];
-            line: number;
-            message: string;
-            name: string;
-            path: string;
-            /** @enum {unknown} */
-            severity: "error" | "note" | "warning";
-        };
-        /**
-         * FixData
-         * @description An edit that removes the problem: `text` replaces the range; one that is not `safe` may change a meaning.
-         */
-        FixData: {
-            column: number;
-            end_column: number;
-            end_line: number;
-            line: number;
-            message: string;
-            path: string;
-            safe: boolean;
-            text: string;
-        };
-        /**
-         * LabelData
-         * @description Another place that a diagnostic is about.
-         */
-        LabelData: {
-            column: number;
-            end_column: number;
-            end_line: number;
-            line: number;
-            message: string;
-            path: string;
         };
     };
     responses: never;

@@ -41,16 +41,15 @@ export type StatableTerm = Schemas["StatableTerm"];
 export type LibraryDescription = Schemas["LibraryDescription"];
 export type TaskDescription = Schemas["TaskDescription"];
 export type ParameterDescription = Schemas["ParameterDescription"];
-export type Rehearsal = Required<Schemas["Rehearsal"]>;
 export type ArrivedPlan = Schemas["ArrivedPlan"];
 export type DeviceStatus = Schemas["DeviceStatus"];
 export type Lease = Schemas["Lease"];
-export type TrialSeries = Required<Schemas["TrialSeries"]>;
+export type Job = Required<Schemas["Job"]>;
+export type JobRequest = Job["request"];
+export type JobEvent = Schemas["JobEvent"];
 export type TrialsRequest = Schemas["TrialsRequest"];
 export type Series = Required<Schemas["Series"]>;
 export type Spread = Required<Schemas["Spread"]>;
-export type TrialReplay = Required<Schemas["TrialReplay"]>;
-export type OperationReport = Schemas["OperationReport"];
 export type OperationTree = Schemas["OperationTree"];
 export type PlannedNode = Schemas["TreeNode"];
 export type RunExplanation = Schemas["RunExplanation"];
@@ -105,5 +104,8 @@ export interface Sample {
   forces?: Readonly<Record<string, ContactForce>>;
 }
 
-/** A message of the socket about cells and operations. */
-export type News = { type: "status"; status: CellStatus } | { type: "happened"; operation: OperationStatus };
+/** A message of the socket about cells, operations and jobs. */
+export type News =
+  | { type: "status"; status: CellStatus }
+  | { type: "happened"; operation: OperationStatus }
+  | { type: "job"; job: Job; removed: boolean };

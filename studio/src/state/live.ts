@@ -4,6 +4,7 @@ import { batch, computed, effect } from "@preact/signals";
 import { api, ApiError } from "../api/client";
 import { openStream } from "../api/stream";
 import type { Envelope, News, OperationStatus, Sample, WorldFact } from "../api/types";
+import { takeJob } from "./jobs";
 import { applyEvents, EMPTY } from "./operation";
 import * as studio from "./studio";
 
@@ -33,6 +34,8 @@ function takeNews(news: News): void {
   if (news.type === "status") {
     studio.cells.value = new Map(studio.cells.value).set(news.status.name, news.status);
     studio.cellName.value ??= news.status.name;
+  } else if (news.type === "job") {
+    takeJob(news.job, news.removed);
   } else {
     takeOperation(news.operation);
   }

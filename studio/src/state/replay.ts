@@ -1,9 +1,10 @@
 // Plays a recording: the same state as live, made of the events up to a time.
 import { batch, signal } from "@preact/signals";
 import { api, ApiError } from "../api/client";
-import type { Envelope, OperationTree } from "../api/types";
+import type { Envelope, Job, OperationTree } from "../api/types";
 import { Film, lastUpTo } from "../recording/film";
 import { readRecording } from "../recording/recording";
+import { RECORDING } from "./jobs";
 import { applyEvents, EMPTY, type OperationState } from "./operation";
 import { recorded } from "./signals";
 import * as studio from "./studio";
@@ -26,16 +27,10 @@ export async function replayOperation(id: string): Promise<void> {
   openRecording(id, await api.recording(id), await tree);
 }
 
-/** Read the recording of a rehearsal from the server, and play it from its beginning. */
-export async function replayRehearsal(id: string, name: string): Promise<void> {
-  openRecording(`rehearsal of ${name}`, await api.rehearsalRecording(id));
-  rehearsed.value = { film, operation: studio.operationId.peek() };
-  play(true);
-}
-
-/** Read the recording of a trial from the server, and play it from its beginning. */
-export async function replayTrial(series: string, seed: number, task: string): Promise<void> {
-  openRecording(`${task}, seed ${seed}`, await api.trialRecording(series, seed));
+/** Read the recording that a job has left, and play it from its beginning; what was rehearsed is planned. */
+export async function replayJob({ id, request }: Job, name: string): Promise<void> {
+  openRecording(name, await api.jobFile(id, RECORDING));
+  if (request.kind === "rehearsal") rehearsed.value = { film, operation: studio.operationId.peek() };
   play(true);
 }
 

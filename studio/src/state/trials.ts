@@ -1,18 +1,18 @@
-// Series of trials: those of the cell, one that is shown with its distributions, and a trial that is run again to be seen.
+// Trials: one series is shown with its distributions, and a trial that is run again to be seen.
 import { signal } from "@preact/signals";
 import { api, ApiError } from "../api/client";
-import type { Series, Spread, TrialSeries } from "../api/types";
+import type { Series, Spread } from "../api/types";
 import { attempt } from "./actions";
-import { replayTrial } from "./replay";
-import { cellName, message } from "./studio";
+import { jobsOf, RECORDING, runJob, type JobOf } from "./jobs";
+import { replayJob } from "./replay";
+import { message } from "./studio";
 
-export const allSeries = signal<readonly TrialSeries[] | null>(null);
+export type Trials = JobOf<"trials">;
+
 /** The series that is shown; `result` is null while it is read. */
-export const shownSeries = signal<{ about: TrialSeries; result: Series | null } | null>(null);
+export const shownSeries = signal<{ about: Trials; result: Series | null } | null>(null);
 /** The trial that is run again now. */
-export const replayed = signal<{ readonly series: string; readonly seed: number } | null>(null);
-
-const LOOK_MS = 1000;
+export const replayed = signal<{ readonly trials: string; readonly seed: number } | null>(null);
 
 /** What can disturb each trial of a series, as people say it. */
 export const DISTURBANCES = {
@@ -22,66 +22,44 @@ export const DISTURBANCES = {
   push: "a person pushes the arm",
   take: "a person takes what a hand holds",
 } as const;
-const TRIALS = 50;
-
-/** Return how many trials a series has when it is done. */
-export const wantedTrials = ({ request }: TrialSeries): number => request.number ?? TRIALS;
 
 /** Return what disturbs the trials of a series; nothing if nothing does. */
-export function describeDisturbance({ request: { disturb = "none" } }: TrialSeries): string {
+export function describeDisturbance({ request: { disturb = "none" } }: Trials): string {
   return disturb === "none" ? "" : DISTURBANCES[disturb];
 }
 
-export const goesOn = (series: TrialSeries): boolean =>
-  series.state === "waiting" || series.state === "going on";
-
-/** Read the series of a cell, again while one goes on; the function that is returned ends that. */
-export function followSeries(cell: string): () => void {
-  let timer = 0;
-  let isOver = false;
-  const look = async (): Promise<void> => {
-    try {
-      const found = await api.trials(cell);
-      if (isOver) return;
-      allSeries.value = found.reverse();
-      const about = found.find((each) => each.id === shownSeries.peek()?.about.id);
-      if (about !== undefined && about.done !== shownSeries.peek()?.about.done) await showSeries(about);
-    } catch (error) {
-      if (!(error instanceof ApiError)) throw error;
-    }
-    if (!isOver) timer = window.setTimeout(() => void look(), LOOK_MS);
-  };
-  void look();
-  return () => {
-    isOver = true;
-    window.clearTimeout(timer);
-  };
-}
-
 /** Show a series with the distributions of what was measured. */
-export async function showSeries(about: TrialSeries): Promise<void> {
+export async function showSeries(about: Trials): Promise<void> {
   const before = shownSeries.peek();
   shownSeries.value = { about, result: before?.about.id === about.id ? before.result : null };
   const done = await attempt(async () => {
-    const result = await api.trialsResult(about.id);
+    const { outcome } = await api.jobResult(about.id);
+    if (outcome.kind !== "trials") throw new ApiError(0, "These are no trials.");
+    const result = outcome.series as Series;
     if (shownSeries.peek()?.about.id === about.id) shownSeries.value = { about, result };
   });
   if (!done) shownSeries.value = before;
 }
 
-/** Run a trial again, and play it in all panels. */
-export async function playTrial(about: TrialSeries, seed: number): Promise<void> {
-  const own = { series: about.id, seed };
+/** Show more of the series that is shown, as soon as more trials are done. */
+export function followSeries(): void {
+  const shown = shownSeries.peek()?.about;
+  const now = shown && jobsOf("trials").find((each) => each.id === shown.id);
+  if (now !== undefined && (now.done !== shown?.done || now.state !== shown.state)) void showSeries(now);
+}
+
+/** Run a trial again, unless that was done before, and play it in all panels. */
+export async function playTrial(about: Trials, seed: number): Promise<void> {
+  const own = { trials: about.id, seed };
   replayed.value = own;
   const done = await attempt(async () => {
-    let found = await api.replayTrial(about.id, seed);
-    while (found.state === "going on") {
-      await new Promise((resolve) => window.setTimeout(resolve, LOOK_MS / 2));
-      if (replayed.peek() !== own) return;
-      found = await api.trialReplay(about.id, seed);
-    }
-    if (!found.recording) throw new ApiError(0, `Trial ${seed} was not recorded: ${found.reason}`);
-    await replayTrial(about.id, seed, about.request.task);
+    const before = jobsOf("trial-replay").find(
+      ({ request, files }) =>
+        request.trials === about.id && request.seed === seed && files.includes(RECORDING),
+    );
+    const job = before ?? (await runJob({ kind: "trial-replay", ...own }));
+    if (replayed.peek() !== own) return;
+    await replayJob(job, `${about.request.task}, seed ${seed}`);
     shownSeries.value = null;
   });
   if (replayed.peek() !== own) return;
@@ -90,10 +68,9 @@ export async function playTrial(about: TrialSeries, seed: number): Promise<void>
 }
 
 /** Remove a series; what it has measured is lost, so a person is asked before. */
-export async function removeSeries(about: TrialSeries): Promise<void> {
+export async function removeSeries(about: Trials): Promise<void> {
   await attempt(async () => {
-    await api.removeTrials(about.id);
-    allSeries.value = (allSeries.peek() ?? []).filter((each) => each.id !== about.id);
+    await api.removeJob(about.id);
     if (shownSeries.peek()?.about.id === about.id) shownSeries.value = null;
   });
 }
@@ -131,14 +108,4 @@ export function worstOf(spread: Spread): { seed: number; value: number } | null 
   const value = spread.sense === "at least" ? spread.least : spread.greatest;
   const seed = spread.seeds[spread.values.indexOf(value)];
   return seed === undefined ? null : { seed, value };
-}
-
-/** Begin a series in the cell that is shown, and list it. */
-export async function beginSeries(request: Parameters<typeof api.beginTrials>[1]): Promise<boolean> {
-  const cell = cellName.peek();
-  if (cell === null) return false;
-  return attempt(async () => {
-    const begun = await api.beginTrials(cell, request);
-    allSeries.value = [begun, ...(allSeries.peek() ?? [])];
-  });
 }

@@ -1,31 +1,32 @@
 // A rehearsal: the same in a simulated twin of the cell; what came of it is shown before anything real moves.
-import { useEffect, useState } from "preact/hooks";
-import { api, ApiError, type PlanWish } from "../api/client";
-import type { Rehearsal } from "../api/types";
+import { useState } from "preact/hooks";
+import { api, type PlanWish } from "../api/client";
+import type { Job } from "../api/types";
 import { attempt } from "../state/actions";
-import { replayRehearsal } from "../state/replay";
+import { RECORDING, runJob } from "../state/jobs";
+import { replayJob } from "../state/replay";
 import { cellName, may } from "../state/studio";
 import { describeFailure, formatTime } from "../state/text";
 import { RunBadge } from "./status";
 
-const LOOK_MS = 500;
+type Outcome = Awaited<ReturnType<typeof api.jobResult>>["outcome"];
+interface Rehearsal {
+  job: Job;
+  outcome: Outcome;
+}
 
 export function Rehearse({ request }: { request: PlanWish }) {
   const [rehearsal, setRehearsal] = useState<Rehearsal | null>(null);
-  const goesOn = rehearsal?.state === "going on";
-  useEffect(() => {
-    if (!goesOn) return;
-    const timer = window.setInterval(() => {
-      api.rehearsal(rehearsal.id).then(setRehearsal, (error: unknown) => {
-        if (!(error instanceof ApiError)) throw error;
-        setRehearsal({ ...rehearsal, state: "ended", reason: error.message });
-      });
-    }, LOOK_MS);
-    return () => window.clearInterval(timer);
-  }, [goesOn, rehearsal?.id]);
-  const begin = (): void => {
-    const name = cellName.value;
-    if (name !== null) void attempt(async () => setRehearsal(await api.rehearse(name, request)));
+  const [goesOn, setGoesOn] = useState(false);
+  const begin = async (): Promise<void> => {
+    const cell = cellName.value;
+    if (cell === null) return;
+    setGoesOn(true);
+    await attempt(async () => {
+      const job = await runJob({ kind: "rehearsal", cell, ...request, record: true });
+      setRehearsal({ job, outcome: (await api.jobResult(job.id)).outcome });
+    });
+    setGoesOn(false);
   };
   return (
     <>
@@ -36,7 +37,7 @@ export function Rehearse({ request }: { request: PlanWish }) {
             ? "Do it in a simulated twin of the cell first; nothing changes in the cell"
             : "This needs the role operate"
         }
-        onClick={begin}
+        onClick={() => void begin()}
       >
         {goesOn ? <span class="spinner" /> : null}
         Rehearse
@@ -46,9 +47,9 @@ export function Rehearse({ request }: { request: PlanWish }) {
   );
 }
 
-function Result({ rehearsal, name }: { rehearsal: Rehearsal; name: string }) {
-  const result = rehearsal.result;
-  if (result === null) return <p class="notice bad rehearsed">The rehearsal ended: {rehearsal.reason}</p>;
+function Result({ rehearsal: { job, outcome }, name }: { rehearsal: Rehearsal; name: string }) {
+  if (outcome.kind !== "run") return null;
+  const result = outcome.run;
   if (result.status === "refused")
     return <p class="notice bad rehearsed">{result.failure ?? "It was refused."}</p>;
   return (
@@ -56,10 +57,10 @@ function Result({ rehearsal, name }: { rehearsal: Rehearsal; name: string }) {
       <p class="row">
         Rehearsal: <RunBadge state={result.status} verified={result.verified} claims={result.false_claims} />
         {result.sim_time_s !== undefined && <span class="mono small">{formatTime(result.sim_time_s)}</span>}
-        {rehearsal.recording && (
+        {job.files.includes(RECORDING) && (
           <button
             title="See it in all panels, before anything moves in the cell"
-            onClick={() => void attempt(() => replayRehearsal(rehearsal.id, name))}
+            onClick={() => void attempt(() => replayJob(job, `rehearsal of ${name}`))}
           >
             Play it
           </button>

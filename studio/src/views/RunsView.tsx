@@ -7,7 +7,7 @@ import { attempt, showOperation } from "../state/actions";
 import { compareRuns } from "../state/comparison";
 import { hasWords, readOlder, searchHistory } from "../state/history";
 import { replayOperation } from "../state/replay";
-import { makeReport, reports } from "../state/reports";
+import { goesOn, jobsOf, REPORT, runJob } from "../state/jobs";
 import { cellName, ENDS, operationId, operations, replay, status } from "../state/studio";
 import { describeArguments, describeRequest } from "../state/text";
 import { openFile } from "./Dropping";
@@ -135,20 +135,21 @@ function Run({ run }: { run: OperationStatus }) {
 
 /** Has the report of a run made, and then leads to it. */
 function Report({ id }: { id: string }) {
-  const how = reports.value.get(id);
-  if (how === "made")
+  const job = jobsOf("report").find((each) => each.request.operation === id);
+  if (job?.state === "ended")
     return (
-      <a class="small" href={api.reportPage(id)} target="_blank" rel="noopener" ref={takeFocus}>
+      <a class="small" href={api.jobPage(job.id, REPORT)} target="_blank" rel="noopener" ref={takeFocus}>
         Open report
       </a>
     );
-  const isBusy = how === "making";
+  const isBusy = job !== undefined && goesOn(job);
+  const make = (): Promise<boolean> => attempt(() => runJob({ kind: "report", operation: id, film: false }));
   return (
     <button
       class="plain small"
       aria-disabled={isBusy}
       title="What was done, why and how well, as a page: it is made from the recording"
-      onClick={() => !isBusy && void makeReport(id)}
+      onClick={() => !isBusy && void make()}
     >
       {isBusy && <span class="spinner" />}
       {isBusy ? "It is made" : "Report"}

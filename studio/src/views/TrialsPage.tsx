@@ -1,24 +1,24 @@
 // A series of trials: how many passed, each measure as a distribution, and the worst case one click from its replay.
 import { useState } from "preact/hooks";
-import type { Series, Spread, TrialSeries } from "../api/types";
+import type { Series, Spread } from "../api/types";
+import { goesOn } from "../state/jobs";
 import { may } from "../state/studio";
 import { formatStart } from "../state/run_times";
 import { formatNumber } from "../state/text";
 import {
   describeDisturbance,
   dotsOf,
-  goesOn,
   playTrial,
   removeSeries,
   replayed,
   shownSeries,
-  wantedTrials,
   worstOf,
+  type Trials,
 } from "../state/trials";
 import { FullPage } from "./FullPage";
 
 interface Shown {
-  about: TrialSeries;
+  about: Trials;
   result: Series | null;
 }
 
@@ -81,7 +81,7 @@ function Legend({ spreads }: { spreads: Series["spreads"] }) {
   );
 }
 
-function Tools({ about }: { about: TrialSeries }) {
+function Tools({ about }: { about: Trials }) {
   const [isAsking, setIsAsking] = useState(false);
   if (isAsking)
     return (
@@ -106,7 +106,7 @@ function Tools({ about }: { about: TrialSeries }) {
 
 const takeKeyboard = (element: HTMLElement | null): void => element?.focus();
 
-function Summary({ about, result }: { about: TrialSeries; result: Series }) {
+function Summary({ about, result }: { about: Trials; result: Series }) {
   const percent = (share: number): string => `${Math.round(share * 100)} %`;
   const interval = result.pass_interval;
   return (
@@ -162,7 +162,7 @@ function Summary({ about, result }: { about: TrialSeries; result: Series }) {
 }
 
 /** What was run, when, and what disturbed it. */
-function About({ series }: { series: TrialSeries }) {
+function About({ series }: { series: Trials }) {
   const first = series.request.seed ?? 0;
   const given = Object.entries(series.request.arguments ?? {}).map(([name, value]) => `${name}: ${value}`);
   const disturbance = describeDisturbance(series);
@@ -171,21 +171,13 @@ function About({ series }: { series: TrialSeries }) {
       {given.length > 0 && <p class="mono wrap-anywhere">{given.join(", ")}</p>}
       {disturbance !== "" && <p>Disturbed: {disturbance}.</p>}
       <p class="small muted">
-        Begun {formatStart(series)}, seeds {first} to {first + wantedTrials(series) - 1}.
+        Begun {formatStart(series)}, seeds {first} to {first + series.wanted - 1}.
       </p>
     </div>
   );
 }
 
-function ReplayButton({
-  about,
-  seed,
-  label = "Replay",
-}: {
-  about: TrialSeries;
-  seed: number;
-  label?: string;
-}) {
+function ReplayButton({ about, seed, label = "Replay" }: { about: Trials; seed: number; label?: string }) {
   const isBusy = replayed.value?.seed === seed;
   return (
     <button
@@ -205,7 +197,7 @@ function ReplayButton({
 }
 
 interface DistributionProps {
-  about: TrialSeries;
+  about: Trials;
   spread: Spread;
   failed: ReadonlySet<number>;
 }

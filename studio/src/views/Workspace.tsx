@@ -21,8 +21,8 @@ import { SceneView } from "./SceneView";
 import { SignalsView } from "./SignalsView";
 import { SourceView } from "./SourceView";
 import { Splitter } from "./Splitter";
+import { JobsView } from "./JobsView";
 import { TrialsPage } from "./TrialsPage";
-import { TrialsView } from "./TrialsView";
 import { TopBar } from "./TopBar";
 import { TreePanel } from "./TreeView";
 import { WorldView } from "./WorldView";
@@ -117,7 +117,7 @@ function RunColumn() {
         tabs={[
           { id: "run", title: "Run", view: () => <RunPanel /> },
           { id: "runs", title: "Runs", view: () => <RunsView /> },
-          { id: "trials", title: "Trials", view: () => <TrialsView /> },
+          { id: "jobs", title: "Jobs", view: () => <JobsView /> },
         ]}
       />
     </div>

@@ -37,7 +37,7 @@ function read<T>(name: string, otherwise: T): T {
 
 export const sizes = kept<Sizes>("sizes", DEFAULT_SIZES);
 export const theme = kept<"system" | "light" | "dark">("theme", "system");
-export const runTab = signal<"run" | "runs" | "trials">("run");
+export const runTab = signal<"run" | "runs" | "jobs">("run");
 export const detailsTab = signal<"why" | "world" | "source" | "events">("why");
 export const signalsTab = kept<"signals" | "plan">("signalsTab", "signals");
 export const maximised = signal<PanelName | null>(null);

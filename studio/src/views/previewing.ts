@@ -1,8 +1,9 @@
 // Plans for what is chosen, before it is started; all panels see the plan.
 import { useEffect, useState } from "preact/hooks";
-import { api, ApiError, type PlanWish } from "../api/client";
+import { ApiError, type PlanWish } from "../api/client";
 import type { PlanPreview } from "../api/types";
 import { fixesFor, type GoalFix } from "../state/goal_fixes";
+import { previewPlan } from "../state/jobs";
 import { shownStep } from "../state/plan_step";
 import { cell, preview, worldSequence } from "../state/studio";
 
@@ -36,7 +37,7 @@ export function usePreview(request: PlanWish, isPlanned: boolean): Found {
     const ending = new AbortController();
     setFound(NOTHING);
     const ask = (): void => {
-      api.plan(name, request, ending.signal).then(
+      previewPlan(name, request, ending.signal).then(
         (preview) => isCurrent && setFound({ ...NOTHING, preview }),
         (error: unknown) => {
           if (!(error instanceof ApiError)) throw error;

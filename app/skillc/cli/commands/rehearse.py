@@ -9,6 +9,7 @@ Exit code 3 if the task does not succeed in the twin.
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 
 import click
 import msgspec
@@ -33,13 +34,13 @@ skillc rehearse --goal "lab:Bin-A contain lab:Part-1" --seed 3
 @struct_options(RehearsalRequest)
 @server_options
 @json_option
-def command(request: RehearsalRequest, cell: str | None, film_file: str | None, as_json: bool) -> int:
+def command(request: RehearsalRequest, film_file: str | None, as_json: bool) -> int:
     """Do TASK of the cell's library in a simulated twin of the cell, and print how it ends."""
     from skillc.cli.console import page_of, print_remark, print_result
     from skillc.cli.output.result import format_result
 
     with connect_server() as server:
-        done = server.cell(cell).rehearse(
+        result = server.cell(request.cell).rehearse(
             request.task,
             arguments=request.arguments,
             goal=request.goal,
@@ -48,12 +49,11 @@ def command(request: RehearsalRequest, cell: str | None, film_file: str | None, 
             deadline_s=request.deadline_s,
             film=film_file,
         )
-    result = done.result
-    assert result is not None, "a request that cannot be carried out is an error"
     if as_json:
         click.echo(msgspec.json.format(msgspec.json.encode(result)))
     else:
         print_result(format_result(result, page_of(sys.stdout)))
     if film_file is not None:
-        print_remark(f"the film is in {film_file}" if done.film else "there is no film: nothing has moved")
+        exists = Path(film_file).exists()
+        print_remark(f"the film is in {film_file}" if exists else "there is no film: nothing has moved")
     return 0 if result.is_sound else 3

@@ -18,15 +18,22 @@ from skillc.contract.cell import CellCheckpoint, CellStatus, CheckpointName, Dis
 from skillc.contract.commands import OperatorCommand
 from skillc.contract.device import DeviceStatus
 from skillc.contract.geometry import CellModel, Coverage, Poses
+from skillc.contract.job import (
+    FILE_TYPES,
+    Job,
+    JobChanged,
+    JobEvent,
+    JobEventPage,
+    JobPage,
+    JobRequest,
+    JobResult,
+)
 from skillc.contract.lease import Lease, LeaseRequest
 from skillc.contract.library import LibraryDescription, LibraryStatus
 from skillc.contract.messages import Happened, StatusChanged
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.contract.order import Order, OrderRequest
-from skillc.contract.plan import PlanPreview, PlanRequest
 from skillc.contract.queue import QueueOrder
-from skillc.contract.rehearsal import Rehearsal, RehearsalRequest
-from skillc.contract.report import REPORT_TYPES, OperationReport, ReportRequest
 from skillc.contract.runs.explanation import Question, RunExplanation
 from skillc.contract.runs.history import EventPage, EventsHello, HistoryPage
 from skillc.contract.runs.run_diff import OtherRun, RunDiff
@@ -35,7 +42,6 @@ from skillc.contract.runs.signals import SignalPage, SignalRows
 from skillc.contract.sample import Sample, SampleHello
 from skillc.contract.source import LanguageHello, SourceChange, SourceInfo, SourcePath, SourceText
 from skillc.contract.stopping import StopReason
-from skillc.contract.trials import Series, TrialReplay, TrialSeries, TrialsRequest
 from skillc.contract.world import (
     DocumentForm,
     FactPage,
@@ -59,7 +65,7 @@ UNAVAILABLE = (HTTPStatus.TOO_MANY_REQUESTS, HTTPStatus.SERVICE_UNAVAILABLE)
 """The statuses with which a cell that is busy or off refuses everything."""
 OF_CELLS = (NOT_FOUND, CONFLICT, *UNAVAILABLE)
 """Those with which a cell refuses what it is asked or told."""
-BINARY, VIDEO, METRICS = "application/octet-stream", "video/mp4", "text/plain"
+BINARY, METRICS = "application/octet-stream", "text/plain"
 
 LIST_CELLS = Endpoint(
     "list_cells", "GET", "/cells", "view", "List the cells", tuple[CellStatus, ...], call="cells",
@@ -267,56 +273,41 @@ LIST_ROBOTS = Endpoint(
     tuple[DeviceStatus, ...], refusals=OF_CELLS, call="robots",
 )
 
-PREVIEW_PLAN = Endpoint(
-    "preview_plan", "POST", "/cells/{cell}/plans", "view",
-    "Plan for a task or a goal as the world is now; nothing is done", PlanPreview, body=PlanRequest, refusals=OF_CELLS,
-    call=None,
+ADD_JOB = Endpoint(
+    "add_job", "POST", "/jobs", "view",
+    "Begin work for a cell: `plan`, `rehearsal`, `trials`, `trial-replay` or `report`; all but a plan need `operate`",
+    Job, body=JobRequest, status=HTTPStatus.CREATED, refusals=OF_CELLS, call=None,
 )
-
-REHEARSE = Endpoint(
-    "rehearse", "POST", "/cells/{cell}/rehearsals", "operate", "Try an operation in a simulated twin of a cell",
-    Rehearsal, body=RehearsalRequest, status=HTTPStatus.CREATED, refusals=(NOT_FOUND, *UNAVAILABLE), call=None,
+LIST_JOBS = Endpoint(
+    "list_jobs", "GET", "/jobs", "view", "List the jobs of all cells, or of one", tuple[Job, ...], query=JobPage,
+    refusals=(NOT_FOUND,), call="jobs",
 )
-LIST_REHEARSALS = Endpoint(
-    "list_rehearsals", "GET", "/cells/{cell}/rehearsals", "view", "List the rehearsals for a cell",
-    tuple[Rehearsal, ...], refusals=(NOT_FOUND,),
+SHOW_JOB = Endpoint("show_job", "GET", "/jobs/{job}", "view", "Show a job", Job, refusals=(NOT_FOUND,), call="job")
+SHOW_JOB_RESULT = Endpoint(
+    "show_job_result", "GET", "/jobs/{job}/result", "view", "Show what came of a job; of trials also while they go on",
+    JobResult, refusals=(NOT_FOUND, CONFLICT), call="job_result",
 )
-SHOW_REHEARSAL = Endpoint(
-    "show_rehearsal", "GET", "/rehearsals/{rehearsal}", "view", "Show a rehearsal, with its result once it has ended",
-    Rehearsal, refusals=(NOT_FOUND,), call=None,
+LIST_JOB_EVENTS = Endpoint(
+    "list_job_events", "GET", "/jobs/{job}/events", "view", "Read the log of a job, or wait for its next line",
+    tuple[JobEvent, ...], query=JobEventPage, refusals=(NOT_FOUND,), call="job_events",
 )
-REMOVE_REHEARSAL = Endpoint(
-    "remove_rehearsal", "DELETE", "/rehearsals/{rehearsal}", "operate", "End and forget a rehearsal", NoneType,
-    status=HTTPStatus.NO_CONTENT, refusals=(NOT_FOUND,), call=None,
+READ_JOB_FILE = Endpoint(
+    "read_job_file", "GET", "/jobs/{job}/files/{file}", "view",
+    "Read a file that a job has left: a recording, a film, a report, a picture", NoneType, refusals=(NOT_FOUND,),
+    media_types=tuple(FILE_TYPES.values()), call=None,
 )
-READ_FILM = Endpoint(
-    "read_film", "GET", "/rehearsals/{rehearsal}/film", "view", "Read the film of a rehearsal", NoneType,
-    refusals=(NOT_FOUND,), media_types=(VIDEO,), call=None,
+CANCEL_JOB = Endpoint(
+    "cancel_job", "POST", "/jobs/{job}/cancel", "view", "End a job that goes on; nothing happens to others", Job,
+    refusals=(NOT_FOUND,),
 )
-READ_REHEARSAL_RECORDING = Endpoint(
-    "read_rehearsal_recording", "GET", "/rehearsals/{rehearsal}/recording", "view",
-    "Read the recording of a rehearsal, an MCAP file", NoneType, refusals=(NOT_FOUND,), media_types=(BINARY,),
-    call=None,
+RESTART_JOB = Endpoint(
+    "restart_job", "POST", "/jobs/{job}/restart", "view",
+    "Begin a job again that failed, was cancelled or interrupted; trials go on with those that are missing", Job,
+    refusals=OF_CELLS,
 )
-
-MAKE_REPORT = Endpoint(
-    "make_report", "POST", "/operations/{operation}/report", "operate",
-    "Make the report of an operation that has ended, by running it again in simulation", OperationReport,
-    body=ReportRequest, needs_body=False, status=HTTPStatus.ACCEPTED, refusals=OF_CELLS, call=None,
-)
-SHOW_REPORT = Endpoint(
-    "show_report", "GET", "/operations/{operation}/report", "view",
-    "Show the report of an operation, with its result and the names of its files", OperationReport,
-    refusals=(NOT_FOUND,), call=None,
-)
-READ_REPORT_FILE = Endpoint(
-    "read_report_file", "GET", "/operations/{operation}/report/{file}", "view",
-    "Read a file of a report: the report itself, the film, a picture", NoneType, refusals=(NOT_FOUND,),
-    media_types=tuple(REPORT_TYPES.values()), call=None,
-)
-REMOVE_REPORT = Endpoint(
-    "remove_report", "DELETE", "/operations/{operation}/report", "operate", "End and forget a report", NoneType,
-    status=HTTPStatus.NO_CONTENT, refusals=(NOT_FOUND,), call=None,
+REMOVE_JOB = Endpoint(
+    "remove_job", "DELETE", "/jobs/{job}", "view", "End and forget a job, with its log, its result and its files",
+    NoneType, status=HTTPStatus.NO_CONTENT, refusals=(NOT_FOUND,),
 )
 
 MAKE_LOGIN_CODE = Endpoint(
@@ -362,42 +353,6 @@ REVOKE_TOKEN = Endpoint(
     refusals=(NOT_FOUND, CONFLICT),
 )
 
-RUN_TRIALS = Endpoint(
-    "run_trials", "POST", "/cells/{cell}/trials", "operate",
-    "Run a task many times in simulation, from the scene of a cell", TrialSeries, body=TrialsRequest,
-    status=HTTPStatus.ACCEPTED, refusals=(NOT_FOUND, *UNAVAILABLE), call=None,
-)
-LIST_TRIALS = Endpoint(
-    "list_trials", "GET", "/cells/{cell}/trials", "view", "List the series of trials for a cell",
-    tuple[TrialSeries, ...], refusals=(NOT_FOUND,),
-)
-SHOW_TRIALS = Endpoint(
-    "show_trials", "GET", "/trials/{series}", "view", "Show how far a series of trials is", TrialSeries,
-    refusals=(NOT_FOUND,),
-)
-JUDGE_TRIALS = Endpoint(
-    "judge_trials", "GET", "/trials/{series}/result", "view", "Judge the trials of a series that are done", Series,
-    refusals=(NOT_FOUND,),
-)
-REMOVE_TRIALS = Endpoint(
-    "remove_trials", "DELETE", "/trials/{series}", "operate", "End and forget a series of trials", NoneType,
-    status=HTTPStatus.NO_CONTENT, refusals=(NOT_FOUND,),
-)
-REPLAY_TRIAL = Endpoint(
-    "replay_trial", "POST", "/trials/{series}/replays/{seed}", "operate",
-    "Run a trial of a series again, and record it", TrialReplay, status=HTTPStatus.CREATED,
-    refusals=(NOT_FOUND, *UNAVAILABLE),
-)
-SHOW_REPLAY = Endpoint(
-    "show_replay", "GET", "/trials/{series}/replays/{seed}", "view", "Show how far a trial is that is run again",
-    TrialReplay, refusals=(NOT_FOUND,),
-)
-READ_REPLAY = Endpoint(
-    "read_replay", "GET", "/trials/{series}/replays/{seed}/recording", "view",
-    "Read the recording of a trial that was run again, an MCAP file", NoneType, refusals=(NOT_FOUND,),
-    media_types=(BINARY,), call=None,
-)
-
 LIST_AUDIT_ENTRIES = Endpoint(
     "list_audit_entries", "GET", "/audit", "admin",
     "Read the audit log: what was changed, by whom, and what was refused", tuple[AuditEntry, ...], query=AuditPage,
@@ -412,8 +367,9 @@ ENDPOINTS: tuple[Endpoint[Any], ...] = tuple(each for each in tuple(globals().va
 """All of them, in the order of this file."""
 
 STREAM_EVENTS = Stream(
-    "stream_events", "/events", "view", "Follow cells and operations, or the events of one operation without a gap",
-    EventsHello, list[Happened | StatusChanged] | list[Envelope],
+    "stream_events", "/events", "view",
+    "Follow cells, operations and jobs, or the events of one operation without a gap",
+    EventsHello, list[Happened | StatusChanged | JobChanged] | list[Envelope],
 )
 STREAM_SAMPLES = Stream(
     "stream_samples", "/samples", "view", "Follow what moves in a cell", SampleHello, Sample, binary=True,

@@ -13,12 +13,9 @@ from skillc.contract.cell import PaceSetting
 from skillc.contract.lease import LeaseRequest
 from skillc.contract.operation import OperationRequest
 from skillc.contract.order import OrderRequest
-from skillc.contract.plan import PlanRequest
 from skillc.contract.rehearsal import RehearsalRequest
-from skillc.contract.report import ReportRequest
 from skillc.contract.source import SourceChange
 from skillc.contract.stopping import StopReason
-from skillc.contract.trials import TrialsRequest
 from skillc.contract.world import WorldEdit, WorldPlacement, WorldQuery
 from skillc_runtime.devices.disturbances import Push
 
@@ -38,12 +35,9 @@ EXAMPLES: dict[str, msgspec.Struct] = {
     endpoints.QUERY_WORLD.name: WorldQuery("SELECT ?thing WHERE { lab:Table-1 skiros:contain ?thing }"),
     endpoints.EDIT_WORLD.name: WorldEdit(("lab:Table-1 wiping:isClean false",), "it was spilled on"),
     endpoints.PLACE_THING.name: WorldPlacement("lab:Table-1", (0.6, 0.0, 0.4, 1.0, 0.0, 0.0, 0.0), "it was moved"),
-    endpoints.PREVIEW_PLAN.name: PlanRequest(goal="wiping:isClean of lab:Table-1"),
-    endpoints.REHEARSE.name: RehearsalRequest(task=_TASK, arguments=_SURFACE),
-    endpoints.MAKE_REPORT.name: ReportRequest(film=False),
+    endpoints.ADD_JOB.name: RehearsalRequest(cell="cell", task=_TASK, arguments=_SURFACE),
     endpoints.CHANGE_LIBRARY_SOURCE.name: SourceChange("## Nothing yet.\n", 64 * "0"),
     endpoints.ADD_TOKEN.name: NewToken("line-3", "operate"),
-    endpoints.RUN_TRIALS.name: TrialsRequest(task=_TASK, arguments=_SURFACE, number=20),
 }
 OPERATION = "clean-20260131T120000Z-1f0c9a"
-PATH_EXAMPLES = {"cell": "cell", "operation": OPERATION, "file": "report.html", "library": "wiping", "seed": "1"}
+PATH_EXAMPLES = {"cell": "cell", "operation": OPERATION, "file": "report.html", "library": "wiping"}

@@ -12,6 +12,7 @@ import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from skillc.cells.database import DatabaseError
+from skillc.contract.job import JobChanged
 from skillc.contract.messages import Happened, StatusChanged
 from skillc.contract.runs.history import EventsHello
 from skillc.server.access.tokens import Client
@@ -88,6 +89,7 @@ class ClientSocket:
         for cell in self.server.cells.values():
             await self._send([StatusChanged(status=cell.status)])
             await self._send([Happened(operation=each) for each in cell.operations.values()])
+        await self._send([JobChanged(job=each) for each in self.server.jobs.store.list()])
         while True:
             await self._send(await self._wait(listener))
 
