@@ -3,37 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, field
 
-from skillc_compiler.checks import CheckMemo, run_checks
+from skillc_compiler.checks import run_checks
 from skillc_compiler.diagnostics.prefixes import with_prefix
 from skillc_compiler.diagnostics.suppressions import apply_suppressions
 from skillc_compiler.diagnostics.unknown_names import report_unknown_names
-from skillc_compiler.lower.memo import LowerMemo, PlanningMemo
 from skillc_compiler.program.marks import Marks, Need
 from skillc_compiler.program.typed import ParsedFile, Program
-from skillc_compiler.resolve.memo import ResolveMemo
 from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
-
-
-@dataclass
-class AnalysisMemo:
-    """What the last analysis of a library has found, by declaration; the next one reuses what has not changed.
-
-    An analysis with it has the same result as one without it, whatever was analysed before.
-    """
-
-    resolve: ResolveMemo = field(default_factory=ResolveMemo)
-    checks: CheckMemo = field(default_factory=CheckMemo)
-    lowered: LowerMemo = field(default_factory=LowerMemo)
-    planning: PlanningMemo = field(default_factory=PlanningMemo)
 
 
 def find_problems(
     files: Outcome[tuple[ParsedFile, ...]],
     program: Outcome[Program],
-    memo: AnalysisMemo | None = None,
+    memo: Memo | None = None,
     paths: Collection[str] | None = None,
 ) -> tuple[Diagnostic, ...]:
     """Check a program; return the diagnostics of all errors, and nothing that may only follow from them.
@@ -51,7 +36,7 @@ def find_problems(
         for problem in allowed
         if (problem.span.path, problem.span.line) not in lines and not marks.blames_broken(problem)
     ]
-    return (*known, *run_checks(program.value, known, resolving, memo.checks if memo else None, paths))
+    return (*known, *run_checks(program.value, known, resolving, memo, paths))
 
 
 def visible_diagnostics(problems: Sequence[Diagnostic], sources: Sequence[Source]) -> tuple[Diagnostic, ...]:

@@ -25,7 +25,7 @@ from skillc_compiler.analysis.initial_state import can_start, initial_state, req
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.paths import EndStates
 from skillc_compiler.analysis.proof import Prover
-from skillc_compiler.checks import CheckMemo, find_all, load_checks
+from skillc_compiler.checks import find_all, load_checks
 from skillc_compiler.lower.library import lower_program
 from skillc_compiler.program.marks import Marks, Need
 from skillc_compiler.program.typed import Implementation, Program, TypedNode, start_position
@@ -33,6 +33,7 @@ from skillc_compiler.program.walk import nodes_in
 from skillc_compiler.resolve.files import read_sources
 from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 from skillc_model import tree
 from skillc_model.conditions import Condition, Holds, Individual, Variable
@@ -88,7 +89,7 @@ def understood(text: str) -> Program:
 
 def is_sound(program: Program, implementation: Implementation, run: Exploration) -> bool:
     """Whether what is proved of an implementation is reported: there is no error in it nor in what it calls."""
-    found = find_all(program, CheckMemo())
+    found = find_all(program, Memo())
     below = (problem for one in load_checks() if one.NEEDS < Need.BODY for problem in found[one.__name__])
     marks = Marks(program, below)
     about = Diagnostic("a-claim", implementation.name_span, "something is proved")

@@ -10,10 +10,10 @@ from shipped import shelf, vocabulary
 
 from skillc_compiler.checks import load_checks
 from skillc_compiler.pipeline import analyse, compile, lower_and_report
-from skillc_compiler.problems import AnalysisMemo
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.edits import apply_fixes
 from skillc_dsl.parsing.parser import parse
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
 from skillc_rdf.vocabulary.load import load
@@ -30,7 +30,7 @@ def diagnostics_of(path: Path, text: str) -> list[Diagnostic]:
     return [d for d in outcome.diagnostics if d.span.path == path.name]
 
 
-def diagnostics_without_fixes(path: Path, text: str, memo: AnalysisMemo) -> list[Diagnostic]:
+def diagnostics_without_fixes(path: Path, text: str, memo: Memo) -> list[Diagnostic]:
     """Return the diagnostics in a text in place of a case, whatever their fixes cure."""
     sources = [Source(path.name, text)]
     program = analyse(sources, vocabulary_of(path), shelf(), "cases", parsed_by=parsed_once, memo=memo)
@@ -77,7 +77,7 @@ def test_every_check_has_a_case() -> None:
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
 def test_a_fix_cures_its_problem(path: Path) -> None:
     text = path.read_text()
-    told, memo = diagnostics_of(path, text), AnalysisMemo()
+    told, memo = diagnostics_of(path, text), Memo()
     for diagnostic in told:
         if diagnostic.fix is None:
             continue

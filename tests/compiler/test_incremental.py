@@ -14,10 +14,10 @@ import pytest
 from edit_sequences import STEPS, edited_libraries
 
 from skillc_compiler.ide.analysis import analyse
-from skillc_compiler.problems import AnalysisMemo
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.parsing.parser import parse
+from skillc_dsl.query import Memo
 from skillc_dsl.rendering import json
 from skillc_dsl.source import Source
 
@@ -33,7 +33,7 @@ def parsed(source: Source) -> Outcome[s.File]:
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(SEQUENCES))
 def test_an_incremental_analysis_equals_a_cold_one(seed: int) -> None:
-    memo = AnalysisMemo()
+    memo = Memo()
     for step, library in enumerate(edited_libraries(seed)):
         again, cold = analyse(library, parsed, memo).compiled, analyse(library).compiled
         assert again.diagnostics == cold.diagnostics, f"seed {seed}, step {step}"
@@ -50,7 +50,7 @@ def test_the_edits_of_a_sequence_change_what_is_found(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(max(1, SEQUENCES // 25)))
 def test_an_incremental_analysis_equals_that_of_a_fresh_process(seed: int) -> None:
-    memo = AnalysisMemo()
+    memo = Memo()
     for library in edited_libraries(seed):
         again = analyse(library, parsed, memo).compiled
     fresh = subprocess.run([sys.executable, __file__, str(seed)], capture_output=True, encoding="utf-8", check=True)

@@ -14,10 +14,11 @@ from single_edits import Edit, apply_edits, describe, edited_lines, independent_
 from test_libraries import LIBRARIES, text_of
 
 from skillc_compiler.ide.analysis import AnalysisInput, analyse
-from skillc_compiler.pipeline import AnalysisMemo, compile, find_problems, lower_and_report
+from skillc_compiler.pipeline import compile, find_problems, lower_and_report
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.edits import apply_fixes
 from skillc_dsl.parsing.reparse import ParseMemo
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 
 Origin: TypeAlias = Literal["shipped", "other"]
@@ -120,9 +121,9 @@ def _warned(sources: tuple[Source, ...]) -> frozenset[tuple[str, str]]:
 
 
 @cache
-def _memory(library: Sequence[Source]) -> tuple[ParseMemo, AnalysisMemo]:
+def _memory(library: Sequence[Source]) -> tuple[ParseMemo, Memo]:
     """Return what is kept from one analysis of a library to the next."""
-    return ParseMemo(), AnalysisMemo()
+    return ParseMemo(), Memo()
 
 
 def _errors(problems: Iterable[Diagnostic]) -> list[Diagnostic]:

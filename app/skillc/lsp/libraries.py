@@ -16,10 +16,10 @@ from skillc.lsp.scenes import SceneCache, find_problems
 from skillc.services.library.files import LibraryFiles, edition_of
 from skillc.services.library.libraries import load_vocabulary_with
 from skillc_compiler.ide.analysis import Analysis, AnalysisInput, analyse
-from skillc_compiler.problems import AnalysisMemo
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import normalise_text
 from skillc_dsl.parsing.reparse import ParseMemo
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 from skillc_rdf.vocabulary.conflicts import judge_conflicts
 
@@ -46,7 +46,7 @@ class Libraries:
     _uris: dict[Path, str] = field(default_factory=dict)
     _analyses: dict[Root, Analysis] = field(default_factory=dict)
     _parsers: dict[Root, ParseMemo] = field(default_factory=dict)
-    _memos: dict[Root, AnalysisMemo] = field(default_factory=dict)
+    _memos: dict[Root, Memo] = field(default_factory=dict)
     _sources: dict[Root, dict[str, Source]] = field(default_factory=dict)
     _vocabularies: dict[Root, tuple[Source, ...]] = field(default_factory=dict)
     _surroundings: dict[Root, Outcome[LibraryFiles]] = field(default_factory=dict)
@@ -176,7 +176,7 @@ class Libraries:
         around = self._around(root).value
         sources = dict(self._sources[root])
         library = AnalysisInput(around.name, sources, around.importable, terms, before, around.namespaces)
-        memo = self._memos.setdefault(root, AnalysisMemo())
+        memo = self._memos.setdefault(root, Memo())
         parse = self.parser(root)
         found = analyse(library, parse, memo)
         scenes = self._scene_cache.read(found.program, library.vocabulary, around, root.folder, self.buffers)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import islice
@@ -41,10 +41,10 @@ from skillc_compiler.analysis.scopes import leaked_scopes
 from skillc_compiler.analysis.summaries import WriteSummaries
 from skillc_compiler.analysis.verify_monitor import VerifyMonitor
 from skillc_compiler.program.called import called_by, may_run_one_that_runs_it, run_by
-from skillc_compiler.program.memo import Latest, Memo, Memos
 from skillc_compiler.program.typed import Implementation, Let, Program, Task, Test, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
+from skillc_dsl.query import Memo
 from skillc_rdf.vocabulary.types import Vocabulary
 
 F = TypeVar("F", bound=Finding)
@@ -63,31 +63,13 @@ Proofs: TypeAlias = Mapping[str, Proof]
 """The proof of each compound implementation, and of each task with a body, by its key."""
 
 
-@dataclass
-class ProofMemo(Memos):
-    """The proofs of the last analysis, of what they are, and what callers read of implementations."""
-
-    proofs: Memo[Proof] = field(default_factory=Memo)
-    primitives: Latest[CalledPrimitive] = field(default_factory=Latest)
-    interfaces: Latest[Interface] = field(default_factory=Latest)
-    proved: Latest[Proved] = field(default_factory=Latest)
-
-
-def prove(program: Program, memo: ProofMemo | None = None, paths: Collection[str] | None = None) -> Proofs:
-    """Return the proofs of a program, in the order of its declarations; with `paths`, only those in these files.
-
-    A proof in `memo` is reused if neither the body nor the interface of anything that it calls has changed.
-    """
-    memo = memo or ProofMemo()
-    memo.begin()
-    prover = Prover(program, memo)
-    implementations = [each for each in program.implementations if paths is None or each.span.path in paths]
-    tasks = [each for each in program.tasks if paths is None or each.span.path in paths]
-    for implementation in implementations:
+def prove(program: Program, prover: Prover) -> Proofs:
+    """Return the proofs of the bodies of a program, or of one file of it, in the order of its declarations."""
+    for implementation in program.implementations:
         prover.prove_implementation(implementation)
-    for task in tasks:
+    for task in program.tasks:
         prover.prove_task(task)
-    keys = (each.key for part in (implementations, tasks) for each in part)
+    keys = (each.key for part in (program.implementations, program.tasks) for each in part)
     return {key: prover.proofs[key] for key in keys if key in prover.proofs}
 
 
@@ -99,10 +81,13 @@ def findings_of(proofs: Proofs, kind: type[F]) -> Iterator[F]:
 
 @dataclass
 class Prover:
-    """Computes proofs on demand."""
+    """Computes the proofs of a whole program on demand.
+
+    A proof in the memo is reused if neither the body nor the interface of anything that it calls has changed.
+    """
 
     program: Program
-    memo: ProofMemo = field(default_factory=ProofMemo)
+    memo: Memo = field(default_factory=Memo)
     proofs: dict[str, Proof] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -130,7 +115,7 @@ class Prover:
     def _interface(self, of: Implementation, body: TypedNode) -> Interface:
         """Return what callers read of an implementation: the same object as in the analysis before if it is equal."""
         if of.key not in self._interfaces:
-            self._interfaces[of.key] = self.memo.interfaces.same(of.key, self._find_interface(of, body))
+            self._interfaces[of.key] = self.memo.same("interface", of.key, self._find_interface(of, body))
         return self._interfaces[of.key]
 
     def _find_interface(self, of: Implementation, body: TypedNode) -> Interface:
@@ -144,7 +129,7 @@ class Prover:
     def _read_by_callers(self, of: Implementation) -> Interface | CalledPrimitive:
         if isinstance(of.body, TypedNode):
             return self._interface(of, of.body)
-        return self.memo.primitives.same(of.key, CalledPrimitive(of))
+        return self.memo.same("primitive", of.key, CalledPrimitive(of))
 
     def _prove_task(self, task: Task, body: TypedNode) -> Proof:
         run = self.new_exploration(task, body)
@@ -160,8 +145,8 @@ class Prover:
             return compute()
         called = (self._read_by_callers(one) for one in called_by(self.program, of) if one.key != of.key)
         follows = run_by(self.program, of) if isinstance(of, Implementation) and of.verify else ()
-        kept = self.memo.proved.same(of.key, Proved(of))
-        proof = self.memo.proofs.recall((kept, self.program.vocabulary, *called, *follows), compute)
+        kept = self.memo.same("proved", of.key, Proved(of))
+        proof = self.memo.ask("proof", (kept, self.program.vocabulary, *called, *follows), compute)
         return proof if proof.of is of else structs.replace(proof, of=of)
 
     def new_exploration(self, of: Implementation | Task, body: TypedNode) -> Exploration:

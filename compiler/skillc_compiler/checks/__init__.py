@@ -8,20 +8,20 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cache, partial
 from importlib import import_module
 from pkgutil import iter_modules
 from typing import Any, Protocol, TypeAlias, cast
 
-from skillc_compiler.analysis.proof import ProofMemo, prove
+from skillc_compiler.analysis.proof import Prover, prove
 from skillc_compiler.program.causes import group_by_cause
 from skillc_compiler.program.marks import Marks, Need
-from skillc_compiler.program.memo import Memo
-from skillc_compiler.program.parts import Part, Reads, families_of, only_in, resolved_parts, written_parts
+from skillc_compiler.program.parts import Part, Reads, families_of, resolved_parts, split_by_file, written_parts
+from skillc_compiler.program.slices import digest_reads
 from skillc_compiler.program.typed import Program
 from skillc_compiler.python.targets import NamedPython, Targets
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.query import Memo
 
 FoundBy: TypeAlias = Mapping[str, Sequence[Diagnostic]]
 """The problems that each check has found, by the name of its module."""
@@ -43,32 +43,6 @@ class CheckModule(Protocol):
         ...
 
 
-class FileFindings(Protocol):
-    """What checks have found in files, where everything that they read for it is the same."""
-
-    def look_up(self, program: Program) -> Mapping[str, FoundBy]:
-        """Return what is known of the files of a program, by path."""
-        ...
-
-    def keep(self, found: Mapping[str, FoundBy]) -> None:
-        """Keep what was found in the files of the program that was looked up last."""
-        ...
-
-
-@dataclass
-class CheckMemo:
-    """What the checks have found in the declarations and families of the last analysis, and the proofs of its bodies.
-
-    `files` knows what others have found in whole files.
-    """
-
-    parts: Memo[FoundBy] = field(default_factory=Memo)
-    families: Memo[FoundBy] = field(default_factory=Memo)
-    proofs: ProofMemo = field(default_factory=ProofMemo)
-    targets: Targets = field(default_factory=Targets)
-    files: FileFindings | None = None
-
-
 @cache
 def load_checks() -> tuple[CheckModule, ...]:
     """Return all checks, in order of their file names."""
@@ -76,23 +50,17 @@ def load_checks() -> tuple[CheckModule, ...]:
     return tuple(cast(CheckModule, import_module(f"{__name__}.{name}")) for name in names)
 
 
-def find_all(program: Program, memo: CheckMemo, paths: Collection[str] | None = None) -> FoundBy:
+def find_all(program: Program, memo: Memo, paths: Collection[str] | None = None) -> FoundBy:
     """Return what each check finds; a declaration is checked again only if what its checks read has changed.
 
     With `paths`, only the declarations in these files are complete, and only these are checked.
     """
-    chosen = [path for path in _paths(program) if paths is None or path in paths]
-    known = memo.files.look_up(program) if memo.files else {}
-    in_files = {**known, **_find_in_files(program, memo, [path for path in chosen if path not in known])}
-    if memo.files:
-        memo.files.keep(in_files)
     found: dict[str, list[Diagnostic]] = {check.__name__: [] for check in load_checks()}
-    for path in chosen:
-        for name, problems in in_files[path].items():
+    for in_file in _find_in_files(program, memo, paths):
+        for name, problems in in_file.items():
             found[name] += problems
-    memo.families.begin()
     for part in families_of(program, paths):
-        for name, problems in memo.families.recall(part.of, partial(_check_part, part, Reads.FAMILY)).items():
+        for name, problems in memo.ask("family", part.of, partial(_check_part, part, Reads.FAMILY)).items():
             found[name] += (each for each in problems if paths is None or each.span.path in paths)
     for check in load_checks():
         if check.READS is Reads.NEIGHBOURS:
@@ -102,27 +70,28 @@ def find_all(program: Program, memo: CheckMemo, paths: Collection[str] | None = 
     return found
 
 
-def _find_in_files(program: Program, memo: CheckMemo, paths: Collection[str]) -> Mapping[str, FoundBy]:
-    """Return what the checks of declarations, of Python and of proofs find in some files, by path."""
-    found: dict[str, dict[str, list[Diagnostic]]] = {path: defaultdict(list) for path in paths}
-    memo.parts.begin()
-    for reads, parts in ((Reads.WRITTEN, written_parts), (Reads.DECLARATION, resolved_parts)):
-        for part in parts(program, paths):
-            for name, problems in memo.parts.recall(part.of, partial(_check_part, part, reads)).items():
-                found[part.path][name] += problems
-    memo.targets.refresh()
-    proofs, chosen = prove(program, memo.proofs, paths), NamedPython(only_in(program, paths), memo.targets)
+def _find_in_files(program: Program, memo: Memo, paths: Collection[str] | None) -> Iterator[FoundBy]:
+    """Yield what the checks of declarations, of Python and of proofs find in each file, or in each of some."""
+    prover, targets = Prover(program, memo), memo.ask("targets", (), Targets)
+    targets.refresh()
+    read = digest_reads(program, memo) if memo.store is not None else {}
+    for path, one in split_by_file(program).items():
+        find = partial(_find_in_file, one, memo, prover, targets)
+        if paths is None or path in paths:
+            yield memo.recall("findings", (memo.around, read[path]), find) if path in read else find()
+
+
+def _find_in_file(one: Program, memo: Memo, prover: Prover, targets: Targets) -> FoundBy:
+    found: dict[str, list[Diagnostic]] = defaultdict(list)
+    for reads, parts in ((Reads.WRITTEN, written_parts(one)), (Reads.DECLARATION, resolved_parts(one))):
+        for part in parts:
+            for name, problems in memo.ask("declaration checks", part.of, partial(_check_part, part, reads)).items():
+                found[name] += problems
+    proofs, python = prove(one, prover), NamedPython(one, targets)
     for check in load_checks():
         if check.READS in (Reads.PROOFS, Reads.PYTHON):
-            for problem in check.check(proofs if check.READS is Reads.PROOFS else chosen):
-                found[problem.span.path][check.__name__].append(problem)
-    return {path: {name: tuple(problems) for name, problems in each.items()} for path, each in found.items()}
-
-
-def _paths(program: Program) -> Iterable[str]:
-    """Return the paths of all files, and of what is in no file."""
-    spans = (each.span for part in (program.skills.values(), program.implementations, program.tasks) for each in part)
-    return dict.fromkeys((*(unit.file.path for unit in program.files), *(span.path for span in spans)))
+            found[check.__name__] += check.check(proofs if check.READS is Reads.PROOFS else python)
+    return {name: tuple(problems) for name, problems in found.items() if problems}
 
 
 def _check_part(part: Part, reads: Reads) -> FoundBy:
@@ -136,7 +105,7 @@ def run_checks(
     program: Program,
     errors: Iterable[Diagnostic],
     resolving: Sequence[Diagnostic] = (),
-    memo: CheckMemo | None = None,
+    memo: Memo | None = None,
     paths: Collection[str] | None = None,
 ) -> Iterator[Diagnostic]:
     """Yield the problems that any check finds and that are independent of known errors, together with `resolving`.
@@ -144,7 +113,7 @@ def run_checks(
     Checks that need least come first; what they find is known to the others. `resolving` are problems with names and
     types that were found before. With `paths`, only the declarations in these files are checked.
     """
-    everything = find_all(program, memo or CheckMemo(), paths)
+    everything = find_all(program, memo or Memo(), paths)
     marks = Marks(program, (*errors, *resolving))
     for need in Need:
         checks = [one for one in load_checks() if need == one.NEEDS]

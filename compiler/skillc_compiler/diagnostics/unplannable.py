@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator
 from functools import partial
 
 from skillc_compiler.checks.planning import UNPLANNABLE, check_skill
-from skillc_compiler.lower.memo import PlanningMemo
 from skillc_compiler.program import typed
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.query import Memo
 from skillc_model.pddl.devices import passed_on
 from skillc_model.pddl.domain import Excluded
 from skillc_model.pddl.planning import make_planning_domain
@@ -19,7 +19,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 
 
 def report_unplannable(
-    library: SkillLibrary, program: Program, problems: Iterable[Diagnostic], memo: PlanningMemo | None = None
+    library: SkillLibrary, program: Program, problems: Iterable[Diagnostic], memo: Memo | None = None
 ) -> Iterator[Diagnostic]:
     """Yield a warning for each skill that no plan can contain, unless its description alone already shows why.
 
@@ -33,15 +33,19 @@ def report_unplannable(
             yield _problem(skill, excluded)
 
 
-def _find_excluded(library: SkillLibrary, memo: PlanningMemo) -> tuple[Excluded, ...]:
+def _find_excluded(library: SkillLibrary, memo: Memo) -> tuple[Excluded, ...]:
     """Return the skills that planners leave out: the same as in the analysis before if they read the same."""
-    memo.begin()
+    read = read_views(library, memo), library.vocabulary
+    return memo.ask("unplannable", read, lambda: make_planning_domain(library).excluded)
+
+
+def read_views(library: SkillLibrary, memo: Memo) -> tuple[object, ...]:
+    """Return what planners, and checks of scenes, read of all skills besides bodies: the same object if it is equal."""
     views = (
-        memo.views.recall((skill, *library.implementations_of(name)), partial(_view, library, skill))
+        memo.ask("planning view", (skill, *library.implementations_of(name)), partial(_view, library, skill))
         for name, skill in library.skills.items()
     )
-    read = memo.read.same("", tuple(views))
-    return memo.excluded.recall((read, library.vocabulary), lambda: make_planning_domain(library).excluded)
+    return memo.same("planning views", library.name, tuple(views))
 
 
 def _view(library: SkillLibrary, skill: Skill) -> tuple[object, ...]:

@@ -10,7 +10,7 @@ from skillc_compiler.diagnostics.fixes import keep_useful_fixes
 from skillc_compiler.ide.index import Index, build_index
 from skillc_compiler.ide.visible import VisibleNames, find_visible
 from skillc_compiler.pipeline import NO_SCENES, lower_and_report
-from skillc_compiler.problems import AnalysisMemo, find_problems
+from skillc_compiler.problems import find_problems
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.program.types import Type
 from skillc_compiler.program.walk import all_values
@@ -20,6 +20,7 @@ from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source, Span
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -49,7 +50,7 @@ class Analysis:
     files: Outcome[tuple[ParsedFile, ...]]
     resolved: Outcome[Program]
     parsed_by: Parser = parse
-    memo: AnalysisMemo | None = None
+    memo: Memo | None = None
 
     @property
     def program(self) -> Program:
@@ -111,15 +112,15 @@ class Analysis:
         return " ".join(line.strip() for line in lines)
 
 
-def analyse(library: AnalysisInput, parsed_by: Parser = parse, memo: AnalysisMemo | None = None) -> Analysis:
+def analyse(library: AnalysisInput, parsed_by: Parser = parse, memo: Memo | None = None) -> Analysis:
     """Parse and resolve a library; `parsed_by` is the parser, which may cache its results.
 
     `memo` has the analysis before, of which everything is reused that has not changed.
     """
     with gc_disabled():
         files = read_sources(_ordered(library), library.importable, library.name, parsed_by, library.namespaces)
-        known, others = memo.resolve if memo else None, library.importable
-        program = resolve_program(files.value, library.vocabulary, library.name, library.scenes, known, others)
+        others = library.importable
+        program = resolve_program(files.value, library.vocabulary, library.name, library.scenes, memo, others)
     return Analysis(library, files, program, parsed_by, memo)
 
 

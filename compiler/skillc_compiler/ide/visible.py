@@ -6,7 +6,6 @@ from collections.abc import Collection, Mapping
 
 import msgspec
 
-from skillc_compiler.program.memo import Memo
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.resolve.declarations import (
     Bare,
@@ -17,6 +16,7 @@ from skillc_compiler.resolve.declarations import (
     prefixes_in,
 )
 from skillc_compiler.resolve.names import Kind
+from skillc_dsl.query import Memo
 from skillc_rdf.vocabulary.types import Vocabulary
 
 

@@ -11,23 +11,22 @@ import msgspec
 
 from skillc_compiler.logic.selection import rank_implementations
 from skillc_compiler.lower import declarations as flattening
-from skillc_compiler.lower.memo import LowerMemo
 from skillc_compiler.program.spans import SpanIndex
-from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Test, TypedNode
+from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Task, Test, TypedNode
 from skillc_compiler.program.walk import calls_in
 from skillc_compiler.resolve.declarations import used_vocabularies
 from skillc_compiler.resolve.files import library_namespace
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.query import Memo
 from skillc_model import skills as library
 from skillc_model.pddl.constants import mentions_of
 from skillc_model.pddl.names import assign_names
 from skillc_model.skills import SkillLibrary
 
 
-def lower_program(program: Program, problems: Sequence[Diagnostic], memo: LowerMemo | None = None) -> SkillLibrary:
+def lower_program(program: Program, problems: Sequence[Diagnostic], memo: Memo | None = None) -> SkillLibrary:
     """Return the library of all declarations without errors that call only such skills."""
-    memo = memo or LowerMemo()
-    memo.begin()
+    memo = memo or Memo()
     errors = SpanIndex(problem.span for problem in problems if problem.severity == "error")
     skills = {name: s for name, s in sorted(program.skills.items()) if not errors.any_on_lines_of(s.span)}
     sound = [i for i in program.implementations if i.body is not None and not errors.any_on_lines_of(i.span)]
@@ -48,13 +47,14 @@ def lower_program(program: Program, problems: Sequence[Diagnostic], memo: LowerM
         hash=_hash(program.files),
         vocabulary=program.vocabulary,
         skills={
-            name: memo.skills.recall((s, *order[name]), partial(_skill, s, order[name])) for name, s in skills.items()
+            name: memo.ask("lowered skill", (s, *order[name]), partial(_skill, s, order[name]))
+            for name, s in skills.items()
         },
         implementations={
-            i.key: memo.implementations.recall((i,), partial(_implementation, i))
+            i.key: memo.ask("lowered implementation", (i,), partial(_implementation, i))
             for i in sorted(kept, key=lambda i: i.key)
         },
-        tasks={each.name: flattening.lower_task(each) for each in tasks if not isinstance(each, Test)},
+        tasks={t.name: memo.ask("lowered task", (t,), partial(_task, t)) for t in tasks if not isinstance(t, Test)},
         tests={each.name: flattening.lower_test(each) for each in tasks if isinstance(each, Test)},
     )
     return msgspec.structs.replace(unnamed, names=_assign_names(unnamed, memo))
@@ -69,17 +69,19 @@ def _uses(program: Program) -> tuple[str, ...]:
     )
 
 
-def _assign_names(unnamed: SkillLibrary, memo: LowerMemo) -> dict[str, str]:
+def _assign_names(unnamed: SkillLibrary, memo: Memo) -> dict[str, str]:
     """Return the names for planners: those of the analysis before if the same things need names."""
     vocabulary = unnamed.vocabulary
     named = (
-        memo.individuals.recall(
-            (skill, *unnamed.implementations_of(name), vocabulary), partial(_individuals_in, unnamed, skill)
+        memo.ask(
+            "named individuals",
+            (skill, *unnamed.implementations_of(name), vocabulary),
+            partial(_individuals_in, unnamed, skill),
         )
         for name, skill in unnamed.skills.items()
     )
-    needed = memo.named.same("", (tuple(unnamed.skills), frozenset[str]().union(*named)))
-    return memo.names.recall((needed, vocabulary), partial(assign_names, unnamed))
+    needed = memo.same("named individuals", "", (tuple(unnamed.skills), frozenset[str]().union(*named)))
+    return memo.ask("planning names", (needed, vocabulary), partial(assign_names, unnamed))
 
 
 def _individuals_in(of: SkillLibrary, skill: library.Skill) -> frozenset[str]:
@@ -100,6 +102,10 @@ def _skill(typed: Skill, order: Sequence[Implementation]) -> library.Skill:
 def _implementation(typed: Implementation) -> library.Implementation:
     assert typed.body is not None
     return flattening.lower_implementation(typed, typed.body)
+
+
+def _task(typed: Task) -> library.Task:
+    return flattening.lower_task(typed)
 
 
 def _calls_known(body: object, skills: Iterable[str]) -> bool:

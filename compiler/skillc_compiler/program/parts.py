@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from enum import Enum, auto
 from functools import partial
+from typing import TypeVar
 
 import msgspec
 from msgspec import structs
@@ -13,6 +15,8 @@ from msgspec import structs
 from skillc_compiler.program.called import called_by
 from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Task
 from skillc_dsl import syntax as s
+
+Declared = TypeVar("Declared", Skill, Implementation, Task)
 
 
 class Reads(Enum):
@@ -35,25 +39,24 @@ class Reads(Enum):
 
 
 class Part(msgspec.Struct, frozen=True):
-    """A declaration in the file `path`, as written or resolved, and a program of it alone; it depends on `of` only."""
+    """A declaration as written or resolved, and a program of it alone, which depends on `of` only."""
 
-    path: str
     of: tuple[object, ...]
     program: Callable[[], Program]
 
 
-def resolved_parts(program: Program, paths: Collection[str] | None = None) -> Iterator[Part]:
-    """Yield every declaration of a program as it is resolved; with `paths`, only those in these files."""
+def resolved_parts(program: Program) -> Iterator[Part]:
+    """Yield every declaration of a program as it is resolved."""
     resolved: list[Skill | Implementation | Task] = [*program.skills.values(), *program.implementations, *program.tasks]
-    for each in (one for one in resolved if paths is None or one.span.path in paths):
-        yield Part(each.span.path, (each, program.vocabulary), partial(_alone, program, each))
+    for each in resolved:
+        yield Part((each, program.vocabulary), partial(_alone, program, each))
 
 
-def written_parts(program: Program, paths: Collection[str] | None = None) -> Iterator[Part]:
-    """Yield every declaration of a program as it is written; with `paths`, only those in these files."""
-    for unit in (one for one in program.files if paths is None or one.file.path in paths):
+def written_parts(program: Program) -> Iterator[Part]:
+    """Yield every declaration of a program as it is written."""
+    for unit in program.files:
         for declaration in unit.file.declarations:
-            yield Part(unit.file.path, (declaration,), partial(_written_alone, program, unit, declaration))
+            yield Part((declaration,), partial(_written_alone, program, unit, declaration))
 
 
 def families_of(program: Program, paths: Collection[str] | None = None) -> Iterator[Part]:
@@ -78,18 +81,31 @@ def _family(program: Program, head: Skill | Task, bodies: Sequence[Implementatio
     def family() -> Program:
         return replace(_alone(program, head), implementations=implementations, neighbours=neighbours)
 
-    return Part(head.span.path, (head, *implementations, *neighbours, program.vocabulary), family)
+    return Part((head, *implementations, *neighbours, program.vocabulary), family)
 
 
-def only_in(program: Program, paths: Collection[str]) -> Program:
-    """Return a program with the declarations in some files only."""
-    return replace(
-        program,
-        files=tuple(unit for unit in program.files if unit.file.path in paths),
-        skills={name: each for name, each in program.skills.items() if each.span.path in paths},
-        implementations=tuple(each for each in program.implementations if each.span.path in paths),
-        tasks=tuple(each for each in program.tasks if each.span.path in paths),
-    )
+def split_by_file(program: Program) -> dict[str, Program]:
+    """Return, by path, a program with the declarations of one file only."""
+    files = {unit.file.path: unit for unit in program.files}
+    skills, implementations = _by_path(program.skills.values()), _by_path(program.implementations)
+    tasks = _by_path(program.tasks)
+    return {
+        path: replace(
+            program,
+            files=(files[path],) if path in files else (),
+            skills={each.name: each for each in skills[path]},
+            implementations=tuple(implementations[path]),
+            tasks=tuple(tasks[path]),
+        )
+        for path in dict.fromkeys((*files, *skills, *implementations, *tasks))
+    }
+
+
+def _by_path(declared: Iterable[Declared]) -> defaultdict[str, list[Declared]]:
+    found = defaultdict[str, list[Declared]](list)
+    for each in declared:
+        found[each.span.path].append(each)
+    return found
 
 
 def _alone(program: Program, each: Skill | Implementation | Task) -> Program:

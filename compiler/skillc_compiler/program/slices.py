@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TypeAlias
 
-from skillc_compiler.program.outlines import DeclarationOutline, FileOutline
+from skillc_compiler.program.outlines import DeclarationOutline, FileOutline, outline_of
+from skillc_compiler.program.typed import Program
+from skillc_dsl import syntax as s
+from skillc_dsl.query import Memo
 
 Outlines: TypeAlias = Mapping[str, FileOutline]
 """The outlines of files, by path."""
@@ -97,6 +101,40 @@ class Dependencies:
             for declared in each.declared:
                 found[declared.skill].add(path)
         return found
+
+
+def digest_reads(program: Program, memo: Memo) -> dict[str, str]:
+    """Return, by path, the digest of all texts that the checks of a file read.
+
+    Files for which something is read that is not clear are left out.
+    """
+    declared = (each for unit in program.files for each in unit.file.declarations)
+    functions = [each.name.text for each in declared if isinstance(each, s.FunctionDeclaration)]
+    if program.lost.twice or len(functions) > len(set(functions)):
+        return {}  # of what is declared twice only one counts
+    unclear = {each.written.span.path for each in program.unknown}
+    unclear |= {unit.file.path for unit in program.files if unit.file.errors}
+    texts = {
+        unit.file.path: f"{unit.file.path} {len(unit.file.declarations)} {digest_text(unit.text)}"
+        for unit in program.files
+    }
+    dependencies = Dependencies(outlines_of(program, memo))
+    needed = ((path, dependencies.needed((path,))) for path in texts)
+    return {
+        path: digest_text("\n".join((path, *(texts[each] for each in sorted(read)))))
+        for path, read in needed
+        if read.isdisjoint(unclear)
+    }
+
+
+def outlines_of(program: Program, memo: Memo) -> dict[str, FileOutline]:
+    """Return the outlines of all files of a program, by path."""
+    return {each.file.path: memo.ask("outline", (each,), partial(outline_of, each)) for each in program.files}
+
+
+def digest_text(text: str) -> str:
+    """Return the digest of a text."""
+    return hashlib.sha256(text.encode("utf-8", "surrogateescape")).hexdigest()
 
 
 def _reached(start: Iterable[str], edges: Mapping[str, Collection[str]]) -> set[str]:

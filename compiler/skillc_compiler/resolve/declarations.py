@@ -9,11 +9,11 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import TypeAlias
 
-from skillc_compiler.program.memo import Memo
 from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.names import KINDS, Kind, bare_terms
 from skillc_compiler.resolve.spelling import suggest_fix
 from skillc_dsl import syntax as s
+from skillc_dsl.query import Memo
 from skillc_rdf.vocabulary.types import Vocabulary
 
 TermDeclaration: TypeAlias = s.ClassDeclaration | s.RelationDeclaration | s.PropertyDeclaration
@@ -69,11 +69,11 @@ def prefixes_in(file: s.File, vocabulary: Vocabulary) -> dict[str, str]:
     return {**vocabulary.prefixes, **{line.name.text: line.iri for line in file.header if isinstance(line, s.Prefix)}}
 
 
-def bare_names_in(files: Sequence[ParsedFile], vocabulary: Vocabulary, memo: Memo[Bare]) -> dict[str, Bare]:
+def bare_names_in(files: Sequence[ParsedFile], vocabulary: Vocabulary, memo: Memo) -> dict[str, Bare]:
     """Return, by path, the terms that bare names denote; files with the same vocabularies and edition share them."""
     uses = {unit.file.path: (used_vocabularies(unit.file, vocabulary), unit.edition) for unit in files}
     return {
-        path: memo.recall((vocabulary,), partial(bare_terms, vocabulary, *used), name=used)
+        path: memo.ask("bare names", (vocabulary,), partial(bare_terms, vocabulary, *used), name=used)
         for path, used in uses.items()
     }
 

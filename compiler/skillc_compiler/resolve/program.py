@@ -25,8 +25,8 @@ from skillc_compiler.resolve.editions import read_older_editions
 from skillc_compiler.resolve.homes import Homes, names_by_import
 from skillc_compiler.resolve.implementations import resolve_implementation
 from skillc_compiler.resolve.individuals import Individuals
-from skillc_compiler.resolve.memo import NOTHING, Findings, ResolveMemo, Resolver
 from skillc_compiler.resolve.names import KINDS, Kind, Names
+from skillc_compiler.resolve.resolver import NOTHING, Findings, Resolver
 from skillc_compiler.resolve.scope import FileContext
 from skillc_compiler.resolve.skills import resolve_skill
 from skillc_compiler.resolve.spelling import suggest_fix
@@ -34,6 +34,7 @@ from skillc_compiler.resolve.tasks import resolve_task
 from skillc_compiler.resolve.terms import extend_vocabulary
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source, Span
 from skillc_dsl.spelling import did_you_mean
 from skillc_rdf.vocabulary.terms import with_named
@@ -47,7 +48,7 @@ def resolve_program(
     base: Vocabulary,
     name: str,
     scenes: Mapping[str, Individuals],
-    memo: ResolveMemo | None = None,
+    memo: Memo | None = None,
     importable: Mapping[str, Source] = NO_FILES,
 ) -> Outcome[Program]:
     """Return the program of the files; unresolved names are reported and left unknown.
@@ -56,10 +57,10 @@ def resolve_program(
     the text that does it. `memo` has the declarations of the analysis before, whose meanings are reused if nothing has
     changed that was read for them.
     """
-    memo = memo or ResolveMemo()
+    memo = memo or Memo()
     memo.begin()
-    read = memo.keep_declarations(read_older_editions(read))
-    bare = bare_names_in(read, base, memo.bare)
+    read = tuple(_keep_declarations(unit, memo) for unit in read_older_editions(read))
+    bare = bare_names_in(read, base, memo)
     declared = collect_declarations(read, base, bare)
     unique = remove_duplicates(read, declared)
     files = unique.files
@@ -69,16 +70,18 @@ def resolve_program(
     resolver = Resolver(memo, {path: [found] for path, found in of_terms.items()})
     contexts = _contexts(files, declared, names, vocabulary, memo)
     skills = _skills(files, contexts, resolver)
-    by_skill = _implementation_names(files)
-    contexts = {path: structs.replace(each, skills=skills, implementations=by_skill) for path, each in contexts.items()}
+    tables = memo.table("skills", skills), memo.table("implementations", _implementation_names(files))
+    known = {
+        path: structs.replace(each, skills=tables[0], implementations=tables[1]) for path, each in contexts.items()
+    }
     terms = _first_places(each for found in resolver.found.values() for each in found)
     program = Program(
         name=name,
-        vocabulary=memo.vocabulary.same("named", with_named(vocabulary, terms)),
+        vocabulary=memo.same("vocabulary", "named", with_named(vocabulary, terms)),
         files=files,
         skills=skills,
-        implementations=tuple(_implementations(files, contexts, skills, resolver)),
-        tasks=tuple(_tasks(files, contexts, scenes, resolver)),
+        implementations=tuple(_implementations(files, known, skills, resolver)),
+        tasks=tuple(_tasks(files, known, scenes, resolver)),
         used={path: frozenset().union(*(each.used for each in found)) for path, found in resolver.found.items()},
         terms=terms,
         unknown=tuple(
@@ -88,6 +91,16 @@ def resolve_program(
     )
     problems = (problem for found in resolver.found.values() for each in found for problem in each.problems)
     return Outcome(program, (*_headers(files, base), *unique.diagnostics, *problems))
+
+
+def _keep_declarations(unit: ParsedFile, memo: Memo) -> ParsedFile:
+    """Return a file; declarations that have not changed are those of the analysis before."""
+    lines = unit.text.split("\n")
+    kept = (
+        memo.same("written", (d.span, number), (d, lines[d.span.line - 1 : d.span.end_line]))[0]
+        for number, d in enumerate(unit.file.declarations)
+    )
+    return structs.replace(unit, file=structs.replace(unit.file, declarations=tuple(kept)))
 
 
 def _first_places(found: Iterable[Findings]) -> dict[str, Span]:
@@ -104,19 +117,19 @@ def _terms(
     declared: Mapping[str, FileDeclarations],
     names: Mapping[str, Names],
     base: Vocabulary,
-    memo: ResolveMemo,
+    memo: Memo,
 ) -> tuple[Vocabulary, Mapping[str, Findings]]:
     """Return the vocabulary with the terms that the files declare, and what was found in each file on the way."""
     written = tuple((unit, names[unit.file.path]) for unit in map(_without_skills, files) if _changes_terms(unit.file))
-    inputs = memo.declared_terms.same("terms", (base, written))
+    inputs = memo.same("declared terms", "", (base, written))
 
     def extend() -> tuple[Vocabulary, Mapping[str, Findings]]:
         own = {path: replace(each, problems=[], unknown=[], used=set(), terms={}) for path, each in names.items()}
         vocabulary = extend_vocabulary(base, files, declared, own)
         return vocabulary, {path: Findings.of(each) for path, each in own.items()}
 
-    vocabulary, found = memo.terms.recall((inputs,), extend)
-    return memo.vocabulary.same("", vocabulary), {path: found.get(path, NOTHING) for path in names}
+    vocabulary, found = memo.ask("terms", (inputs,), extend)
+    return memo.same("vocabulary", "", vocabulary), {path: found.get(path, NOTHING) for path in names}
 
 
 def _without_skills(unit: ParsedFile) -> ParsedFile:
@@ -135,7 +148,7 @@ def _contexts(
     declared: Mapping[str, FileDeclarations],
     names: Mapping[str, Names],
     vocabulary: Vocabulary,
-    memo: ResolveMemo,
+    memo: Memo,
 ) -> dict[str, FileContext]:
     """Return the context of each file, in which its own functions and those of its imports are visible."""
     found = {}
@@ -144,7 +157,7 @@ def _contexts(
         own = sorted({name for there in here for name in there.functions})
         functions = {name: vocabulary.functions[name] for name in own}
         visible = replace(names[unit.file.path], vocabulary=vocabulary, functions=functions)
-        found[unit.file.path] = FileContext(memo.names.same(unit.file.path, visible), vocabulary)
+        found[unit.file.path] = FileContext(memo.same("names", unit.file.path, visible), vocabulary)
     return found
 
 
@@ -168,13 +181,13 @@ def _names(
     declared: Mapping[str, FileDeclarations],
     bare: Mapping[str, Bare],
     base: Vocabulary,
-    memo: ResolveMemo,
+    memo: Memo,
     importable: Mapping[str, Source],
 ) -> dict[str, Names]:
-    known = memo.known.same("", _known(declared, base))
+    known = memo.same("known names", "", _known(declared, base))
     elsewhere = {source.path for source in importable.values()}
     own = {path: there for path, there in sorted(declared.items(), reverse=True) if path not in elsewhere}
-    declaring = memo.homes.same("", {name: path for path, there in own.items() for name in there.names()})
+    declaring = memo.same("homes", "", {name: path for path, there in own.items() for name in there.names()})
     others = names_by_import(tuple(importable.items()))
     found = {}
     for unit in files:

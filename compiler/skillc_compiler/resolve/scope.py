@@ -9,13 +9,13 @@ import msgspec
 from msgspec import structs
 from msgspec.structs import replace
 
-from skillc_compiler.program.memo import NameTable
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import UNKNOWN, Type
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.names import Names
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.query import NameTable
 from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import Vocabulary
 

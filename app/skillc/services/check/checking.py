@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from skillc.errors import DiagnosticsError, RequestError
 from skillc.services.library.check_cache import CheckCacheEntry
@@ -16,13 +16,11 @@ from skillc.services.library.libraries_below import find_libraries
 from skillc.services.reporting.reporter import find_texts, sort_diagnostics
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.garbage import gc_disabled
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 
-if TYPE_CHECKING:
-    from skillc_compiler.problems import AnalysisMemo
-
 STDIN = Path("-")
-Memos: TypeAlias = "dict[Path, AnalysisMemo]"
+Memos: TypeAlias = dict[Path, Memo]
 """The last analysis of each library, by its folder."""
 
 
@@ -93,9 +91,8 @@ def _check(
     request: CheckRequest, library: LibraryFiles, entry: CheckCacheEntry | None, memos: Memos | None
 ) -> tuple[Diagnostic, ...]:
     from skillc.services.check.known_checks import check_and_store, check_uncached
-    from skillc_compiler.problems import AnalysisMemo
 
-    memo = None if memos is None else memos.setdefault(library.root, AnalysisMemo())
+    memo = None if memos is None else memos.setdefault(library.root, Memo())
     return check_uncached(library, request.scene, memo) if entry is None else check_and_store(entry, memo)
 
 

@@ -12,10 +12,10 @@ from skillc.services.library.files import LibraryFiles
 from skillc.services.reporting.reporter import sort_diagnostics
 from skillc.services.tasks.value_checks import check_values
 from skillc_compiler.diagnostics.suppressions import without_suppressed
-from skillc_compiler.problems import AnalysisMemo
 from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.files import Parser
 from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary
@@ -35,7 +35,7 @@ class Known:
 
     parsed_by: Parser | None = None
     judge: CellJudge | None = None
-    memo: AnalysisMemo | None = None
+    memo: Memo | None = None
     look: SpaceJudge | None = None
 
 

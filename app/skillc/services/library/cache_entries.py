@@ -17,6 +17,9 @@ from skillc_ontology.catalogue import user_models
 if TYPE_CHECKING:
     from skillc_runtime.scene.load import Scene
 
+_PACKAGES = ("skillc_dsl.", "skillc_rdf.", "skillc_model.", "skillc_compiler.")
+_MOST = 5000
+"""The most entries in a folder; beyond it the older half is deleted."""
 IsPart: TypeAlias = Callable[[str, str], bool]
 """Whether a class, given by its module and its name, may be part of an entry."""
 
@@ -62,6 +65,45 @@ def _without_positions(item: object) -> object:
             return item
 
 
+class DiskStore:
+    """Answers of queries as files in the cache folder: complete or absent, and those of other versions are not found.
+
+    What is saved is written by `flush`.
+    """
+
+    def __init__(self) -> None:
+        self._new: dict[Path, tuple[str, object]] = {}
+
+    def load(self, query: str, inputs: Iterable[str | bytes]) -> object | None:
+        """Return the answer for these inputs, None if there is none or it is damaged."""
+        path = find_entry(query, inputs)
+        if path in self._new:
+            return self._new[path][1]
+        match read_pickled(path, _is_ours):
+            case (str(name), answer) if name == query:
+                return answer
+            case _:
+                return None
+
+    def save(self, query: str, inputs: Iterable[str | bytes], answer: object) -> None:
+        """Keep an answer."""
+        path = find_entry(query, inputs)
+        if path is not None:
+            self._new[path] = query, answer
+
+    def flush(self) -> None:
+        """Write what was saved, and delete the older half of a folder that has too many entries."""
+        for path, entry in self._new.items():
+            cache.store(path, pickle.dumps(entry, protocol=5))
+        for folder in {path.parent for path in self._new}:
+            cache.delete_oldest(folder, _MOST, _MOST // 2)
+        self._new.clear()
+
+
+def _is_ours(module: str, _name: str) -> bool:
+    return module.startswith(_PACKAGES) or module == "msgspec._utils"
+
+
 def read_pickled(path: Path | None, is_part: IsPart) -> object:
     """Return what an entry holds; None if there is none, if it is damaged, or has other classes than its parts."""
     body = None if path is None else cache.load(path)
@@ -81,4 +123,7 @@ class _Reader(pickle.Unpickler):
     def find_class(self, module: str, name: str) -> object:
         if "." in name or not self._is_part(module, name):
             raise pickle.UnpicklingError(f"{module}.{name} is no part of this entry")
-        return super().find_class(module, name)
+        found: object = super().find_class(module, name)
+        if not isinstance(found, type) and module != "msgspec._utils":
+            raise pickle.UnpicklingError(f"{module}.{name} is not a class")
+        return found

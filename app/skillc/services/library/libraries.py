@@ -14,7 +14,7 @@ from skillc.services.library.files import (
 from skillc.services.library.ontology_imports import follow_imports
 from skillc_compiler import pipeline
 from skillc_compiler.diagnostics.fixes import keep_useful_fixes
-from skillc_compiler.problems import AnalysisMemo, find_problems
+from skillc_compiler.problems import find_problems
 from skillc_compiler.program.typed import Program
 from skillc_compiler.resolve.files import Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
@@ -22,6 +22,7 @@ from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source, Span
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
@@ -39,7 +40,7 @@ def compile_library(
     library: LibraryFiles,
     find_individuals: IndividualsByTask | None = None,
     parsed_by: Parser | None = None,
-    memo: AnalysisMemo | None = None,
+    memo: Memo | None = None,
 ) -> Outcome[SkillLibrary]:
     """Compile, with the shipped and the library's own ontology as vocabulary; diagnostics have displayable paths.
 
@@ -47,21 +48,21 @@ def compile_library(
     `parsed_by` is the parser, which may cache its results; without it they are kept in memory. `memo` has what the last
     analysis of the library has found.
     """
-    kept, memo = memo, memo or AnalysisMemo()
+    kept, memo = memo, memo or Memo()
     with gc_disabled():
         known = load_vocabulary_with(library.vocabularies)
         files = read_sources(library.sources, library.importable, library.name, parsed_by or _parse, library.namespaces)
         resolve = partial(resolve_program, base=known.value, name=library.name, importable=library.importable)
-        program = resolve(files.value, scenes=pipeline.NO_SCENES, memo=memo.resolve)
+        program = resolve(files.value, scenes=pipeline.NO_SCENES, memo=memo)
         individuals = find_individuals(program.value) if find_individuals else {}
         if individuals:
-            program = resolve(files.value, scenes=individuals, memo=memo.resolve)
+            program = resolve(files.value, scenes=individuals, memo=memo)
         checked = Outcome(program.value, find_problems(files, program, memo))
         outcome = pipeline.lower_and_report(checked, library.sources, kept)
 
         def check(texts: Sequence[Source]) -> tuple[Diagnostic, ...]:
             others = read_sources(texts, library.importable, library.name, parsed_by or _parse, library.namespaces)
-            found = resolve(others.value, scenes=individuals, memo=memo.resolve)
+            found = resolve(others.value, scenes=individuals, memo=memo)
             return find_problems(others, found, memo)
 
         conflicts = judge_conflicts(known.diagnostics, program.value.vocabulary, program.value.terms)
