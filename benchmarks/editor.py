@@ -1,13 +1,16 @@
 """Cost of an edit in a file of 500 lines, as the language server does it, beside the bare parse of that file by lark.
 
-The file is made of the shipped library; each edit changes a number in the middle of it. Run it as
-`python benchmarks/editor.py [LINES]`; it prints for each answer the median in milliseconds and its ratio to the parse.
+The file is made of the shipped library; each edit changes a number in the middle of it. Then the shipped library for
+wiping is edited with its scenes: a body, a signature and a scene. Run it as `python benchmarks/editor.py [LINES]`; it
+prints for each answer the median in milliseconds and its ratio to the parse.
 """
 
 from __future__ import annotations
 
+import shutil
 import sys
 from collections.abc import Callable
+from functools import partial
 from itertools import count
 from pathlib import Path
 from statistics import median
@@ -18,11 +21,13 @@ from _one_file import one_file
 
 from skillc.lsp import diagnostics as problems
 from skillc.lsp.libraries import Libraries
+from skillc.services.library.files import SHIPPED
 from skillc_compiler.ide import highlighting
 from skillc_compiler.ide.completion import complete
 from skillc_compiler.ide.descriptions import find_hover
 from skillc_dsl.parsing.making import make_parser
 from skillc_dsl.parsing.tables import grammar_text
+from skillc_ontology.catalogue import scene_path
 
 EDITS = 15
 _EDITED = "0.25 m/s"
@@ -33,6 +38,7 @@ def main() -> None:
     text = one_file(int(sys.argv[1]) if len(sys.argv) > 1 else 500)
     with TemporaryDirectory() as folder:
         measure(text, Path(folder) / "library" / "all.skill")
+        measure_scenes(Path(folder) / "wiping")
 
 
 def measure(text: str, file: Path) -> None:
@@ -71,6 +77,27 @@ def measure(text: str, file: Path) -> None:
     print(f"{'lark parse alone':28} {bare * 1e3:7.1f} {1.0:6.2f}")
     for name, seconds in taken.items():
         print(f"{name:28} {median(seconds[1:]) * 1e3:7.1f} {median(seconds[1:]) / bare:6.2f}")
+
+
+def measure_scenes(folder: Path) -> None:
+    """Measure edits in a library with scenes, which are checked each time; the first two are not counted."""
+    shutil.copytree(SHIPPED / "wiping", folder)
+    shutil.copy(scene_path("iiwa_table.ttl"), folder)
+    for name, old, new in (
+        ("strokes.skill", "blend: 5 mm", "blend: 5.{} mm"),
+        ("wipe.skill", "duration 40 s", "duration 40.{} s"),
+        ("iiwa_table.ttl", "\n", "# {}\n"),
+    ):
+        libraries, text = Libraries((folder,)), (folder / name).read_text("utf-8")
+        root = libraries.root(folder / name)
+
+        def find_problems(number: int) -> None:
+            libraries.write((folder / name).as_uri(), text.replace(old, new.format(number), 1))  # noqa: B023
+            around = libraries.problems_around(root)  # noqa: B023
+            problems.diagnostics_by_uri(libraries, root, libraries.analysis(root), around, "utf-16")  # noqa: B023
+
+        taken = [_seconds(partial(find_problems, number)) for number in range(EDITS + 2)]
+        print(f"{f'with scenes, in {name}':28} {median(taken[2:]) * 1e3:7.1f}")
 
 
 def _seconds(work: Callable[[], object]) -> float:

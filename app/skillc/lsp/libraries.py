@@ -12,7 +12,7 @@ from pygls.uris import from_fs_path, to_fs_path
 
 from skillc.lsp import files
 from skillc.lsp.files import Root
-from skillc.lsp.scenes import SceneCache, find_problems
+from skillc.lsp.scenes import find_problems, read_scenes
 from skillc.services.library.files import LibraryFiles, edition_of
 from skillc.services.library.libraries import load_vocabulary_with
 from skillc_compiler.ide.analysis import Analysis, AnalysisInput, analyse
@@ -50,7 +50,6 @@ class Libraries:
     _sources: dict[Root, dict[str, Source]] = field(default_factory=dict)
     _vocabularies: dict[Root, tuple[Source, ...]] = field(default_factory=dict)
     _surroundings: dict[Root, Outcome[LibraryFiles]] = field(default_factory=dict)
-    _scene_cache: SceneCache = field(default_factory=SceneCache)
     _scenes: dict[Root, TaskScenes | None] = field(default_factory=dict)
 
     def write(self, uri: str, text: str) -> Path:
@@ -58,8 +57,11 @@ class Libraries:
         file = self.file(uri)
         opened = file not in self.buffers
         self.buffers[file] = normalise_text(text)
-        if opened or files.is_rdf(file):
+        if opened:
             self.forget(file)
+            return file
+        if files.is_rdf(file):
+            self._analyses.clear()
             return file
         for root, known in self._sources.items():
             if root.holds(file):
@@ -149,7 +151,7 @@ class Libraries:
     def problems_of_scenes(self, root: Root) -> tuple[Diagnostic, ...]:
         """Return the diagnostics of the scenes of a library's tasks, and of the tasks in them."""
         analysis = self.analysis(root)
-        return find_problems(self._scenes[root], analysis)
+        return find_problems(self._scenes[root], analysis, self._memos[root])
 
     def problems_around(self, root: Root) -> tuple[Diagnostic, ...]:
         """Return the diagnostics of the vocabularies and scenes of a library."""
@@ -179,7 +181,7 @@ class Libraries:
         memo = self._memos.setdefault(root, Memo())
         parse = self.parser(root)
         found = analyse(library, parse, memo)
-        scenes = self._scene_cache.read(found.program, library.vocabulary, around, root.folder, self.buffers)
+        scenes = read_scenes(found.program, library.vocabulary, around, root.folder, self.buffers, memo)
         self._scenes[root] = scenes
         now = _individuals(scenes)
         return found if now == before else analyse(replace(library, scenes=now), parse, memo)

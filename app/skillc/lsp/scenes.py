@@ -1,20 +1,21 @@
-"""The scenes of a library's tasks, cached until a scene or the library's terms change."""
+"""The scenes of a library's tasks, and what is wrong in them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import msgspec
 
-from skillc.services.check.library_checks import check_with_scenes
+from skillc.services.check.library_checks import Known, check_with_scenes
 from skillc.services.library.files import LibraryFiles
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import unpack
+from skillc_dsl.query import Memo
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -23,42 +24,38 @@ if TYPE_CHECKING:
     from skillc_runtime.scene.load import Scene
 
 
-@dataclass
-class SceneCache:
-    """A cache of scenes. The world model is imported only if a task has a scene."""
+def read_scenes(
+    program: Program, base: Vocabulary, around: LibraryFiles, folder: Path, buffers: Mapping[Path, str], memo: Memo
+) -> TaskScenes | None:
+    """Return the scenes of a program's tasks, None if no task has one; `buffers` replace files on disk.
 
-    _read: dict[tuple[Path, int | str, bytes, bool], Outcome[Scene | None]] = field(default_factory=dict)
+    The world model is imported only if a task has a scene.
+    """
+    by_default = around.project is not None and around.project.manifest.scene is not None
+    if not any(task.scene or by_default for task in program.tasks):
+        return None
+    from skillc.services.tasks.named_scenes import default_scene
+    from skillc.services.tasks.scenes import SceneTexts, read_scene, read_task_scenes
 
-    def read(
-        self, program: Program, base: Vocabulary, around: LibraryFiles, folder: Path, buffers: Mapping[Path, str]
-    ) -> TaskScenes | None:
-        """Return the scenes of a program's tasks, None if no task has one; `buffers` replace files on disk."""
-        by_default = around.project is not None and around.project.manifest.scene is not None
-        if not any(task.scene or by_default for task in program.tasks):
-            return None
-        from skillc.services.tasks.named_scenes import default_scene
-        from skillc.services.tasks.scenes import SceneTexts, read_scene, read_task_scenes
+    default = default_scene(around.project) if around.project else None
+    own_terms = memo.ask("terms of scenes", (program.vocabulary, base), partial(_own_terms, program.vocabulary, base))
+    terms = memo.same("terms of scenes", "", own_terms)
 
-        default = default_scene(around.project) if around.project else None
-        terms = _own_terms(program.vocabulary, base)
+    def read(path: Path, vocabulary: Vocabulary) -> Outcome[Scene | None]:
+        text = buffers.get(path)
+        written = (path.stat().st_mtime_ns if path.is_file() else 0) if text is None else text
+        known = memo.same("text of a scene", path, written)
+        name = path, vocabulary.symbolic
+        return memo.ask("scene", (base, terms, known), lambda: read_scene(path, vocabulary, text), name)
 
-        def read(path: Path, vocabulary: Vocabulary) -> Outcome[Scene | None]:
-            text = buffers.get(path)
-            written = (path.stat().st_mtime_ns if path.is_file() else 0) if text is None else text
-            key = (path, written, terms, vocabulary.symbolic)
-            if key not in self._read:
-                self._read = {other: found for other, found in self._read.items() if other[0] != path}
-                self._read[key] = read_scene(path, vocabulary, text)
-            return self._read[key]
-
-        texts = SceneTexts(folder.joinpath, str, default, around.is_symbolic)
-        return read_task_scenes(program, texts, read=read)
+    texts = SceneTexts(folder.joinpath, str, default, around.is_symbolic)
+    return read_task_scenes(program, texts, read=read)
 
 
-def find_problems(scenes: TaskScenes | None, analysis: Analysis) -> tuple[Diagnostic, ...]:
+def find_problems(scenes: TaskScenes | None, analysis: Analysis, memo: Memo) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of tasks in their scenes and of text values, without those in shipped files."""
     sources = analysis.library.sources.values()
-    found = check_with_scenes(analysis.compiled, analysis.program, scenes, str, sources)
+    found = check_with_scenes(analysis.compiled, analysis.program, scenes, str, sources, Known(memo=memo))
     return tuple(each for each in found if not _is_shipped(each.span.path))
 
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TypeAlias
+from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
 from msgspec.structs import replace
@@ -21,9 +20,6 @@ from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.eval.obstacles import RelationObstacle
 from skillc_runtime.world.state.world_state import WorldState
-
-CellJudge: TypeAlias = Callable[[Scene, Sequence[Condition]], Iterable[SceneViolation]]
-"""Returns what is wrong in a cell, also because of goals."""
 
 
 class ScenePlaces(msgspec.Struct, frozen=True):
@@ -66,25 +62,15 @@ class CellProblem(msgspec.Struct, frozen=True):
         return (self.violation.prevents, self.violation.individual) == (obstacle.relation, obstacle.object)
 
 
-def cell_problems(
-    scene: Scene,
-    path: str,
-    used: frozenset[str],
-    goals: Sequence[Condition] = (),
-    judge: CellJudge = judge_cell,
-) -> Iterator[CellProblem]:
-    """Yield what is wrong in the cell of a scene file at `path`.
-
-    `used` are the individuals that tasks name, `goals` those of the tasks. `judge` may be a cached `judge_cell`.
-    """
-    yield from locate(grade(judge(scene, goals), used), ScenePlaces.of(scene.said, path))
-
-
 def cell_diagnostics(
     scene: Scene, path: str, used: frozenset[str], goals: Sequence[Condition] = ()
 ) -> Iterator[Diagnostic]:
-    """Yield the diagnostics of `cell_problems`."""
-    yield from (each.diagnostic for each in cell_problems(scene, path, used, goals))
+    """Yield the diagnostics of what is wrong in the cell of a scene file at `path`.
+
+    `used` are the individuals that tasks name, `goals` those of the tasks.
+    """
+    for each in locate(grade(judge_cell(scene, goals), used), ScenePlaces.of(scene.said, path)):
+        yield each.diagnostic
 
 
 def grade(found: Iterable[SceneViolation], used: frozenset[str]) -> Iterator[SceneViolation]:

@@ -1,16 +1,13 @@
-"""Caches what is wrong in cells, because finding it imports the simulator and solves inverse kinematics.
-
-The key of an entry is the digest of the facts about the cell, the goals, the user's models and the installation.
-"""
+"""What is wrong in cells, and what that depends on: finding it imports the simulator and solves inverse kinematics."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 import msgspec
 
-from skillc.services.library.cache_entries import describe_models, describe_scene, encode_meaning, find_entry
-from skillc_dsl import cache
+from skillc.services.library.cache_entries import DiskStore, describe_models, describe_scene, encode_meaning
+from skillc_dsl.query import Memo
 from skillc_model.conditions import Condition
 from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.violation import SceneViolation
@@ -18,8 +15,6 @@ from skillc_runtime.world.state.fact_list import list_facts
 from skillc_runtime.world.state.world_state import WorldState
 
 _ENCODER = msgspec.msgpack.Encoder(order="deterministic")
-_MOST = 500
-"""The most entries in the cache; beyond it the older half is deleted."""
 
 
 def judge_cell(scene: Scene, goals: Sequence[Condition] = ()) -> tuple[SceneViolation, ...]:
@@ -27,15 +22,13 @@ def judge_cell(scene: Scene, goals: Sequence[Condition] = ()) -> tuple[SceneViol
     return _judge(scene.state, goals)
 
 
-def judge_cell_once(scene: Scene, goals: Sequence[Condition] = ()) -> tuple[SceneViolation, ...]:
-    """Return what `judge_cell` returns, from the cache if it is there."""
-    return _recall(_inputs(scene, goals), lambda: judge_cell(scene, goals))
-
-
 def judge_state_once(state: WorldState, goals: Sequence[Condition] = ()) -> tuple[SceneViolation, ...]:
     """Return what `judge_cell` returns of a scene with these facts, from the cache if it is there."""
     parts = (encode_meaning(state.vocabulary), *describe_models(), *map(_ENCODER.encode, list_facts(state)))
-    return _recall((*parts, encode_meaning(tuple(goals))), lambda: _judge(state, goals))
+    store = DiskStore()
+    found = Memo(store).recall("cell", (*parts, encode_meaning(tuple(goals))), lambda: _judge(state, goals))
+    store.flush()
+    return found
 
 
 def _judge(state: WorldState, goals: Sequence[Condition]) -> tuple[SceneViolation, ...]:
@@ -45,29 +38,7 @@ def _judge(state: WorldState, goals: Sequence[Condition]) -> tuple[SceneViolatio
     return check_cell(state, goals)
 
 
-def _recall(
-    inputs: Iterable[str | bytes], find: Callable[[], tuple[SceneViolation, ...]]
-) -> tuple[SceneViolation, ...]:
-    path = find_entry("cells", inputs)
-    found = _read(cache.load(path)) if path else None
-    if found is None:
-        found = find()
-        if path:
-            cache.store(path, msgspec.json.encode(found))
-            cache.delete_oldest(path.parent, _MOST, _MOST // 2)
-    return found
-
-
-def _read(body: bytes | None) -> tuple[SceneViolation, ...] | None:
-    if body is None:
-        return None
-    try:
-        return msgspec.json.decode(body, type=tuple[SceneViolation, ...])
-    except msgspec.MsgspecError:
-        return None
-
-
-def _inputs(scene: Scene, goals: Sequence[Condition]) -> Iterator[str | bytes]:
+def describe_judgement(scene: Scene, goals: Sequence[Condition]) -> Iterator[str | bytes]:
     """Yield the scene and the goals that a verdict depends on."""
     yield from describe_scene(scene)
     yield encode_meaning(tuple(goals))

@@ -49,12 +49,11 @@ def check_and_store(entry: CheckCacheEntry, memo: Memo | None) -> tuple[Diagnost
 def _check_whole(entry: CheckCacheEntry, memo: Memo) -> tuple[tuple[Diagnostic, ...], Snapshot | None, bool]:
     """Check everything; the result has a snapshot if the library compiles, and whether there was time for all."""
     # After an edit of skills, this is mostly not imported.
-    from skillc.services.cell_checks.verdicts import judge_cell_once
     from skillc.services.check.library_checks import Known, check_whole
     from skillc.services.space.verdicts import TaskLooks
 
     look = TaskLooks(use_cache=True)
-    known = Known(parse_cache.parse_cached, judge_cell_once, memo, look.judge)
+    known = Known(parse_cache.parse_cached, memo, look.judge)
     checked = check_whole(entry.library, entry.scene, known)
     if checked.program is None:
         return checked.diagnostics, None, look.in_time

@@ -21,20 +21,18 @@ from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary
 
 if TYPE_CHECKING:
-    from skillc.services.cell_checks.report import CellJudge
     from skillc.services.tasks.scenes import TaskScenes
     from skillc.services.tasks.space_problems import SpaceJudge
 
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """Where a check finds what earlier ones have found: a parser and a judge of cells that may cache their results.
+    """Where a check finds what earlier ones have found: a parser that may cache its results, and the memo.
 
-    `memo` has the last analysis of the library. `look` looks at tasks in space; without it nothing does.
+    `look` looks at tasks in space; without it nothing does.
     """
 
     parsed_by: Parser | None = None
-    judge: CellJudge | None = None
     memo: Memo | None = None
     look: SpaceJudge | None = None
 
@@ -98,13 +96,13 @@ def check_with_scenes(
     """Return the diagnostics of scenes, of tasks in them, and of text values that name nothing.
 
     `display_path` maps a path of the library to a displayable one. Diagnostics that the `sources` (with displayable
-    paths) suppress are omitted. The parser and the memo of `known` are not read.
+    paths) suppress are omitted. The parser of `known` is not used.
     """
     found: tuple[Diagnostic, ...] = ()
     if scenes is not None:
         from skillc.services.check.task_checks import check_tasks_in_scenes
 
-        of_tasks = check_tasks_in_scenes(compiled, program, scenes, display_path, known.judge, known.look)
+        of_tasks = check_tasks_in_scenes(compiled, program, scenes, display_path, known.memo or Memo(), known.look)
         found = (*scenes.problems, *of_tasks)
     values = check_values(compiled, program, scenes, found, display_path)
     return without_suppressed((*found, *values), sources)

@@ -10,9 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from skillc.extras import install_command, missing_extras
-from skillc.services.cell_checks.report import CellJudge, CellProblem, cell_problems, used_individuals
-from skillc.services.cell_checks.verdicts import judge_cell
-from skillc.services.check.angle_checks import check_angles
+from skillc.services.cell_checks.report import CellProblem, ScenePlaces, grade, locate, used_individuals
+from skillc.services.check.scene_queries import SceneQueries
 from skillc.services.scene import diagnostics as scene_diagnostics
 from skillc.services.tasks import value_checks
 from skillc.services.tasks.diagnostics import DisplayPath, TaskDiagnostics
@@ -20,19 +19,16 @@ from skillc.services.tasks.scenes import TaskScenes
 from skillc.services.tasks.space_problems import OutOfTime, SpaceJudge, SpaceProblem
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Span
-from skillc_model.conditions import Condition
 from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary, Task
 from skillc_rdf.turtle.terms import RDF_TYPE
-from skillc_runtime.execution.selection.initial_calls import initial_call_refusals
-from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.execution.selection.refusal import Origin
-from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual, unsupported_individuals
-from skillc_runtime.planning.reachability import UnreachableGoal, explain_unreachable
+from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual
+from skillc_runtime.planning.reachability import UnreachableGoal
 from skillc_runtime.scene.load import Scene
 from skillc_runtime.scene.statements import iri_of
-from skillc_runtime.scene.violation import SceneViolation
 
 LONGEST_TASK = 10
 """The most lines between the name of a task and its goal."""
@@ -43,7 +39,7 @@ def check_tasks_in_scenes(
     program: Program,
     scenes: TaskScenes,
     display_path: DisplayPath,
-    judge: CellJudge | None = None,
+    memo: Memo,
     look: SpaceJudge | None = None,
 ) -> list[Diagnostic]:
     """Return the diagnostics of tasks that cannot succeed, individuals without implementations, and unusable arms.
@@ -51,36 +47,36 @@ def check_tasks_in_scenes(
     What tasks with parameters do depends on their arguments, and is checked when they run. What is wrong in a cell is
     reported there, with the tasks that it stops, and not at these again.
 
-    `program` is the compiled program, `judge` may be a cached `judge_cell`. `look` looks in space at tasks of which
-    nothing else is reported, and no error in their scenes. Libraries and scenes with errors are skipped, and so is what
-    compiling has reported. What affects several tasks is reported at the first. Of tasks in cells without bodies only
-    facts are asked.
+    `program` is the compiled program, `memo` has what is known of it and its scenes. `look` looks in space at
+    tasks of which nothing else is reported, and no error in their scenes. Libraries and scenes with errors are skipped,
+    and so is what compiling has reported. What affects several tasks is reported at the first. Of tasks in cells
+    without bodies only facts are asked.
     """
     if not compiled.ok:
         return []
     library = act_as_declared(compiled.value) if scenes.symbolic else compiled.value
+    asked = SceneQueries(library, memo)
     errors: list[Diagnostic] = []
     fine: list[TaskDiagnostics] = []
     places = value_checks.value_places(program)
     known = {name: task for name, task in library.tasks.items() if not task.parameters}
     with_bodies = {path: scene for path, scene in scenes.valid.items() if not scene.state.vocabulary.symbolic}
     unchecked = list(_unchecked(with_bodies))
-    judge = _judge_nothing if unchecked else judge or judge_cell
-    cells = {path: list(_of_cell(path, scenes, known, judge)) for path in with_bodies}
+    cells = {path: [] if unchecked else list(_of_cell(path, scenes, known, asked)) for path in with_bodies}
     stopped: dict[CellProblem, list[Label]] = {}
     for name, path in scenes.files.items():
         if path in scenes.valid and name in known:
             of_task = TaskDiagnostics(display_path, scenes.valid[path], known[name])
-            found = list(_of_task(of_task, library, cells.get(path, ()), places, stopped))
+            found = list(_of_task(of_task, asked, cells.get(path, ()), places, stopped))
             errors += (each for each in found if not _is_reported(each, compiled.diagnostics))
             broken = any(each.diagnostic.severity == "error" for each in cells.get(path, ()))
             fine += [] if found or broken or path not in with_bodies else [of_task]
     errors = list({(each.span, each.name, each.message): each for each in reversed(errors)}.values())[::-1]
     labelled = {(label.span.path, label.span.line) for each in errors for label in each.labels}
     valid = [(scene, str(path)) for path, scene in with_bodies.items()]
-    others = [] if unchecked else [each for scene, path in valid for each in _of_devices(scene, path)]
-    others += (each for path, scene in scenes.valid.items() for each in _of_individuals(library, scene, str(path)))
-    others += (each for scene, path in valid for each in check_angles(scene, path))
+    others = [] if unchecked else [each for scene, path in valid for each in asked.check_devices(scene, path)]
+    others += (each for path, scene in scenes.valid.items() for each in _of_individuals(asked, scene, str(path)))
+    others += (each for scene, path in valid for each in asked.check_angles(scene, path))
     others = [each for each in others if (each.span.path, each.span.line) not in labelled]
     unusable = {each.span.path for each in others if each.severity == "error"}
     usable = [each for each in fine if str(scenes.files[each.task.name]) not in unusable]
@@ -118,25 +114,12 @@ def _in_space(
     yield from late[:1]
 
 
-def _judge_nothing(scene: Scene, goals: Sequence[Condition]) -> tuple[SceneViolation, ...]:
-    """Stand for the judge of cells where there is none."""
-    return ()
-
-
-def _of_devices(scene: Scene, path: str) -> Iterator[Diagnostic]:
-    """Yield the diagnostics of controllers and data sheets of the arms in a scene."""
-    # It needs the simulator, which is slow to import and not always installed.
-    from skillc.services.check.device_checks import check_controllers, check_sheets
-
-    yield from check_controllers(scene, path)
-    yield from check_sheets(scene, path)
-
-
-def _of_cell(path: Path, scenes: TaskScenes, known: Mapping[str, Task], judge: CellJudge) -> Iterator[CellProblem]:
+def _of_cell(path: Path, scenes: TaskScenes, known: Mapping[str, Task], asked: SceneQueries) -> Iterator[CellProblem]:
     """Yield what is wrong in the cell of a scene, with regard to the tasks in it."""
     tasks = [known[name] for name, file in scenes.files.items() if file == path and name in known]
-    goals = [each.goal for each in tasks if each.goal is not None]
-    yield from cell_problems(scenes.valid[path], str(path), _used_in(tasks, scenes.valid[path]), goals, judge)
+    scene = scenes.valid[path]
+    found = asked.judge(str(path), scene, [each.goal for each in tasks if each.goal is not None])
+    yield from locate(grade(found, _used_in(tasks, scene)), ScenePlaces.of(scene.said, str(path)))
 
 
 def _with_tasks(problem: CellProblem, stopped: Mapping[CellProblem, Sequence[Label]]) -> Diagnostic:
@@ -164,7 +147,7 @@ def _is_reported(problem: Diagnostic, compiled: Sequence[Diagnostic]) -> bool:
 
 def _of_task(
     of_task: TaskDiagnostics,
-    library: SkillLibrary,
+    asked: SceneQueries,
     cell: Sequence[CellProblem],
     places: Mapping[Origin, Span],
     stopped: dict[CellProblem, list[Label]],
@@ -175,18 +158,18 @@ def _of_task(
     """
     task, scene = of_task.task, of_task.scene
     if task.goal is not None:
-        found = explain_unreachable(library, scene.state, task.goal)
+        found = asked.explain_unreachable(scene, task, task.goal)
         causes = [] if found is None else _find_causes(found, cell)
         for each in causes:
             stopped.setdefault(each, []).append(of_task.stopped())
         if found is not None and not causes:
             yield of_task.unreachable(found)
     if task.body is not None:
-        refusals = preflight(task.body, library, scene.state)
+        refusals = asked.refuse(scene, task.body)
         for refusal in refusals:
             yield from of_task.misnamed(refusal, places) if refusal.unknown_names else (of_task.refusal(refusal),)
         if not refusals:
-            yield from (of_task.cannot_start(each) for each in initial_call_refusals(task.body, library, scene.state))
+            yield from (of_task.cannot_start(each) for each in asked.refuse_first_calls(scene, task.body))
 
 
 def _find_causes(found: UnreachableGoal, cell: Sequence[CellProblem]) -> list[CellProblem]:
@@ -195,11 +178,11 @@ def _find_causes(found: UnreachableGoal, cell: Sequence[CellProblem]) -> list[Ce
     return list(dict.fromkeys(each for causes in explained for each in causes)) if all(explained) else []
 
 
-def _of_individuals(library: SkillLibrary, scene: Scene, path: str) -> Iterator[Diagnostic]:
+def _of_individuals(asked: SceneQueries, scene: Scene, path: str) -> Iterator[Diagnostic]:
     """Yield the diagnostics of individuals in the scene file at `path` that no implementation of a skill accepts."""
     own = {iri_of(each.subject): each for each in reversed(scene.said) if each.predicate == RDF_TYPE}
     here = {iri: each for iri, each in own.items() if each.lines.path == path}
-    for each in unsupported_individuals(library, scene.state, frozenset(here)):
+    for each in asked.find_unsupported(scene, path, frozenset(here)):
         statement = here[each.individual]
         span = scene_diagnostics.with_shown_path(statement.object_place)
         yield Diagnostic("no-implementation-fits", span, _unfit(each, scene), _accepted(each, scene), "warning")

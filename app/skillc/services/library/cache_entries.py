@@ -17,7 +17,7 @@ from skillc_ontology.catalogue import user_models
 if TYPE_CHECKING:
     from skillc_runtime.scene.load import Scene
 
-_PACKAGES = ("skillc_dsl.", "skillc_rdf.", "skillc_model.", "skillc_compiler.")
+_PACKAGES = ("skillc_dsl.", "skillc_rdf.", "skillc_model.", "skillc_compiler.", "skillc_runtime.scene.violation")
 _MOST = 5000
 """The most entries in a folder; beyond it the older half is deleted."""
 IsPart: TypeAlias = Callable[[str, str], bool]
