@@ -36,7 +36,7 @@ BROKEN_PIPE = 141
 
 SECTIONS = {
     "Projects": ("new", "add", "tasks", "lock"),
-    "Skills": ("check", "fix", "fmt", "explain", "graph", "doc", "compile", "shapes", "ontology"),
+    "Skills": ("check", "test", "fix", "fmt", "explain", "graph", "doc", "compile", "shapes", "ontology"),
     "Tasks": ("plan", "run", "why", "diff", "replay", "report", "trials", "learn", "demo"),
     "Scenes": ("world", "scene", "connect"),
     "Servers": (
