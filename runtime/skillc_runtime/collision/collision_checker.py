@@ -101,16 +101,24 @@ class CollisionChecker:
         return next((touch for q in way if (touch := self.find_collision(q)) is not None), None)
 
     def find_free_share(self, start: Array, goal: Array) -> float:
-        """Return which share of the straight way from a posture that is free to another (nv,) is free: 1 for all."""
+        """Return which share of the straight way from a posture that is free to another (nv,) is free: 1 for all.
+
+        0 if less than half is: the middle is looked at first.
+        """
         change, share, before = goal - start, 0.0, 0.0
-        while True:
-            self._look(start + share * change)
-            ahead = self._find_advance(self._least, self._data, change)
-            if ahead < 0.0:
-                return before
+        if self._look_ahead(start, 0.5, change) < 0.0:
+            return 0.0
+        while (ahead := self._look_ahead(start, share, change)) >= 0.0:
             if share == 1.0:
                 return 1.0
             before, share = share, min(1.0, share + ahead)
+        return before if before >= 0.5 else 0.0
+
+    def _look_ahead(self, start: Array, share: float, change: Array) -> float:
+        """Return how much farther on a way from a posture an arm may be looked at next, as shares; below 0 for a
+        collision here."""
+        self._look(start + share * change)
+        return self._find_advance(self._least, self._data, change)
 
     def worst_collision(self, way: Iterable[Array]) -> Collision | None:
         """Return the worst collision along postures (nv,), None if there is none."""

@@ -1,17 +1,21 @@
-"""Adds convex solids to a MuJoCo model under construction."""
+"""Convex solids in MuJoCo models, and how deep they overlap; MuJoCo is imported by whoever calls, not before."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import Any, assert_never
-
-import mujoco
 
 from skillc_runtime.motion.pose import quaternion_from_rotation
 from skillc_runtime.world.space.shape.solids import Solid
 
+FAR_M = 1.0
+"""Beyond this distance no distance is computed."""
+
 
 def add_solid(spec: Any, parent: Any, name: str, solid: Solid) -> Any:
     """Add a solid to a body of a specification, in whose frame its pose is; return its geom of that name."""
+    import mujoco
+
     geom = parent.add_geom(name=name)
     geom.pos, geom.quat = solid.place.position, quaternion_from_rotation(solid.place.rotation)
     x, y, z = solid.half
@@ -31,3 +35,32 @@ def add_solid(spec: Any, parent: Any, name: str, solid: Solid) -> Any:
         case _:
             assert_never(solid.kind)
     return geom
+
+
+def overlap_depths(pairs: Sequence[tuple[Iterable[Solid], Iterable[Solid]]]) -> list[float]:
+    """Return how deep things of convex solids in one frame overlap, in m: the deepest pair of solids; 0 if none do.
+
+    The depth of a pair is the shortest way by which one of them has to be moved so that they are apart.
+    """
+    if not pairs:
+        return []
+    import mujoco
+
+    def add(solids: Iterable[Solid]) -> list[int]:
+        """Add solids to the model, and return their numbers in it."""
+        first = len(spec.geoms)
+        for each in solids:
+            add_solid(spec, spec.worldbody, f"solid/{len(spec.geoms)}", each)
+        return list(range(first, len(spec.geoms)))
+
+    spec, groups = mujoco.MjSpec(), list[tuple[list[int], list[int]]]()
+    for one, other in pairs:
+        groups.append((add(one), add(other)))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+
+    def depth(one: int, other: int) -> float:
+        return -float(mujoco.mj_geomDistance(model, data, one, other, FAR_M, None))
+
+    return [max(0.0, *(depth(one, other) for one in ones for other in others)) for ones, others in groups]

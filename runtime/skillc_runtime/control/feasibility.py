@@ -2,39 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import msgspec
 import numpy as np
 
-from skillc_runtime.control.inverse_kinematics import pose_error, step_towards
 from skillc_runtime.control.laws.virtual_arm import VirtualArm
 from skillc_runtime.devices.arm import ArmLimits
 from skillc_runtime.devices.arm_driver import Infeasible
+from skillc_runtime.kinematics.chain import pack
+from skillc_runtime.kinematics.sweep import ERROR_M, ERROR_RAD, FAR_M, FAR_RAD, MARGIN, JointLoad, follow
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
 
 SAMPLE_S, MAX_SAMPLES = 0.05, 150
 """Time between samples of a motion, and their greatest number."""
 
-STEPS, MOST_STEPS = 3, 30
-"""Steps of inverse kinematics at each sample, from the solution of the sample before; the greater number if few do not
-bring the tool near.
-
-More are needed where a tool that is pressed starts: its reference may be several cm from it, in the air.
-"""
-
-MAX_POSITION_ERROR_M, MAX_ROTATION_ERROR_RAD = 0.003, 0.03
-"""With a greater error of the tool a pose counts as out of reach."""
-
 OVERLAY_S, OVERLAY_SAMPLES = 10.0, 400
 """Time over which an overlay is sampled, and the number of samples."""
 
 RANGE_TOLERANCE_RAD = 0.01
 """How far beyond its range a joint may be: the law limits it."""
-
-PULL = 0.05
-"""Share of the distance to its first posture that a redundant arm moves in each step, as its law does."""
 
 
 def slow_to_feasible(
@@ -45,26 +31,25 @@ def slow_to_feasible(
     Also return the joints (nv,) in rad at samples of it; q (nv,) are those at its start. Raises Infeasible if a joint
     would leave its range or the tool cannot follow.
     """
-    before, fastest, joints = q, 1.0, list[Array]()
-    for step, after in joints_along(arm, trajectory, q, limits):
-        fastest = max(fastest, float((np.abs(after - before) / (limits.velocity * step)).max()))
-        before = after
-        joints.append(after)
-    return slow_down(trajectory, fastest), joints
+    joints, step = follow_trajectory(arm, trajectory, q, limits)
+    changes = np.abs(np.diff([q, *joints], axis=0))
+    return slow_down(trajectory, float((changes / (limits.velocity * step)).max())), joints
 
 
-def joints_along(arm: VirtualArm, trajectory: Trajectory, q: Array, limits: ArmLimits) -> Iterator[tuple[float, Array]]:
-    """Yield the joints (nv,) in rad at samples of a motion of the tool in base, and the time in s since the one before.
+def follow_trajectory(
+    arm: VirtualArm, trajectory: Trajectory, q: Array, limits: ArmLimits
+) -> tuple[list[Array], float]:
+    """Return the joints (nv,) in rad at samples of a motion of the tool in base, and the time in s between samples.
 
     q (nv,): rad, at its start. Raises Infeasible if a joint would leave its range or the tool cannot follow.
     """
     count = int(np.clip(np.ceil(trajectory.duration / SAMPLE_S), 1, MAX_SAMPLES))
-    times, first = np.linspace(0.0, trajectory.duration, count + 1), q
-    for time, step in zip(times[1:].tolist(), np.diff(times).tolist(), strict=True):
-        target = trajectory.at(time).pose
-        q, error = _track(arm, target, q, first)
-        _check(arm, target, q, error, limits)
-        yield step, q
+    targets = [trajectory.at(time).pose for time in np.linspace(0.0, trajectory.duration, count + 1)[1:].tolist()]
+    load = JointLoad(limits.range, np.full(len(q), np.inf), np.zeros(3), np.zeros(3))
+    sweep = follow(arm.read_chain(), np.array([pack(each) for each in targets]), q, load)
+    for target, posture, measures in zip(targets, sweep.postures, sweep.measures, strict=True):
+        _check(arm, target, posture, measures, limits)
+    return list(sweep.postures), trajectory.duration / count
 
 
 def sample_offsets(overlay: Overlay) -> list[Array]:
@@ -88,45 +73,19 @@ def check_overlay_feasible(arm: VirtualArm, overlay: Overlay, axes: Array, limit
         )
 
 
-def _track(arm: VirtualArm, target: Pose, q: Array, first: Array) -> tuple[Array, Array]:
-    """Return joints (nv,) in rad after steps from q towards a target pose of the tool; and its error (6,) in m, rad."""
-    few: tuple[Array, Array] | None = None
-    error = _find_error(arm, target, q)
-    for number in range(1, MOST_STEPS + 1):
-        q = q + step_towards(arm.jacobian, error, PULL * (first - q))
-        error = _find_error(arm, target, q)
-        if number >= STEPS and _is_near(error):
-            return q, error
-        if number == STEPS:
-            few = q, error
-    assert few is not None, "there are more steps than STEPS"
-    return few
-
-
-def _find_error(arm: VirtualArm, target: Pose, q: Array) -> Array:
-    arm.update_kinematics(q)
-    return pose_error(arm.tool, target)
-
-
-def _is_near(error: Array) -> bool:
-    away, turned = np.linalg.norm(error[:3]), np.linalg.norm(error[3:])
-    return bool(away <= MAX_POSITION_ERROR_M and turned <= MAX_ROTATION_ERROR_RAD)
-
-
-def _check(arm: VirtualArm, target: Pose, q: Array, error: Array, limits: ArmLimits) -> None:
-    outside = np.maximum(limits.range[:, 0] - q, q - limits.range[:, 1])
-    if outside.max() > RANGE_TOLERANCE_RAD:
-        joint = int(outside.argmax())
+def _check(arm: VirtualArm, target: Pose, q: Array, measures: Array, limits: ArmLimits) -> None:
+    """Raise Infeasible if joints q (nv,) do not bring the tool to a pose in base; measures (5,): as of `Sweep`."""
+    if measures[ERROR_M] > FAR_M or measures[ERROR_RAD] > FAR_RAD:
+        away, turned = 1000 * measures[ERROR_M], np.degrees(measures[ERROR_RAD])
+        raise Infeasible(
+            f"its tool would be {away:.0f} mm and {turned:.0f} deg away from where it shall be", target.position
+        )
+    if measures[MARGIN] < -RANGE_TOLERANCE_RAD:
+        joint = int(np.maximum(limits.range[:, 0] - q, q - limits.range[:, 1]).argmax())
         low, high = limits.range[joint]
         raise Infeasible(
             f"{arm.joint_name(joint)} would have to be at {q[joint]:.2f} {arm.joint_unit(joint)}, "
             f"outside its range from {low:.2f} to {high:.2f} {arm.joint_unit(joint)}",
-            target.position,
-        )
-    if not _is_near(error):
-        away, turned = float(np.linalg.norm(error[:3])), float(np.linalg.norm(error[3:]))
-        raise Infeasible(
-            f"its tool would be {1000 * away:.0f} mm and {np.degrees(turned):.0f} deg away from where it shall be",
             target.position,
         )
 

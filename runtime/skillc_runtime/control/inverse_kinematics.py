@@ -1,4 +1,4 @@
-"""Inverse kinematics of an arm with the tool that it holds, and the steps by which a motion of the tool is followed."""
+"""Inverse kinematics of an arm with the tool that it holds."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from skillc_runtime.control.laws.virtual_arm import VirtualArm
 from skillc_runtime.control.limits import range_margin
 from skillc_runtime.kinematics.inverse import find_posture, rank_postures
-from skillc_runtime.motion.pose import Array, Pose, log
+from skillc_runtime.motion.pose import Array, Pose
 
 
 def solve_inverse_kinematics(arm: VirtualArm, target: Pose, seed: Array, limits: Array) -> Array | None:
@@ -35,20 +35,3 @@ def _free_range(limits: Array) -> Array:
     """Return the ranges (nv, 2) in which no joint is pushed back."""
     margin = range_margin(limits)
     return np.stack([limits[:, 0] + margin, limits[:, 1] - margin], axis=1)
-
-
-def pose_error(tool: Pose, target: Pose) -> Array:
-    """Return the displacement (6,) from a tool to its target, [linear m; angular rad], both poses in the same frame."""
-    return np.concatenate([target.position - tool.position, log(target.rotation @ tool.rotation.T)])
-
-
-def step_towards(J: Array, error: Array, pull: Array) -> Array:
-    """dq = J^T (J J^T + lam^2 I)^-1 (e - J p) + p, (nv,) in rad; lam falls with the error.
-
-    J (6, nv); e (6,): m and rad, along the same axes; p (nv,): rad, where the posture is pulled.
-    """
-    damping = 1e-9 + 1e-2 * float(error @ error)
-    gram = J @ J.T + damping * np.eye(6)
-    if J.shape[1] == 6:
-        return J.T @ np.linalg.solve(gram, error)
-    return pull + J.T @ np.linalg.solve(gram, error - J @ pull)

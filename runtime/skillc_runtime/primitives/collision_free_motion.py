@@ -14,9 +14,9 @@ import msgspec
 import numpy as np
 
 from skillc_runtime.collision.arm_assembly import read_arm_assembly
+from skillc_runtime.collision.arm_parts import read_other_arms
 from skillc_runtime.collision.collision_checker import Collision
 from skillc_runtime.collision.motion_search import JointGoals, Surroundings, find_joint_motion, find_tool_motion
-from skillc_runtime.collision.other_arms import read_other_arms
 from skillc_runtime.collision.path_planning import JointSpace, NoPath
 from skillc_runtime.collision.scenery import read_scenery
 from skillc_runtime.devices.arm_driver import Infeasible

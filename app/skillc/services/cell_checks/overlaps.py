@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc.services.cell_checks.facts import ROUNDED_M, placing_fact, severity_of
-from skillc_runtime.collision.solid_overlaps import overlap_depths
+from skillc_runtime.collision.solid_geoms import overlap_depths
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.space.occupants import Occupant, near_pairs
 from skillc_runtime.world.state.terms import MOBILE_ROBOT

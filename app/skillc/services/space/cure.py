@@ -7,7 +7,7 @@ from itertools import product
 
 from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
-from skillc_runtime.collision.solid_overlaps import overlap_depths
+from skillc_runtime.collision.solid_geoms import overlap_depths
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.occupants import near_pairs, read_occupants
 from skillc_runtime.world.state.changes import SetProperty

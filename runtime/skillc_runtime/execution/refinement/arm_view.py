@@ -11,9 +11,9 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.collision.arm_assembly import ArmAssembly, read_arm_assembly
+from skillc_runtime.collision.arm_parts import read_other_arms
 from skillc_runtime.collision.collision_checker import CollisionChecker
 from skillc_runtime.collision.collision_model import ARM, HAND, build_collision_model
-from skillc_runtime.collision.other_arms import read_other_arms
 from skillc_runtime.collision.path_planning import JointSpace
 from skillc_runtime.collision.scenery import Scenery, read_scenery
 from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from math import hypot
 
-from skillc_runtime.collision.solid_overlaps import overlap_depths
+from skillc_runtime.collision.solid_geoms import overlap_depths
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.situation import BaseDrive, ChosenStand, ChosenWay, Situation
 from skillc_runtime.primitives.space_needs import Stand
