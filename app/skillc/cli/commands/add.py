@@ -127,7 +127,7 @@ def _add_robot(
 
     if platform.system() == "Windows":
         raise RequestError(
-            "models of robots are read with pinocchio, which there is not for Windows: use Linux, macOS or WSL, or "
+            "models of robots are compared with pinocchio, which there is not for Windows: use Linux, macOS or WSL, or "
             "`skillc add robot NAME --like ARM` and replace the numbers"
         )
     require("reading models of robots", "robots")

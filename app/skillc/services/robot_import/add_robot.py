@@ -14,10 +14,9 @@ import numpy as np
 from skillc.errors import RequestError
 from skillc.services.project.manifest import NAME
 from skillc.services.project.project import Project
-from skillc.services.robot_import.comparison import POSTURES, Differences
+from skillc.services.robot_import.comparison import POSTURES, Differences, prove_same
 from skillc.services.robot_import.mjcf_writer import ControlKind, format_numbers, write_mjcf
 from skillc.services.robot_import.options import read_efforts, read_home, read_settings
-from skillc.services.robot_import.proof import prove_same
 from skillc.services.robot_import.reader import read_robot
 from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.sheet_writer import COMMON, CONTROLLERS, GAINS, TEXTS, SheetFacts, write_sheet
@@ -175,7 +174,7 @@ def _report(
             f"{mass:.2f} kg"
         ),
         proof=(
-            f"the file in {reading.library} and the model in {reading.other} agree in {POSTURES} postures: poses of "
+            f"the file in MuJoCo and the model in pinocchio agree in {POSTURES} postures: poses of "
             f"all links, Jacobians, mass matrices and weights; the largest difference is {differences.largest:.1e} "
             f"({differences.worst})"
         ),

@@ -1,12 +1,17 @@
-"""Compares a model with the file that it was read from, in random postures."""
+"""Proves that a model that was written is the arm of the file: both are compared in random postures."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from xml.etree import ElementTree
 
 import numpy as np
 
-from skillc.services.robot_import.mechanism import Kinetics, Mechanism
+from skillc.errors import RequestError
+from skillc.services.robot_import.mechanism import Kinetics, Mechanism, PinocchioMechanism
+from skillc.services.robot_import.reading import Reading
 from skillc.services.robot_import.robot_model import RobotModel
 from skillc_runtime.motion.pose import Array
 
@@ -44,6 +49,31 @@ class Differences:
             "weights": self.weight,
         }
         return max(named, key=lambda name: named[name])
+
+
+def prove_same(reading: Reading, mjcf: Path) -> Differences:
+    """Return how little an MJCF file, read by pinocchio, differs from what MuJoCo read.
+
+    RequestError if it differs more than by rounding.
+    """
+    import pinocchio
+
+    root = ElementTree.fromstring(mjcf.read_bytes())
+    for number, element in enumerate((*root.iter("body"), *root.iter("joint"))):
+        element.set("name", f"{element.tag}{number}")  # Some names are pinocchio's own: it ends the process.
+    for motors in root.findall("actuator"):
+        root.remove(motors)
+    with TemporaryDirectory() as folder:
+        renamed = Path(folder, mjcf.name)
+        ElementTree.ElementTree(root).write(renamed, "utf-8")
+        written = pinocchio.buildModelFromMJCF(str(renamed))
+    found = compare(reading.model, reading.source, PinocchioMechanism(written, reading.model.flange))
+    if not found.agree:
+        raise RequestError(
+            f"the model that was made differs from the file: {found.worst} by {found.largest:.1e}, and {TOLERANCE:g} "
+            "is allowed; nothing was written"
+        )
+    return found
 
 
 def compare(model: RobotModel, one: Mechanism, other: Mechanism) -> Differences:

@@ -32,7 +32,7 @@ def read_robot(path: Path, options: ReadOptions | None = None) -> Reading:
         reading = read_mjcf(path, options or ReadOptions())
     for link in reading.model.links:
         _check_range(path, link.joint)
-    return reading.with_notes((*_flange_notes(reading), *_speed_notes(reading)))
+    return reading.with_notes(*_flange_notes(reading), *_speed_notes(reading))
 
 
 def _check_range(path: Path, joint: Joint) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 
@@ -33,18 +32,12 @@ class ReadOptions:
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """A model, the file as a mechanism of the library that read it, and what a user should know, as sentences."""
+    """A model, the file as a mechanism in MuJoCo, and what a user should know, as sentences."""
 
     model: RobotModel
     source: Mechanism
-    library: Literal["pinocchio", "MuJoCo"]
     notes: tuple[str, ...]
 
-    @property
-    def other(self) -> Literal["pinocchio", "MuJoCo"]:
-        """The library that reads the written model in the comparison."""
-        return "MuJoCo" if self.library == "pinocchio" else "pinocchio"
-
-    def with_notes(self, notes: tuple[str, ...]) -> Reading:
+    def with_notes(self, *notes: str) -> Reading:
         """Return the reading with further notes."""
         return replace(self, notes=(*self.notes, *notes))

@@ -5,7 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+import numpy as np
+
 from skillc_runtime.motion.pose import Array, Pose
+
+WHOLE_TURN = 2 * np.pi
+"""The range to either side of a joint without end, in rad."""
 
 ShapeKind: TypeAlias = Literal["box", "cylinder", "capsule", "sphere"]
 

@@ -6,8 +6,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
-import numpy as np
-
 from skillc.services.robot_import.mesh_files import find_mesh, read_vertices
 from skillc.services.robot_import.robot_model import Shape
 from skillc.services.robot_import.shape_fitting import fit_shape
@@ -15,24 +13,24 @@ from skillc.services.robot_import.urdf_tree import numbers, origin
 from skillc_runtime.motion.pose import Pose
 
 
-def read_shapes(path: Path, link: ElementTree.Element, place: Pose, missing: list[str]) -> tuple[Shape, ...]:
-    """Return the shapes of a link whose frame is at `place` in the frame that they are given in.
+def read_shapes(path: Path, link: ElementTree.Element, missing: list[str]) -> tuple[Shape, ...]:
+    """Return the shapes of a link in its frame.
 
     Names of meshes that are not there or cannot be read are added to `missing`; a link may have others instead.
     """
     for kind in ("collision", "visual"):
         lost: list[str] = []
-        found = tuple(_shapes(path, link.findall(kind), place, lost))
+        found = tuple(_shapes(path, link.findall(kind), lost))
         missing += [each for each in lost if each not in missing]
         if found:
             return found
     return ()
 
 
-def _shapes(path: Path, elements: list[ElementTree.Element], place: Pose, missing: list[str]) -> Iterator[Shape]:
+def _shapes(path: Path, elements: list[ElementTree.Element], missing: list[str]) -> Iterator[Shape]:
     for element in elements:
         geometry = element.find("geometry")
-        here = place @ origin(path, element)
+        here = origin(path, element)
         for each in () if geometry is None else geometry:
             shape = _mesh(path, each, here, missing) if each.tag == "mesh" else _primitive(path, each, here)
             if shape is not None:
@@ -66,19 +64,3 @@ def _mesh(path: Path, element: ElementTree.Element, pose: Pose, missing: list[st
         return None
     fitted = fit_shape(vertices)
     return Shape(fitted.kind, pose @ fitted.pose, fitted.size)
-
-
-def stand_in(ahead: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> tuple[Shape, ...]:
-    """Return a capsule from the origin of a link to the next joint at (3,) m, for a link without any shape."""
-    length = float(np.linalg.norm(ahead))
-    if length < STAND_IN_M:
-        return ()
-    z = ahead / length
-    x = np.cross(z, np.eye(3)[np.argmin(np.abs(z))])
-    x /= np.linalg.norm(x)
-    pose = Pose(ahead / 2, np.column_stack([x, np.cross(z, x), z]))
-    return (Shape("capsule", pose, (STAND_IN_M, length / 2)),)
-
-
-STAND_IN_M = 0.04
-"""Radius of the capsule that stands for a link without shape; shorter links get none."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
@@ -14,8 +14,7 @@ from skillc.errors import RequestError
 from skillc_runtime.motion.pose import Array, Pose, rotation_from_angles
 
 MOST_LINKS = 1000
-MOVING = ("revolute", "continuous", "prismatic", "floating", "planar")
-KINDS = (*MOVING, "fixed")
+KINDS = ("revolute", "continuous", "prismatic", "floating", "planar", "fixed")
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,52 +27,14 @@ class UrdfJoint:
     child: str
     element: ElementTree.Element
 
-    @property
-    def moves(self) -> bool:
-        """Whether the joint is not fixed."""
-        return self.kind != "fixed"
-
-    @property
-    def mimics(self) -> bool:
-        """Whether another joint determines the position of this one."""
-        return self.element.find("mimic") is not None
-
 
 @dataclass(frozen=True, slots=True)
 class UrdfTree:
     """The links by name, and the joints by the name of their child."""
 
     path: Path
-    root: str
     links: Mapping[str, ElementTree.Element]
     above: Mapping[str, UrdfJoint]
-
-    def children(self, link: str) -> list[UrdfJoint]:
-        """Return the joints whose parent is a link, in the order of the file."""
-        return [joint for joint in self.above.values() if joint.parent == link]
-
-    def path_to(self, link: str) -> tuple[UrdfJoint, ...]:
-        """Return the joints from the root to a link."""
-        found: list[UrdfJoint] = []
-        while link in self.above:
-            found.append(self.above[link])
-            link = self.above[link].parent
-        return tuple(reversed(found))
-
-    def fixed_to(self, link: str) -> Iterator[str]:
-        """Yield the links that are fixed to a link, also by others."""
-        for joint in self.children(link):
-            if not joint.moves:
-                yield joint.child
-                yield from self.fixed_to(joint.child)
-
-    def below(self, link: str) -> Iterator[str]:
-        """Yield the links below a link, without it."""
-        open_ = [link]
-        while open_:
-            for joint in self.children(open_.pop()):
-                yield joint.child
-                open_.append(joint.child)
 
 
 def read_tree(path: Path, robot: ElementTree.Element) -> UrdfTree:
@@ -96,7 +57,8 @@ def read_tree(path: Path, robot: ElementTree.Element) -> UrdfTree:
                 "be a tree"
             )
         above[joint.child] = joint
-    return UrdfTree(path, _root(path, links, above), links, above)
+    _check_root(path, links, above)
+    return UrdfTree(path, links, above)
 
 
 def numbers(path: Path, element: ElementTree.Element | None, attribute: str, default: tuple[float, ...]) -> Array:
@@ -145,22 +107,17 @@ def _joint(path: Path, name: str, element: ElementTree.Element) -> UrdfJoint:
     return UrdfJoint(name, kind, ends["parent"], ends["child"], element)
 
 
-def _root(path: Path, links: Mapping[str, ElementTree.Element], above: Mapping[str, UrdfJoint]) -> str:
+def _check_root(path: Path, links: Mapping[str, ElementTree.Element], above: Mapping[str, UrdfJoint]) -> None:
+    """Refuse links without a joint above them but for one, and circles. RequestError."""
     roots = [link for link in links if link not in above]
     if len(roots) > 1:
         raise RequestError(
             f"{path}: {len(roots)} links have no parent ({', '.join(roots[:4])}); all but one need a joint"
         )
-    reached = {*roots}
-    frontier = list(roots)
-    children: dict[str, list[str]] = {}
-    for joint in above.values():
-        children.setdefault(joint.parent, []).append(joint.child)
-    while frontier:
-        new = children.get(frontier.pop(), [])
-        reached.update(new)
-        frontier += new
+    reached, count = {*roots}, 0
+    while count < len(reached):
+        count = len(reached)
+        reached |= {joint.child for joint in above.values() if joint.parent in reached}
     lost = [link for link in links if link not in reached]
     if lost:
         raise RequestError(f"{path}: the links {', '.join(lost[:4])} are joined in a circle; links must be a tree")
-    return roots[0]

@@ -1,0 +1,144 @@
+"""Reads an arm from a specification of MuJoCo that is cut to its chain: links, inertia, flange."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import mujoco
+import numpy as np
+
+from skillc.errors import RequestError
+from skillc.services.robot_import.chain import Chain, list_some
+from skillc.services.robot_import.comparison import compare
+from skillc.services.robot_import.mechanism import MujocoMechanism
+from skillc.services.robot_import.possible_inertia import correct_inertia, restate_inertia
+from skillc.services.robot_import.reading import Reading, ReadOptions
+from skillc.services.robot_import.robot_model import Base, Inertia, Joint, RobotLink, RobotModel, Shape
+from skillc_runtime.motion.pose import Array, Pose
+
+FindShapes: TypeAlias = Callable[[Sequence[int]], Iterable[tuple[int, Shape]]]
+"""Returns the shapes of bodies that are fixed to each other, each with the number of the body in whose frame it is."""
+
+STAND_IN_M = 0.04
+"""Radius of the capsule that stands for a link without shape; shorter links get none."""
+
+
+def compile_model(path: Path, spec: Any) -> Any:
+    """Return the compiled model of a specification. RequestError if MuJoCo refuses it."""
+    try:
+        return spec.compile()
+    except ValueError as error:
+        first, _, rest = str(error).strip().partition("\n")
+        where = next((f" {line.rpartition(', id')[0]}" for line in rest.splitlines() if "name" in line), "")
+        hint = (
+            "; no real body has such moments of inertia: correct the `<inertia>` of this link in the file, or use "
+            "--correct-inertia"
+        )
+        said = first.removeprefix("Error: ") + where + hint * ("inertia" in first)
+        raise RequestError(f"{path} is refused by MuJoCo: {said}") from error
+
+
+class ArmReader:
+    """The arm in its zero posture; link 0 is the base, the others are those that the joints move."""
+
+    def __init__(self, path: Path, spec: Any, chain: Chain, options: ReadOptions) -> None:
+        self._chain, self._options = chain, options
+        self._stated = correct_inertia(spec) if options.correct_inertia else {}
+        self.model: Any = compile_model(path, spec)
+        self.model.dof_armature[:] = 0.0
+        self._data = mujoco.MjData(self.model)
+        mujoco.mj_kinematics(self.model, self._data)
+        self.joints: list[int] = [self.model.joint(name).id for name in chain.joints]
+        self._moved = [int(self.model.jnt_bodyid[joint]) for joint in self.joints]
+        root = int(self.model.body(chain.base).id)
+        self._base = self._body(root)
+        anchors = [Pose(self.model.jnt_pos[joint].copy(), np.eye(3)) for joint in self.joints]
+        moved = [self._body(body) @ at for body, at in zip(self._moved, anchors, strict=True)]
+        self._frames = [self._base, *moved]
+        self._owner = self._owners(root)
+
+    def read(
+        self, joints: Sequence[Joint], find_shapes: FindShapes, armature: float | None, notes: list[str]
+    ) -> Reading:
+        """Return the arm with its joints, and with notes."""
+        links = tuple(self._links(joints, find_shapes, notes))
+        base, flange = Base(self._chain.base, tuple(self._shapes_of(0, find_shapes))), self._flange()
+        model = RobotModel(base, links, flange, self._chain.tip, armature)
+        source = MujocoMechanism(self.model, self.joints, flange, self._base)
+        if self._stated:
+            before = MujocoMechanism(restate_inertia(self.model, self._stated), self.joints, flange, self._base)
+            notes.append(
+                f"no body has the moments of inertia of {list_some(list(self._stated))}: the smaller ones are raised, "
+                f"which changes the mass matrix by at most {100 * compare(model, before, source).mass_matrix:.2g} %"
+            )
+        return Reading(model, source, tuple(notes))
+
+    def _links(self, joints: Sequence[Joint], find_shapes: FindShapes, notes: list[str]) -> Iterator[RobotLink]:
+        """Yield the links from the base on; one without a shape has a capsule to the next joint."""
+        bare = []
+        for number, joint in enumerate(joints, 1):
+            name = self.model.body(self._moved[number - 1]).name
+            own = tuple(self._shapes_of(number, find_shapes))
+            if not own:
+                bare.append(f"`{name}`")
+                ahead = self._frames[number].inverse() @ self._frames[min(number + 1, len(joints))]
+                own = tuple(_stand_in(ahead.position))
+            placement = self._frames[number - 1].inverse() @ self._frames[number]
+            yield RobotLink(name, placement, joint, self._inertia(number), own)
+        if bare:
+            notes.append(
+                f"{list_some(bare)}: no shape in the file that can be read; a capsule to the next joint is taken"
+            )
+
+    def _flange(self) -> Pose:
+        """Return the flange in the frame of the last link."""
+        at = self._data.site(self._chain.tip) if self._chain.tip_is_site else self._data.body(self._chain.tip)
+        here = self._frames[-1].inverse() @ Pose(at.xpos.copy(), at.xmat.reshape(3, 3).copy())
+        return Pose(here.position, here.rotation @ self._options.turn)
+
+    def _shapes_of(self, number: int, find_shapes: FindShapes) -> Iterator[Shape]:
+        """Yield the shapes of a link with all that is fixed to it, in its frame."""
+        home = self._frames[number].inverse()
+        for body, shape in find_shapes(self._bodies(number)):
+            yield Shape(shape.kind, home @ self._body(body) @ shape.pose, shape.size)
+
+    def _inertia(self, number: int) -> Inertia:
+        """Return the inertia of all bodies of a link together, in its frame."""
+        model, home, bodies = self.model, self._frames[number].inverse(), self._bodies(number)
+        masses = model.body_mass[bodies]
+        total = float(masses.sum())
+        centres = np.array([home.apply(self._data.xipos[body]) for body in bodies])
+        centre = masses @ centres / total
+        matrix = np.zeros((3, 3))
+        for body, mass, at in zip(bodies, masses, centres - centre, strict=True):
+            axes = home.rotation @ self._data.ximat[body].reshape(3, 3)
+            matrix += axes * model.body_inertia[body] @ axes.T + mass * (at @ at * np.eye(3) - np.outer(at, at))
+        return Inertia(total, centre, matrix)
+
+    def _bodies(self, number: int) -> list[int]:
+        return [body for body, owner in self._owner.items() if owner == number]
+
+    def _owners(self, root: int) -> dict[int, int]:
+        """Return for each body of the arm the number of the link that it is fixed to."""
+        found = {root: 0} | {body: number for number, body in enumerate(self._moved, 1)}
+        for body in range(1, self.model.nbody):
+            parent = int(self.model.body_parentid[body])
+            if body not in found and parent in found and (parent, root) != (0, 0):
+                found[body] = found[parent]
+        return found
+
+    def _body(self, body: int) -> Pose:
+        return Pose(self._data.xpos[body].copy(), self._data.xmat[body].reshape(3, 3).copy())
+
+
+def _stand_in(ahead: Array) -> Iterator[Shape]:
+    """Yield a capsule from the origin of a link to the next joint at (3,) m, for a link without any shape."""
+    length = float(np.linalg.norm(ahead))
+    if length >= STAND_IN_M:
+        z = ahead / length
+        x = np.cross(z, np.eye(3)[np.argmin(np.abs(z))])
+        x /= np.linalg.norm(x)
+        pose = Pose(ahead / 2, np.column_stack([x, np.cross(z, x), z]))
+        yield Shape("capsule", pose, (STAND_IN_M, length / 2))
