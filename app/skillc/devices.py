@@ -6,7 +6,7 @@ from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.devices.camera import PoseCamera
 from skillc_runtime.devices.capabilities import BackendCapabilities
 from skillc_runtime.devices.cell import Cell
-from skillc_runtime.devices.disturbances import LoseArm, Move, PressEmergencyStop, Push, Take
+from skillc_runtime.devices.disturbances import LoseArm, MoveThing, PressEmergencyStop, PushArm, TakeThing
 from skillc_runtime.devices.gripper import Gripper
 
 __all__ = [
@@ -20,10 +20,10 @@ __all__ = [
     "Gripper",
     "LoseArm",
     "MobileBase",
-    "Move",
+    "MoveThing",
     "PoseCamera",
     "PressEmergencyStop",
-    "Push",
+    "PushArm",
     "StopPersists",
-    "Take",
+    "TakeThing",
 ]

@@ -6,7 +6,7 @@ from skillc_runtime.primitives.contradiction import contradict, contradict_place
 from skillc_runtime.primitives.locate import Locate
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, SpaceLacking, Status
 from skillc_runtime.primitives.stand_in import StandIn
-from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity as Quantity
 
 __all__ = [
     "Cell",

@@ -31,14 +31,14 @@ class Measures(msgspec.Struct, frozen=True, tag="measures"):
     limit: Expression
 
 
-Event: TypeAlias = Runs | ConditionEvent | Measures
+VerifyEvent: TypeAlias = Runs | ConditionEvent | Measures
 
 
 class Property(msgspec.Struct, frozen=True, kw_only=True):
     """`never first`, `never first outside second`, `first before second`, `after first eventually second`."""
 
     pattern: OneOf["never", "outside", "before", "eventually"]
-    first: Event
-    second: Event | None = None
+    first: VerifyEvent
+    second: VerifyEvent | None = None
     text: str
     source: Position

@@ -9,7 +9,7 @@ import pytest
 
 from skillc_model import tree
 from skillc_model.conditions import Compare, Literal, Variable
-from skillc_model.properties import ConditionEvent, Event, Measures, Property
+from skillc_model.properties import ConditionEvent, Measures, Property, VerifyEvent
 from skillc_model.skills import Compound, Parameter, Skill, SkillLibrary
 from skillc_rdf.vocabulary.types import ClassTerm, ClassType, Vocabulary
 from skillc_runtime.execution.tree.run import TreeRun
@@ -49,7 +49,7 @@ class Cell(Stage):
         return Arm(Measured(None if force_n is None else np.array([0.0, 0.0, -force_n, 99.0, 0.0, 0.0])))
 
 
-def library(event: Event) -> SkillLibrary:
+def library(event: VerifyEvent) -> SkillLibrary:
     """Return a library with a skill that acts while something must never be."""
     built = Library()
     built.add(Skill(name="Careful", parameters=(THE_FLAG, THE_ARM), source=here()), Compound(act("a")))
@@ -69,7 +69,7 @@ def library(event: Event) -> SkillLibrary:
     return SkillLibrary(**values | {"implementations": implementations, "vocabulary": vocabulary})
 
 
-def started(event: Event, force_n: float = 0.0) -> tuple[Cell, TreeRun]:
+def started(event: VerifyEvent, force_n: float = 0.0) -> tuple[Cell, TreeRun]:
     """Start the skill, in a `try`."""
     cell = Cell(world(), {"a": [Script("success", 3)]}, force_n=force_n)
     body = tree.Try(child=call("Careful", flag=FLAGS[0], arm=DEVICES[0]), source=here())

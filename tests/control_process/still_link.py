@@ -8,7 +8,7 @@ import numpy as np
 
 from skillc_runtime.backends.control_process.link import (
     CommandView,
-    Condition,
+    DeviceCondition,
     LinkAbilities,
     LinkMode,
     PointMass,
@@ -38,7 +38,7 @@ class StillLink:
 
     def __init__(self, description: StillDescription) -> None:
         self._home, self.abilities = np.array(description.home), description.abilities
-        self.condition = Condition("ready")
+        self.condition = DeviceCondition("ready")
 
     def connect(self) -> None:
         self._pacer, self._stamp_s = Pacer(PERIOD_S), 0.0
@@ -53,10 +53,10 @@ class StillLink:
         pass
 
     def take_control(self, mode: LinkMode) -> None:
-        self.condition = Condition("in-control")
+        self.condition = DeviceCondition("in-control")
 
     def give_back(self) -> None:
-        self.condition = Condition("ready")
+        self.condition = DeviceCondition("ready")
 
     def recover(self) -> None:
         pass

@@ -21,9 +21,9 @@ from skillc_runtime.backends.control_process.handshake import Patience
 from skillc_runtime.backends.control_process.link import (
     KINDS,
     CommandView,
-    Condition,
     ConditionKind,
     ControlRefused,
+    DeviceCondition,
     LinkAbilities,
     LinkLost,
     LinkMode,
@@ -56,7 +56,7 @@ SAYS = {
     "protective-stop": "the toy has stopped by itself",
     "emergency-stop": "the emergency stop of the toy is pressed; release it",
 }
-CONDITION = [Condition(kind, SAYS.get(kind, "")) for kind in CONDITIONS]  # type: ignore[arg-type]
+CONDITION = [DeviceCondition(kind, SAYS.get(kind, "")) for kind in CONDITIONS]  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from skillc.services.run.running import RunOptions, run_task
 from skillc.services.tasks.loading import load_task
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
-from skillc_runtime.recording.commands import Command, Pause, Stop
+from skillc_runtime.recording.commands import Command, PauseRun, Stop
 from skillc_runtime.recording.events import StateChanged
 from skillc_runtime.recording.run_spec import RunSpec
 
@@ -36,7 +36,7 @@ def draw() -> str:
     def pause_in_contact(run: TaskRun, now: float) -> Sequence[Command]:
         if run.state == "running" and run.tree is not None and run.tree.is_pressing:
             pressing_since.append(now)
-            return (Pause(),) if now - pressing_since[0] > PRESSED_S else ()
+            return (PauseRun(),) if now - pressing_since[0] > PRESSED_S else ()
         since = [event.time for event in monitor.events if isinstance(event, StateChanged)]
         if run.state == "paused" and now - since[-1] > PAUSED_S:
             lines[:] = compose_display(TASK, view_run(run), now, since[-1], Pace(), "")

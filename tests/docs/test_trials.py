@@ -8,7 +8,7 @@ from typing import get_args
 from docs.pages import ROOT
 from skillc.services.library import libraries
 from skillc_runtime.evaluation.trials.targets import METRICS
-from skillc_runtime.evaluation.trials.trial import Disturbance
+from skillc_runtime.evaluation.trials.trial import TrialDisturbance
 from skillc_runtime.world.state.terms import CONTACT, SKILLC
 
 PAGE = (ROOT / "docs/trials.md").read_text(encoding="utf-8")
@@ -30,7 +30,7 @@ def test_the_page_has_every_metric_with_its_target_and_every_disturbance() -> No
         for metric in own:
             target = "no target" if metric.target is None else f"{metric.target:g}"
             assert target in rows[metric.name] or (metric.target == 0 and rows[metric.name] == "never")
-    assert all(f"| `{name}` |" in PAGE for name in get_args(Disturbance) if name != "none")
+    assert all(f"| `{name}` |" in PAGE for name in get_args(TrialDisturbance) if name != "none")
 
 
 def targets() -> list[dict[str, str]]:

@@ -9,7 +9,7 @@ import pytest
 from docs.pages import ROOT, Reader, blocks
 from skillc_runtime.recording.events import ImplementationChosen, TaskStarted
 from skillc_runtime.recording.reader import TraceReader
-from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 
 PAGE = ROOT / "docs/why.md"
 
@@ -19,7 +19,7 @@ def test_the_lines_of_the_event_file_are_events(tmp_path: Path) -> None:
     (tmp_path / "events.jsonl").write_text(example, encoding="utf-8")
     started, chosen = TraceReader(tmp_path / "events.jsonl").events
     assert isinstance(started, TaskStarted)
-    assert isinstance(chosen, ImplementationChosen) and chosen.bindings["force"] == Quantity(10.0, "N")
+    assert isinstance(chosen, ImplementationChosen) and chosen.bindings["force"] == LabelledQuantity(10.0, "N")
 
 
 @pytest.mark.sim

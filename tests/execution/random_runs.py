@@ -35,7 +35,7 @@ MOST_TICKS = 400
 STEPS: tuple[Command, ...] = (commands.StepInto(), commands.StepOver(), commands.StepOut())
 OTHERS: tuple[Command, ...] = (
     commands.Approve(),
-    commands.Retry(),
+    commands.RetryStep(),
     commands.Skip("done by hand", who="Ann"),
     commands.Replan(),
     commands.Stop("enough"),
@@ -49,7 +49,7 @@ def edit(flag: str, on: bool) -> commands.EditWorld:
 
 
 ANY_COMMAND = st.one_of(
-    st.just(commands.Pause()),
+    st.just(commands.PauseRun()),
     st.just(commands.Resume()),
     st.sampled_from(STEPS),
     st.sampled_from(OTHERS),

@@ -98,7 +98,7 @@ def test_stops_have_a_lane_that_no_flood_fills() -> None:
 def test_requests_that_nobody_will_take_any_more_are_refused_at_the_end() -> None:
     _, watched = staged(act("a"), a=Script(ticks=500))
     watched.until("running")
-    request = watched.loop.request(watched.run, commands.Pause())
+    request = watched.loop.request(watched.run, commands.PauseRun())
     watched.loop.close("the program ends")
     assert request.answered and request.refused is not None and request.refused.state == "stopped"
 
@@ -120,7 +120,7 @@ def test_requests_from_other_threads_are_each_answered_once() -> None:
 
     def command(mine: list[object]) -> None:
         for number in range(200):
-            each = commands.Pause() if number % 2 else commands.Resume()
+            each = commands.PauseRun() if number % 2 else commands.Resume()
             mine.append(watched.loop.request(watched.run, each))
 
     threads = [threading.Thread(target=command, args=(mine,)) for mine in sent]
@@ -148,7 +148,7 @@ def test_a_signal_handler_may_stop_at_any_moment() -> None:
     def handle() -> None:
         nonlocal calls
         calls += 1
-        watched.loop.request(watched.run, commands.Pause())
+        watched.loop.request(watched.run, commands.PauseRun())
         if calls == 200:
             watched.loop.stop("enough")
 
@@ -165,14 +165,14 @@ def test_each_request_is_told_with_the_tick_in_which_it_took_effect() -> None:
     _, watched = staged(act("a"), a=Script(ticks=500))
     watched.until("running")
     ticks = []
-    for command in (commands.Pause(), commands.Resume(), commands.Pause()):
+    for command in (commands.PauseRun(), commands.Resume(), commands.PauseRun()):
         ticks.append(watched.loop.ticks)
         watched.request(command)
     assert [event.tick for event in watched.told(Requested)] == ticks
 
 
 @pytest.mark.parametrize("offset", range(-2, 3))
-@pytest.mark.parametrize("command", [commands.Pause(), commands.Stop("enough")], ids=lambda each: each.name)
+@pytest.mark.parametrize("command", [commands.PauseRun(), commands.Stop("enough")], ids=lambda each: each.name)
 def test_requests_at_the_tick_at_which_everything_ends(command: commands.Command, offset: int) -> None:
     cell, watched = staged(act("a"), settle_s=0.05, a=Script(ticks=20))
     for _ in range(20 + offset):

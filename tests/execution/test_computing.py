@@ -21,7 +21,7 @@ from skillc_runtime.primitives.compute_here import compute_here
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import Event, Note
-from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 from tree.library import Library, act, call, par, seq, world
 from tree.stage import Script, Scripted, Stage
 
@@ -54,7 +54,7 @@ def double_once_released(number: int, file: Path) -> int:
 
 
 def refuse(depth: float) -> None:
-    raise SkillFailure("there is no room: {depth:.1f mm} are missing", depth=Quantity(depth, "m"))
+    raise SkillFailure("there is no room: {depth:.1f mm} are missing", depth=LabelledQuantity(depth, "m"))
 
 
 def hang() -> None:
@@ -205,7 +205,7 @@ def test_what_does_not_want_to_end_is_halted_nevertheless() -> None:
 def test_a_pause_lets_it_go_on_and_takes_the_result_afterwards(released: Path) -> None:
     slow = think(act("held"))
     slow.tick(3)
-    assert slow.watched.request(commands.Pause()) is None
+    assert slow.watched.request(commands.PauseRun()) is None
     assert slow.watched.until("paused").run.state == "paused" and not slow.watched.loop.is_computing
     released.touch()
     slow.tick(50)

@@ -83,7 +83,7 @@ def reasons(watched: Watched) -> str:
 def pause_and_resume(watched: Watched) -> None:
     """Pause for longer than a tool presses, and go on."""
     watched.until_end_or("running")
-    watched.request(commands.Pause())
+    watched.request(commands.PauseRun())
     for _ in range(500):
         watched.loop.tick()
     if not watched.run.ended:

@@ -23,7 +23,7 @@ from tree.stage import Scripted
 
 def test_pause_holds_everything_until_it_is_resumed() -> None:
     cell, watched = staged(par("all", act("a"), with_("scope", act("b"))), a=SHORT, b=LONG)
-    watched.until("running").request(commands.Pause("coffee"))
+    watched.until("running").request(commands.PauseRun("coffee"))
     watched.until("paused")
     assert watched.run.reason == "coffee"
     ticked = cell.said("tick")
@@ -46,7 +46,7 @@ def test_a_pause_that_lasts_takes_tools_off_and_they_come_back_before_anything_g
     for _ in range(10):
         watched.loop.tick()
     assert watched.run.state == "running" and not cell.said("resume")
-    watched.request(commands.Pause("again"))
+    watched.request(commands.PauseRun("again"))
     assert watched.until("paused").run.reason == "again"
     watched.request(commands.Resume())
     cell.away = set()
@@ -62,11 +62,11 @@ class Presses(Scripted):
 
 def test_its_events_say_what_becomes_of_a_tool_that_presses() -> None:
     cell, watched = staged(act("a"), library=Library("execution.test_pauses_of_runs:Presses"), a=LONG)
-    watched.until("running").request(commands.Pause("coffee"))
+    watched.until("running").request(commands.PauseRun("coffee"))
     for _ in range(300):
         watched.loop.tick()
     cell.away = {"a"}
-    for request in (commands.Resume(), commands.Pause("again"), commands.Resume()):
+    for request in (commands.Resume(), commands.PauseRun("again"), commands.Resume()):
         watched.request(request)
         for _ in range(50):
             watched.loop.tick()
@@ -177,7 +177,7 @@ def test_a_skill_that_is_paused_between_its_steps_goes_on_to_the_next() -> None:
     cell, watched = staged(body, library=library, **dict.fromkeys("abcd", SHORT))
     while "b" not in cell.starts:
         watched.loop.tick()
-    watched.request(commands.Pause())
+    watched.request(commands.PauseRun())
     watched.until("paused")
     assert list(cell.starts) == ["a", "b"] and cell.said("tick").count("tick b") == 5
     watched.request(commands.Resume())

@@ -18,7 +18,7 @@ from plans.depot import CONTAIN, contain, goal, iri, library, world
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, NotStarted, PreparedTask, replan_task
-from skillc_runtime.execution.planning_job import Answer, PlanningJob, find_arrival_problem
+from skillc_runtime.execution.planning_job import PlanningJob, Preparation, find_arrival_problem
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.planning.arrangement import InSeries
@@ -40,7 +40,7 @@ def carry(text: str = BOTH, state: WorldState = STATE) -> Assignment:
     return Assignment("carry", state, AchieveGoal(goal(text, state)))
 
 
-def finished(job: PlanningJob) -> Answer:
+def finished(job: PlanningJob) -> Preparation:
     answer = job.wait(60.0)
     assert answer is not None
     return answer

@@ -64,7 +64,7 @@ def broken_step(step: str) -> tuple[Yard, Watched]:
 
 def test_a_failed_step_of_a_plan_is_retried_with_the_steps_after_it() -> None:
     yard, run = broken_step("carl crate a")
-    assert run.request(commands.Retry()) is None
+    assert run.request(commands.RetryStep()) is None
     assert run.until_end() == "succeeded"
     assert yard.depot.log == ["carl c a", "carl crate a", "carl crate a", "carl a b", "carl crate b"]
 
@@ -90,7 +90,7 @@ def test_after_a_failure_another_plan_can_be_made() -> None:
 def test_a_retry_that_is_no_longer_possible_is_refused_and_replanning_is_not() -> None:
     yard, run = broken_step("carl crate a")
     yard.move("crate", "a", "d")
-    refused = run.request(commands.Retry())
+    refused = run.request(commands.RetryStep())
     assert refused is not None and "`from contain crate` does not hold" in refused.why and run.run.waits_for_decision
     assert run.request(commands.Replan()) is None and run.until_end() == "succeeded"
 
@@ -102,7 +102,7 @@ def test_a_paused_run_can_be_replanned_and_a_running_one_only_once_it_is_paused(
     yard.tick(30)
     if state == "running":
         assert run.request(commands.Replan()) is not None
-    run.request(commands.Pause())
+    run.request(commands.PauseRun())
     run.until("paused")
     assert run.request(commands.Replan()) is None
     assert run.until_end() == "succeeded"
@@ -115,7 +115,7 @@ def test_a_plan_that_no_longer_leads_to_the_goal_is_replaced_while_paused() -> N
     yard = Yard({"carl": "c"}, {"crate": "a"})
     run = yard.submit(CRATE_TO_B)
     yard.tick(30)
-    run.request(commands.Pause())
+    run.request(commands.PauseRun())
     run.until("paused")
     there = contain("d", "crate")
     gone = RemoveRelation(iri("a"), there.relation, iri("crate"))

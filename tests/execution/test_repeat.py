@@ -13,7 +13,7 @@ from execution.actors import Acting
 from execution.random_runs import DRAWN, Drawn
 from execution.yard import CRATE_TO_B, Yard
 from plans.depot import library
-from skillc_runtime.execution.repeat import Difference, NotRepeatable, Repetition, repeat_run
+from skillc_runtime.execution.repeat import Divergence, NotRepeatable, Repetition, repeat_run
 from skillc_runtime.execution.task_state import RefusedCommand
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import Event, NodeEnded, PlanArrived, Requested, TaskStarted
@@ -59,16 +59,16 @@ def recording() -> list[Event]:
     run.until("running")
     refusals: list[RefusedCommand | None] = []
     for command, state in (
-        (commands.Pause("coffee"), "paused"),
+        (commands.PauseRun("coffee"), "paused"),
         (commands.Resume(), "running"),
-        (commands.Retry(), "running"),
-        (commands.Pause(), "paused"),
+        (commands.RetryStep(), "running"),
+        (commands.PauseRun(), "paused"),
         (commands.Replan(), "running"),
-        (commands.Pause(), "paused"),
+        (commands.PauseRun(), "paused"),
         (commands.StepOver(), "paused"),
         (commands.StepInto(), "paused"),
         (commands.Resume(), "paused"),
-        (commands.Retry(), "running"),
+        (commands.RetryStep(), "running"),
     ):
         refusals.append(run.request(command))
         run.until(state, 4000)
@@ -110,7 +110,7 @@ def test_a_run_that_was_not_the_first_of_its_cell_is_refused() -> None:
         repeated(events)
 
 
-def difference(events: list[Event], crates: str = "a") -> Difference:
+def difference(events: list[Event], crates: str = "a") -> Divergence:
     found = repeated(events, crates).difference
     assert found is not None
     return found
@@ -160,7 +160,7 @@ def test_an_edited_event_is_found() -> None:
 
 def test_an_event_too_many_is_found() -> None:
     events = recording()
-    assert difference([*events, events[-1]]) == Difference(len(events) + 1, events[-1], None)
+    assert difference([*events, events[-1]]) == Divergence(len(events) + 1, events[-1], None)
 
 
 def test_a_world_in_which_the_plan_does_not_work_is_told() -> None:

@@ -113,7 +113,7 @@ def test_the_deadline_ends_each_state_in_which_time_goes_on(state: str) -> None:
 )
 def test_a_step_ends_at_its_deadline_without_the_time_that_it_was_paused(body: tree.Node, name: str) -> None:
     cell, watched = staged(body, RunSpec(step_deadline_s=1.0), a=LONG)
-    watched.until("running").request(commands.Pause())
+    watched.until("running").request(commands.PauseRun())
     watched.until("paused")
     for _ in range(300):
         watched.loop.tick()
@@ -172,7 +172,7 @@ def test_a_failed_step_waits_for_a_decision_while_time_goes_on() -> None:
     before = cell.now
     assert watched.loop.tick() and cell.now > before
     cell.scripts["a"] = [SHORT]
-    assert watched.request(commands.Retry()) is None
+    assert watched.request(commands.RetryStep()) is None
     assert watched.until_end() == "succeeded"
     assert cell.starts == {"a": 2} and len(watched.run.attempts) == 2
 
@@ -187,7 +187,7 @@ def test_a_body_that_was_not_planned_cannot_be_replanned_and_has_no_step_to_skip
 
 def test_a_world_edit_takes_effect_and_a_hold_that_it_breaks_is_found_after_the_pause() -> None:
     cell, watched = staged(call("Kept", name="a", flag=FLAGS[0]), a=LONG)
-    watched.until("running").request(commands.Pause())
+    watched.until("running").request(commands.PauseRun())
     watched.until("paused")
     assert watched.request(turned(FLAGS[0], False)) is None
     assert cell.world.snapshot().value(FLAGS[0], ON) is False

@@ -24,13 +24,13 @@ ASKING = RunSpec(ask_after_failure=True)
 NO_EDIT = commands.EditWorld((), "to see what happens", who="somebody")
 EVERY: tuple[Command, ...] = (
     commands.Approve(),
-    commands.Pause(),
+    commands.PauseRun(),
     commands.Resume(),
     commands.StepInto(),
     commands.StepOver(),
     commands.StepOut(),
     commands.Stop("enough"),
-    commands.Retry(),
+    commands.RetryStep(),
     commands.Skip("done by hand", who="somebody"),
     commands.Replan(),
     NO_EDIT,
@@ -65,13 +65,13 @@ def pausing() -> tuple[StagedCell, Watched]:
     library = Library()
     library.add(Skill(name="Careful", source=here(), pause=PausePolicy(where="never")), Compound(act("a")))
     cell, watched = staged(call("Careful"), library=library, a=LONG)
-    watched.until("running").request(commands.Pause())
+    watched.until("running").request(commands.PauseRun())
     return cell, watched.until("pausing")
 
 
 def paused() -> tuple[StagedCell, Watched]:
     cell, watched = running()
-    watched.request(commands.Pause())
+    watched.request(commands.PauseRun())
     return cell, watched.until("paused")
 
 

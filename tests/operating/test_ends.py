@@ -21,7 +21,7 @@ from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.execution.attempt import TICK_S
 from skillc_runtime.execution.task_run import TaskRun
-from skillc_runtime.recording.commands import Command, Pause, Resume, Stop
+from skillc_runtime.recording.commands import Command, PauseRun, Resume, Stop
 from skillc_runtime.recording.events import Paused, Resumed, TaskEnded, TaskStarted
 from skillc_runtime.recording.reader import TraceReader
 from skillc_runtime.recording.run_spec import RunSpec
@@ -37,7 +37,7 @@ def stop_after(seconds: float) -> Script:
 def pause_then_stop(run: TaskRun, now: float) -> Sequence[Command]:
     if run.state == "paused":
         return (Stop("enough"),)
-    return (Pause(),) if run.state == "running" and now >= 0.5 else ()
+    return (PauseRun(),) if run.state == "running" and now >= 0.5 else ()
 
 
 def stop_while_planning(run: TaskRun, _now: float) -> Sequence[Command]:
@@ -168,7 +168,7 @@ def test_a_task_that_is_paused_and_continued_ends_as_if_it_had_not_been(tmp_path
         if run.state == "paused":
             paused.append(now)
             return (Resume(),) if now - paused[0] > 1.0 else ()
-        return (Pause(),) if run.state == "running" and not paused and now >= 0.5 else ()
+        return (PauseRun(),) if run.state == "running" and not paused and now >= 0.5 else ()
 
     plain = run(request_in(tmp_path, "Lift()"), Monitor()).result
     monitor = Monitor(pause_once)

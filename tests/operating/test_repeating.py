@@ -16,7 +16,7 @@ from skillc.services.run.running import RunOptions, run_task
 from skillc.services.tasks.loading import load_task
 from skillc_runtime.execution.repeat import repeat_run
 from skillc_runtime.execution.task_run import TaskRun
-from skillc_runtime.recording.commands import Command, Pause, Resume, StepOver
+from skillc_runtime.recording.commands import Command, PauseRun, Resume, StepOver
 from skillc_runtime.recording.events import PlanArrived, Requested
 from skillc_runtime.recording.reader import TraceReader
 from skillc_runtime.recording.run_spec import RunSpec
@@ -26,10 +26,14 @@ class Operator:
     """Pauses a run at a time of its cell, goes over one call, and continues a while later."""
 
     def __init__(self, at_s: float) -> None:
-        self._wishes: list[tuple[float, Command]] = [(at_s, Pause()), (at_s + 3.0, StepOver()), (at_s + 5.0, Resume())]
+        self._wishes: list[tuple[float, Command]] = [
+            (at_s, PauseRun()),
+            (at_s + 3.0, StepOver()),
+            (at_s + 5.0, Resume()),
+        ]
 
     def __call__(self, run: TaskRun, now: float) -> Sequence[Command]:
-        wanted = (Pause,) if run.state == "running" else (StepOver, Resume) if run.state == "paused" else ()
+        wanted = (PauseRun,) if run.state == "running" else (StepOver, Resume) if run.state == "paused" else ()
         if self._wishes and now >= self._wishes[0][0] and isinstance(self._wishes[0][1], wanted):
             return (self._wishes.pop(0)[1],)
         return ()

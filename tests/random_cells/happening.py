@@ -9,7 +9,7 @@ from typing import Final, Literal, TypeAlias, assert_never, get_args
 from random_cells.drawing import TABLE_M, Cell, Point, draw_cell
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.devices.disturbances import DisturbanceRefused, Move
+from skillc_runtime.devices.disturbances import DisturbanceRefused, MoveThing
 from skillc_runtime.recording.events import Event, ImplementationChosen, NodeEnded
 from skillc_runtime.world.state.facts import RelationFact
 from skillc_runtime.world.state.terms import CONTAIN
@@ -109,10 +109,10 @@ class Hand:
         known = world.deciding_write(fact) if world.snapshot().holds(self._bin, CONTAIN, self._part) else None
         return known is not None and known.evidence in ("sensed", "idealised")
 
-    def _move(self) -> Move:
+    def _move(self) -> MoveThing:
         happening, at = self._happening, self._cell.ground_truth.body_pose(self._part).position
         if happening.to_m is not None:
             x, y, z = (round(float(to - now), 4) for to, now in zip(happening.to_m, at, strict=True))
-            return Move(self._part, (x, y, z), happening.turn_rad)
+            return MoveThing(self._part, (x, y, z), happening.turn_rad)
         assert happening.by_m is not None, "a part is moved by something or to somewhere"
-        return Move(self._part, happening.by_m, happening.turn_rad)
+        return MoveThing(self._part, happening.by_m, happening.turn_rad)

@@ -8,10 +8,10 @@ from skillc_runtime.recording.events import Event, NodeEnded, NodeStarted, State
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.history.account import MAX_LISTED, CallOutput, RunAccount
 from skillc_runtime.world.state.facts import Evidence
-from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledProperty, LabelledValue, Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledProperty, LabelledQuantity, LabelledValue
 
 HERE = Position("play.skill", 1, 1)
-DROPPED = Failure(kind="body", message="it fell", values={"force": Quantity(0.2, "N")})
+DROPPED = Failure(kind="body", message="it fell", values={"force": LabelledQuantity(0.2, "N")})
 
 
 def follow(*events: Event) -> RunAccount:
@@ -30,7 +30,7 @@ def ended(node: int, **outputs: LabelledValue) -> NodeEnded:
 
 def measured(name: str, value: float, known: Evidence | None, time: float) -> WorldChanged:
     thing, mass = LabelledIri(f"http://example.org/{name}", name), LabelledIri("http://example.org/mass", "mass")
-    fact = LabelledProperty(thing, mass, Quantity(value, "kg"))
+    fact = LabelledProperty(thing, mass, LabelledQuantity(value, "kg"))
     return WorldChanged(time=time, origin="Weigh", changes=(fact,), known=known)
 
 
@@ -70,4 +70,7 @@ def test_the_last_measure_of_each_property_counts_and_assumptions_do_not() -> No
         measured("bin", 9.0, None, 5.0),
     )
     found = [(each.fact.individual.label, each.fact.value, each.known, each.time_s) for each in account.measures]
-    assert found == [("box", Quantity(2.0, "kg"), "reported", 2.0), ("crate", Quantity(1.5, "kg"), "sensed", 3.0)]
+    assert found == [
+        ("box", LabelledQuantity(2.0, "kg"), "reported", 2.0),
+        ("crate", LabelledQuantity(1.5, "kg"), "sensed", 3.0),
+    ]

@@ -10,7 +10,7 @@ from msgspec import structs
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.film_story import find_moments
 from skillc_runtime.film.footage import Moment
-from skillc_runtime.recording.history.history import Attempt, RecordedCall, RunHistory
+from skillc_runtime.recording.history.history import RecordedAttempt, RecordedCall, RunHistory
 from skillc_runtime.recording.reasons import Highlight
 from skillc_runtime.world.state.labels.labelled import LabelledIri
 
@@ -33,7 +33,7 @@ def call(status: str, started: float | None, ended: float | None, *seen: Highlig
 
 def history(status: str, *inner: RecordedCall) -> RunHistory:
     whole = structs.replace(call(status, 0.0, 9.0), calls=inner)
-    return RunHistory(task="press", attempts=(Attempt(steps=(whole,)),))
+    return RunHistory(task="press", attempts=(RecordedAttempt(steps=(whole,)),))
 
 
 def test_what_was_waited_for_is_seen_when_it_came() -> None:

@@ -13,8 +13,8 @@ import skillc_skills
 from skillc_model.format_type import SI_UNITS
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
-from skillc_runtime.recording.history.history import Attempt, RecordedCall, RunHistory
-from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledValue, Quantity
+from skillc_runtime.recording.history.history import RecordedAttempt, RecordedCall, RunHistory
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledQuantity, LabelledValue
 from skillc_runtime.world.state.terms import ARM_DEVICE, SURFACE, TOOL
 
 HERE = Position("wash.skill", 1, 1)
@@ -47,14 +47,16 @@ def call(
 
 def washed(pressing: str, following: str, start: float = 1.0) -> RecordedCall:
     """Return a call that presses and goes along a path for three seconds, one second after its start."""
-    press = call("1.1", "Lean", start, start + 1, pressing, arm=iri("Arm"), force=Quantity(7.5, SI_UNITS["Force"]))
+    press = call(
+        "1.1", "Lean", start, start + 1, pressing, arm=iri("Arm"), force=LabelledQuantity(7.5, SI_UNITS["Force"])
+    )
     follow = call("1.2", "Along", start + 1, start + 4, following, arm=iri("Arm"))
     named = {"window": iri("Window"), "with_tool": iri("Sponge"), "arm": iri("Arm")}
     return call("1", "Wash", start, start + 5, "", press, follow, **named)
 
 
 def history(*steps: RecordedCall) -> RunHistory:
-    return RunHistory(task="wash", attempts=(Attempt(steps=steps),))
+    return RunHistory(task="wash", attempts=(RecordedAttempt(steps=steps),))
 
 
 def test_a_surface_is_wiped_where_a_tool_is_pressed_and_led_along_a_path() -> None:

@@ -19,7 +19,7 @@ from skillc.services.project.backends import make_backend
 from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.execution.consistency import check_events
 from skillc_runtime.execution.repeat import repeat_run
-from skillc_runtime.recording.commands import Answer
+from skillc_runtime.recording.commands import AnswerPrompt
 from skillc_runtime.recording.events import Event, PromptsChanged, Requested
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
@@ -54,13 +54,13 @@ def test_an_operator_is_asked_and_the_answer_decides(tmp_path: Path, choice: str
         assert (prompt.text, prompt.choices, prompt.default) == ("Is the cart free?", ("yes", "no"), "")
         assert "answer" in status(host).allowed and host.loop.runs[0].stands
         for wrong, said in (
-            (Answer("perhaps"), "`perhaps` is no choice; there is `yes`, `no`"),
-            (Answer(choice, prompt=99), f"there is no prompt 99: {prompt.id}: Is the cart free?"),
+            (AnswerPrompt("perhaps"), "`perhaps` is no choice; there is `yes`, `no`"),
+            (AnswerPrompt(choice, prompt=99), f"there is no prompt 99: {prompt.id}: Is the cart free?"),
         ):
             refused = host.request("asking", wrong)
             host.tick()
             assert said in str(refused.refused)
-        host.request("asking", Answer(choice, prompt.id, who="Ada"))
+        host.request("asking", AnswerPrompt(choice, prompt.id, who="Ada"))
         (ended,) = run_all(host)
         assert (ended.state, ended.prompts) == (end, ())
         found = events(host)
@@ -120,7 +120,7 @@ def test_who_is_asked_keeps_nobody_from_working(tmp_path: Path) -> None:
         assert states == {"asking": "running", "working": "running", "asked later": "running"}
         assert host._operations["working"].describe("yard", 0).devices is None
         host.stop("asked later", "not needed")
-        host.request("asking", Answer("yes"))
+        host.request("asking", AnswerPrompt("yes"))
         ended = {each.id: each.state for each in run_all(host)}
     assert ended == {"asking": "succeeded", "working": "succeeded", "asked later": "stopped"}
     assert list(ended) == ["asked later", "asking", "working"]

@@ -25,7 +25,7 @@ from skillc_ontology import catalogue
 from skillc_runtime.control.controller import ControlError
 from skillc_runtime.control.supervision.safety import SafetyLimits
 from skillc_runtime.devices.backend import StopPersists
-from skillc_runtime.devices.disturbances import Disturbance, LoseArm, Move, PressEmergencyStop, Push, Take
+from skillc_runtime.devices.disturbances import Disturbance, LoseArm, MoveThing, PressEmergencyStop, PushArm, TakeThing
 from skillc_runtime.world.state.terms import CONTAIN
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -157,12 +157,12 @@ def test_an_emergency_stop_hides_a_protective_one_and_not_the_other_way_round(tm
 @pytest.mark.parametrize(
     ("disturbance", "refused"),
     [
-        (Push("lab:Arm-2", (1.0, 0.0, 0.0)), "did you mean"),
-        (Push("lab:Box-A", (1.0, 0.0, 0.0)), "is no arm with a hand"),
+        (PushArm("lab:Arm-2", (1.0, 0.0, 0.0)), "did you mean"),
+        (PushArm("lab:Box-A", (1.0, 0.0, 0.0)), "is no arm with a hand"),
         (LoseArm("lab:Box-A"), "is no arm"),
-        (Move("lab:Box-A", (0.1, 0.0, 0.0)), "is nothing that can be moved"),
-        (Take("lab:Part-A"), "is in no gripper"),
-        (Move("lab:Part-Z", (0.1, 0.0, 0.0)), "did you mean"),
+        (MoveThing("lab:Box-A", (0.1, 0.0, 0.0)), "is nothing that can be moved"),
+        (TakeThing("lab:Part-A"), "is in no gripper"),
+        (MoveThing("lab:Part-Z", (0.1, 0.0, 0.0)), "did you mean"),
     ],
 )
 def test_a_disturbance_that_is_not_possible_says_why(disturbance: Disturbance, refused: str, tmp_path: Path) -> None:
@@ -177,7 +177,7 @@ def test_a_simulation_that_has_diverged_is_not_disturbed(tmp_path: Path) -> None
     with open_cell(make_settings(tmp_path, SORTING, "kinematic"), SilentReporter()) as host:
         reality(host)._broken = "the acceleration of a joint is too large"
         with pytest.raises(RequestError, match="nothing moves any more: the acceleration"):
-            host.disturb(Move("lab:Part-A", (0.1, 0.0, 0.0)), "bo")
+            host.disturb(MoveThing("lab:Part-A", (0.1, 0.0, 0.0)), "bo")
         assert find_state(host)[0] == "fault" and "start the cell again" in acknowledge(host)
 
 
@@ -185,7 +185,7 @@ def test_a_thing_that_somebody_moved_is_there_when_the_cell_is_started_again(tmp
     settings, part = make_settings(tmp_path, SORTING, "kinematic"), "http://example.org/lab#Part-A"
     with open_cell(settings, SilentReporter()) as host:
         before = reality(host).ground_truth.body_pose(part).position
-        host.disturb(Move("lab:Part-A", (0.03, -0.01, 0.0)), "bo")
+        host.disturb(MoveThing("lab:Part-A", (0.03, -0.01, 0.0)), "bo")
         host.obey()
         after = reality(host).ground_truth.body_pose(part).position
         assert np.allclose(after - before, (0.03, -0.01, 0.0), atol=1e-6)
@@ -202,8 +202,8 @@ def test_what_is_taken_out_of_a_hand_is_missed_by_its_fingers_and_withdrawn(back
             run_until(host, host.loop.ticks + 1)
         run_until(host, host.loop.ticks + 20)
         with pytest.raises(RequestError, match="it can be taken out of the hand"):
-            host.disturb(Move("lab:Part-A", (0.3, 0.0, 0.0)), "bo")
-        host.disturb(Take("lab:Part-A", (0.0, -0.3, 0.0)), "bo")
+            host.disturb(MoveThing("lab:Part-A", (0.3, 0.0, 0.0)), "bo")
+        host.disturb(TakeThing("lab:Part-A", (0.0, -0.3, 0.0)), "bo")
         assert host.world.snapshot().holds(hand, CONTAIN, part), "nobody has felt it yet"
         (ended,) = run_all(host)
         assert ended.state == "failed" and ended.failure is not None
@@ -219,8 +219,8 @@ def test_a_run_that_was_disturbed_is_repeated_with_its_disturbances(backend: str
     with open_cell(settings, SilentReporter()) as host:
         host.submit("first", TASK)
         run_until(host, 100)
-        host.disturb(Push(ARM, (0.0, 20.0, 0.0), 0.3), "bo")
-        host.disturb(Move("lab:Part-B", (0.004, 0.003, 0.0)), "bo")
+        host.disturb(PushArm(ARM, (0.0, 20.0, 0.0), 0.3), "bo")
+        host.disturb(MoveThing("lab:Part-B", (0.004, 0.003, 0.0)), "bo")
         run_until(host, 600)
         host.disturb(PRESS, "bo")
         (ended,) = run_all(host)
@@ -313,7 +313,7 @@ def test_a_push_moves_the_hand_and_after_an_emergency_stop_nothing_moves(tmp_pat
     with open_cell(make_settings(tmp_path, SORTING, "mujoco"), SilentReporter()) as host:
         cell, arm = reality(host), "http://example.org/lab#Arm-1"
         before = cell.arms[arm].state().tool.position.copy()
-        host.disturb(Push(ARM, (0.0, 30.0, 0.0), 0.3), "bo")
+        host.disturb(PushArm(ARM, (0.0, 30.0, 0.0), 0.3), "bo")
         cell.advance(0.3)
         moved = cell.arms[arm].state().tool.position - before
         assert 0.001 < moved[1] < 0.2, moved

@@ -14,7 +14,7 @@ from skillc.cells.host import open_cell
 from skillc.contract.geometry import CellModel, SurfaceCoverage
 from skillc.contract.operation import OperationRequest
 from skillc.services.reporting.reporter import SilentReporter
-from skillc_runtime.devices.disturbances import Move
+from skillc_runtime.devices.disturbances import MoveThing
 
 BOARD_IRI, TABLE_IRI = "http://example.org/lab#Whiteboard-1", "http://example.org/lab#Table-1"
 ARM, PART = "http://example.org/lab#Arm-1", "http://example.org/lab#Part-A"
@@ -67,7 +67,7 @@ def test_a_true_surface_stands_where_it_really_is(tmp_path: Path) -> None:
 def test_samples_follow_fingers_and_what_is_moved(tmp_path: Path) -> None:
     with open_cell(make_settings(tmp_path, SORTING, "kinematic"), SilentReporter()) as host:
         before = host.devices.sampler.take()
-        host.disturb(Move(PART, (0.1, 0.0, 0.0)), "somebody")
+        host.disturb(MoveThing(PART, (0.1, 0.0, 0.0)), "somebody")
         host.submit("first", OperationRequest(task=SORTING[1]))
         assert np.isclose(host.devices.sampler.take().things[PART][0] - before.things[PART][0], 0.1)
         run_until(host, 600)

@@ -15,7 +15,7 @@ from skillc.cells.remote_cell import RemoteCell, start_cell
 from skillc.cells.settings import CellSettings
 from skillc.contract.messages import End, Give, Happened, Report, SetPace, StartFailed, StatusChanged, Submit
 from skillc.contract.operation import OperationRequest, OperationStatus
-from skillc_runtime.recording.commands import Pause, Resume, Stop
+from skillc_runtime.recording.commands import PauseRun, Resume, Stop
 
 CARRY = OperationRequest(task="carry_all")
 
@@ -102,7 +102,7 @@ async def operate(cell: RemoteCell, server: Server) -> None:
     refused = (await cell.request(Give(operation="op", command=Resume()))).refused
     assert refused is not None and refused.kind == "state" and "stop" in refused.allowed
     await server.see_state("op", "running")
-    assert (await cell.request(Give(operation="op", command=Pause()))).refused is None
+    assert (await cell.request(Give(operation="op", command=PauseRun()))).refused is None
     await server.see_state("op", "paused")
     assert (await cell.request(Give(operation="op", command=Resume()))).refused is None
     cell.stop("enough", "op")

@@ -22,7 +22,7 @@ from skillc.services.project.backends import BackendName
 from skillc.services.replaying.check import ReplayCheck, check_run
 from skillc.services.replaying.report import report_recorded
 from skillc.services.reporting.reporter import SilentReporter
-from skillc_runtime.devices.disturbances import Move, Push
+from skillc_runtime.devices.disturbances import MoveThing, PushArm
 from skillc_runtime.recording.mcap.contents import START
 from skillc_runtime.recording.mcap.reader import read_recording
 from skillc_runtime.recording.run_spec import RunSpec
@@ -129,12 +129,12 @@ def test_edits_and_disturbances_are_repeated(tmp_path: Path) -> None:
     settings = make_settings(tmp_path, SORTING, "kinematic")
     with open_cell(settings, SilentReporter()) as host:
         stop_after(host, "before", ONE_PART, 300)
-        host.disturb(Move(PART, (0.01, 0.0, 0.0)), "bo")
+        host.disturb(MoveThing(PART, (0.01, 0.0, 0.0)), "bo")
         host.edit(Edit(edits=("lab:spare a skiros:Product",), who="bo", why="it came"))
         host.submit("disturbed", ONE_PART)
         run_for(host, 200)
         host.edit(Edit(edits=("not lab:spare",), who="bo", why="it is gone"))
-        host.disturb(Push(ARM, (5.0, 0.0, 0.0)), "bo")
+        host.disturb(PushArm(ARM, (5.0, 0.0, 0.0)), "bo")
         run_all(host)
     assert_repeated(settings, "before", "disturbed")
 
@@ -161,7 +161,7 @@ def test_who_is_not_alone_is_not_repeated_and_why_is_said(tmp_path: Path) -> Non
 def test_a_push_that_goes_on_is_said(tmp_path: Path) -> None:
     settings = make_settings(tmp_path, SORTING, "kinematic")
     with open_cell(settings, SilentReporter()) as host:
-        host.disturb(Push(ARM, (1.0, 0.0, 0.0), 60.0), "bo")
+        host.disturb(PushArm(ARM, (1.0, 0.0, 0.0), 60.0), "bo")
         stop_after(host, "pushed", ONE_PART, 300)
     assert check(settings, "pushed").note == "the cell was being disturbed when it began"
 

@@ -12,7 +12,7 @@ import pytest
 import skillc
 from server.running import RunningServer, find_cell_process
 from skillc.cells.snapshot import CellSnapshot, decode_snapshot, encode_snapshot
-from skillc.contract.device import Figure
+from skillc.contract.device import SheetFigure
 from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import find_library, find_scene
 from skillc.services.reporting.reporter import SilentReporter
@@ -75,7 +75,7 @@ def test_devices_have_what_their_data_sheets_state() -> None:
     }
     arm = found["lab:Iiwa-1"]
     assert arm.part_of == found["lab:Robot-1"].iri and arm.controller == "impedance"
-    assert Figure("skillc:contactForceLimit", 80.0, "N") in arm.figures, arm.figures
+    assert SheetFigure("skillc:contactForceLimit", 80.0, "N") in arm.figures, arm.figures
 
 
 def test_a_device_is_held_by_the_operation_that_runs(server: RunningServer) -> None:

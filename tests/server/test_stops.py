@@ -9,7 +9,7 @@ import pytest
 import skillc
 from server.running import RunningServer
 from server.test_leases import client_of
-from skillc.devices import PressEmergencyStop, Push
+from skillc.devices import PressEmergencyStop, PushArm
 
 PATH = "/cells/yard"
 
@@ -94,4 +94,4 @@ def test_a_cell_is_disturbed_from_python(server: RunningServer) -> None:
         assert cell.disturb(PressEmergencyStop(False)).reason == "an emergency stop is pressed"
         assert cell.acknowledge().state == "operational"
         with pytest.raises(skillc.RefusedError, match="is no arm with a hand"):
-            cell.disturb(Push("lab:Cart-1", (1.0, 0.0, 0.0)))
+            cell.disturb(PushArm("lab:Cart-1", (1.0, 0.0, 0.0)))

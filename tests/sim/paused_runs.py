@@ -16,7 +16,7 @@ from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.preparation import Ready
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.recording.commands import Command, Pause, Resume
+from skillc_runtime.recording.commands import Command, PauseRun, Resume
 from skillc_runtime.recording.events import Event, StateChanged
 from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
@@ -76,7 +76,7 @@ class PausedRun:
             ]
             if began and now >= began[0] + self.after_s:
                 self.requested_at = now
-                loop.request(self.run, Pause())
+                loop.request(self.run, PauseRun())
         elif not self.resumed_at and now >= self.requested_at + self.lasts_s:
             self.resumed_at = now
             self.act(loop)

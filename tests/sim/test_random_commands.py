@@ -84,7 +84,7 @@ def draw_requests(random: Random) -> list[tuple[int, Command]]:
     tick = random.choice((0, START_OF_WIPING))
     for _ in range(random.randint(1, 5)):
         tick += random.randint(1, 600)
-        found.append((tick, commands.Pause()))
+        found.append((tick, commands.PauseRun()))
         tick += random.choice((1, 20, 100, 350))
         found.append((tick, random.choice((commands.Resume(), commands.Resume(), *STEPS, commands.Replan()))))
         if random.random() < 0.3:

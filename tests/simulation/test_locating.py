@@ -11,7 +11,7 @@ from cells import ERASER, LAB, run, world
 
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.devices.disturbances import Move
+from skillc_runtime.devices.disturbances import MoveThing
 from skillc_runtime.motion.pose import Pose, log, quaternion_from_rotation
 from skillc_runtime.primitives.locate import ConfirmPlaced, Locate
 from skillc_runtime.primitives.primitive import SkillFailure, Status
@@ -263,7 +263,7 @@ def test_what_is_seen_beside_its_place_is_not_in_there_whoever_looks() -> None:
 
 
 def move(there: SimulatedCell, by_m: float) -> None:
-    there.disturber.disturb(Move(ERASER, (by_m, 0.0, 0.0)))
+    there.disturber.disturb(MoveThing(ERASER, (by_m, 0.0, 0.0)))
 
 
 @pytest.mark.parametrize("by_m", [0.08, 1.5], ids=["in view", "out of view"])

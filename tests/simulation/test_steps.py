@@ -12,7 +12,7 @@ from cells import ARM, GRIPPER, world
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.machine_code import find_counts, find_geoms, find_warnings
 from skillc_runtime.devices.backend import BackendBroken
-from skillc_runtime.devices.disturbances import Push
+from skillc_runtime.devices.disturbances import PushArm
 from skillc_runtime.motion.numerics.compiled import COMPILES
 from skillc_runtime.motion.overlays import Circle, Spiral
 from skillc_runtime.motion.paths.path import path_through
@@ -59,7 +59,7 @@ def keep_busy(cell: SimulatedCell, scene: str) -> str:
             driver.motion.add_overlay(Spiral(0.004, 0.05, 0.01), np.eye(3), 0.05)
         if tick == 30:
             hand.move(0.02, 20.0)
-            cell.disturber.disturb(Push(ARM[scene], (0.0, 20.0, 0.0), 0.033))
+            cell.disturber.disturb(PushArm(ARM[scene], (0.0, 20.0, 0.0), 0.033))
         if tick == 45:
             driver.motion.remove_overlay(overlay)
     tap.remove(blocks.append)

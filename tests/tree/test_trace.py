@@ -42,10 +42,10 @@ from skillc_runtime.world.state.labels.labelled import (
     LabelledIri,
     LabelledPose,
     LabelledProperty,
+    LabelledQuantity,
     LabelledRelation,
     LabelledVector,
     NotFinite,
-    Quantity,
     ValueList,
 )
 from tree.library import FLAGS, ON, Library, act, call, sel, seq, world
@@ -138,7 +138,16 @@ def test_every_kind_of_event_survives_the_file(tmp_path: Path) -> None:
 def test_values_are_read_back_as_they_were_written(tmp_path: Path) -> None:
     arm, flag = LabelledIri("http://lab#Arm", "lab:Arm"), LabelledIri(FLAGS[0], "stage:flag0")
     pose = LabelledPose((0.1, 0.2, 0.3), (1.0, 0.0, 0.0, 0.0))
-    values = (True, 3, "text", arm, Quantity(5.0, "N"), LabelledVector((0.0, 0.0, 1.0)), NotFinite("inf N"), pose)
+    values = (
+        True,
+        3,
+        "text",
+        arm,
+        LabelledQuantity(5.0, "N"),
+        LabelledVector((0.0, 0.0, 1.0)),
+        NotFinite("inf N"),
+        pose,
+    )
     bindings = {str(number): value for number, value in enumerate((*values, ValueList((pose, ValueList(values)))))}
     facts = (LabelledRelation(arm, arm, None, False), LabelledProperty(arm, arm, None), LabelledClass(arm, flag))
     changes = (*facts[:2], IndividualAdded(arm, (flag,)), IndividualRemoved(arm))
@@ -157,13 +166,18 @@ def test_values_are_read_back_as_they_were_written(tmp_path: Path) -> None:
 
 def test_a_failure_has_the_values_that_its_message_names() -> None:
     hole = LabelledIri("http://lab#Hole", "lab:Hole")
-    values = {"depth": Quantity(0.01234, "m"), "hole": hole, "where": LabelledVector((0.1, 0.0, 0.2), "m"), "count": 3}
+    values = {
+        "depth": LabelledQuantity(0.01234, "m"),
+        "hole": hole,
+        "where": LabelledVector((0.1, 0.0, 0.2), "m"),
+        "count": 3,
+    }
     failure = SkillFailure("sank {depth:.1f mm} of {depth} into {hole} at {where:.2f}, {count} times", **values)
     assert str(failure) == "sank 12.3 mm of 0.01234 m into lab:Hole at (0.10, 0.00, 0.20) m, 3 times"
     assert failure.values == values
-    foreign = SkillFailure("{share:.0%} of {most}", share=np.float64(0.5), most=Quantity(np.inf, "N"))
+    foreign = SkillFailure("{share:.0%} of {most}", share=np.float64(0.5), most=LabelledQuantity(np.inf, "N"))
     assert str(foreign) == "50% of inf N"
-    assert foreign.values == {"share": Quantity(0.5), "most": NotFinite("inf N")}
+    assert foreign.values == {"share": LabelledQuantity(0.5), "most": NotFinite("inf N")}
     assert str(SkillFailure("{braces} stay")) == "{braces} stay"
 
 

@@ -13,7 +13,7 @@ from skillc.cli.output.trials import format_series
 from skillc_runtime.evaluation.trials import page
 from skillc_runtime.evaluation.trials.judging import judge_series
 from skillc_runtime.evaluation.trials.targets import METRICS, RUNNING
-from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.evaluation.trials.trial import Trial, TrialDisturbance
 from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 from trials.runners import GOOD, good, wiped, wiping
 
@@ -121,7 +121,7 @@ def test_a_trial_that_misses_a_target_is_told_so(name: str) -> None:
     ],
 )
 def test_what_shall_become_of_a_trial_depends_on_what_happens(
-    disturbance: Disturbance, trial: Trial, said: str | None
+    disturbance: TrialDisturbance, trial: Trial, said: str | None
 ) -> None:
     told = find_unmet_criteria(trial, disturbance)
     assert said in told if said else told == ()
@@ -147,7 +147,7 @@ def test_a_series_is_good_when_all_trials_are_and_the_median_is_on_target() -> N
     assert missed == "median 6 % of F, wanted at most 5"
 
 
-def shown(disturbance: Disturbance, *trials: Trial) -> str:
+def shown(disturbance: TrialDisturbance, *trials: Trial) -> str:
     return format_series(judge_series("clean", disturbance, len(trials), trials), TerminalPage(200), is_unicode=True)
 
 
@@ -184,8 +184,8 @@ def test_plots_stay_inside_their_frame(count: int) -> None:
     assert all(0 <= x <= page.WIDTH for x in lines)
 
 
-@pytest.mark.parametrize("disturbance", get_args(Disturbance))
-def test_a_success_with_a_false_claim_fails_and_is_named(disturbance: Disturbance) -> None:
+@pytest.mark.parametrize("disturbance", get_args(TrialDisturbance))
+def test_a_success_with_a_false_claim_fails_and_is_named(disturbance: TrialDisturbance) -> None:
     claim = "lab:Part-A is claimed in lab:Bin-1 but lies on the floor, 0.43 m away"
     trials = [replace(good(0), false_claims=(claim,)), good(1)]
     series = judge_series("sort", disturbance, 2, trials)

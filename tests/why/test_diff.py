@@ -21,7 +21,7 @@ from skillc.services.tasks.loading import load_task
 from skillc_model.conditions import And, Compare, Holds, Individual, Literal, Not, PropertyOf
 from skillc_model.tree import Apply, Call, Node, Parallel, Selector, Sequence
 from skillc_rdf.vocabulary.types import Position
-from skillc_runtime.devices.disturbances import Push
+from skillc_runtime.devices.disturbances import PushArm
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import (
     FORMAT,
@@ -87,7 +87,7 @@ def bind_another(events: list[Event]) -> None:
 
 
 def disturb(events: list[Event]) -> None:
-    push = Push("http://example.org/x#arm", (0.0, 30.0, 0.0))
+    push = PushArm("http://example.org/x#arm", (0.0, 30.0, 0.0))
     events.insert(1, Disturbed(time=events[0].time, disturbance=push, tick=0, who="bo"))
 
 
@@ -103,7 +103,7 @@ def drop_last_step(events: list[Event]) -> None:
     [
         (change(TaskStarted, seed=4), "settings", "seed"),
         (change(TaskStarted, hash="0123"), "settings", "library hash"),
-        (change(Requested, command=commands.Pause("tea")), "requests", "request 1"),
+        (change(Requested, command=commands.PauseRun("tea")), "requests", "request 1"),
         (change(Requested, 2, tick=99999), "requests", "request 3"),
         (disturb, "requests", "request 1"),
         (change(PlanMade, planner="guess"), "plan", "planner of plan 1"),

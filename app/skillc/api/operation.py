@@ -18,7 +18,7 @@ from skillc.values.arguments import read_pace, require_choice, require_text
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
-from skillc_runtime.recording.contact import Contact
+from skillc_runtime.recording.contact import ContactState
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.history.account import CallOutput, MeasuredProperty
 from skillc_runtime.recording.states import State
@@ -65,7 +65,7 @@ class Operation:
         return self._shared.reason
 
     @property
-    def contact(self) -> Contact:
+    def contact(self) -> ContactState:
         """What becomes of a tool that pressed when it was paused: `kept`, `lifting`, `taken-off` or `approaching`.
 
         `none` if no tool pressed, or while the run is not paused.
@@ -139,7 +139,7 @@ class Operation:
 
     def pause(self, reason: str = "requested") -> None:
         """Pause, and wait until it is paused: at the next point where all active skills may be paused."""
-        self._command(commands.Pause(require_text(reason, "the reason")))
+        self._command(commands.PauseRun(require_text(reason, "the reason")))
         self._shared.wait_while("running", "pausing")
 
     def resume(self) -> None:
@@ -165,7 +165,7 @@ class Operation:
 
     def retry(self) -> None:
         """After a failure: run the failed step again."""
-        self._command(commands.Retry())
+        self._command(commands.RetryStep())
 
     def skip(self, who: str, why: str) -> None:
         """After a failure: count the failed step as done, because somebody did it; its effects are assumed."""
@@ -178,7 +178,7 @@ class Operation:
 
     def answer(self, choice: str, who: str, prompt: int = 0) -> None:
         """Answer what a skill asks; `prompt` is the `id` of one of `prompts`, 0 for the only one."""
-        self._command(commands.Answer(require_text(choice, "the choice"), prompt, who=require_text(who, "`who`")))
+        self._command(commands.AnswerPrompt(require_text(choice, "the choice"), prompt, who=require_text(who, "`who`")))
 
     def replan(self) -> None:
         """Halt what runs and plan again."""

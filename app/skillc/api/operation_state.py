@@ -16,7 +16,7 @@ from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.commands import Command, Stop
-from skillc_runtime.recording.contact import Contact
+from skillc_runtime.recording.contact import ContactState
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import Event, Requested
 from skillc_runtime.recording.history.account import RunAccount
@@ -54,7 +54,7 @@ class OperationState:
     settled: list[GivenCommand] = field(default_factory=list)
     state: State = "queued"
     reason: str = ""
-    contact: Contact = "none"
+    contact: ContactState = "none"
     allowed: tuple[str, ...] = ("stop",)
     prompts: tuple[Prompt, ...] = ()
     time_s: float = 0.0

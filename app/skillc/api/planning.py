@@ -11,7 +11,7 @@ from skillc.api.boundary import NoticeList, api_call
 from skillc.api.picture import Picture
 from skillc.errors import RequestError, ServiceError
 from skillc.services.planning.plan_text import describe_answer, format_plan
-from skillc.services.planning.planning import Answer, plan_goal, prepare_planners
+from skillc.services.planning.planning import plan_goal, prepare_planners
 from skillc.services.space.claims import plan_goal_in_space
 from skillc.services.tasks.loading import LoadedTask, check_request, fill_in, load_task
 from skillc.services.views.schedule_picture import draw_schedule
@@ -27,7 +27,7 @@ from skillc.values.run_keywords import RunKeywords
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
-from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.schedule import PlanAnswer, Scheduled
 from skillc_runtime.planning.solve import DEADLINE_S
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.space_claim import SpaceClaim
@@ -89,7 +89,7 @@ class Plan:
     planner: str
     space: SpaceClaim | None
     _loaded: LoadedTask = field(repr=False, compare=False)
-    _answer: Answer = field(repr=False, compare=False)
+    _answer: PlanAnswer = field(repr=False, compare=False)
 
     def __str__(self) -> str:
         """Return the steps and how good the plan is, as `skillc plan` prints them."""

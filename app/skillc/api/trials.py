@@ -23,7 +23,7 @@ from skillc.values.arguments import (
     wrong_type,
 )
 from skillc.values.trials import Trials
-from skillc_runtime.evaluation.trials.trial import TRIAL_LIMIT_S, Disturbance, Trial
+from skillc_runtime.evaluation.trials.trial import TRIAL_LIMIT_S, Trial, TrialDisturbance
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -42,7 +42,7 @@ def trials(
     *,
     arguments: Mapping[str, Any] | None = None,
     seed: int = 0,
-    disturb: Disturbance = "none",
+    disturb: TrialDisturbance = "none",
     out: AnyPath | None = None,
     deadline_s: float = TRIAL_LIMIT_S,
     **place: Unpack[TrialPlace],
@@ -63,7 +63,7 @@ def trials(
         folder = optional_path(out, "`out`")
         request = TrialRequest(
             require_task(optional_text(task, "the task")),
-            require_choice(disturb, Disturbance, "`disturb`"),
+            require_choice(disturb, TrialDisturbance, "`disturb`"),
             range(require_count(seed, "the seed", 0), seed + count),
             _choose_executor(count, **place),
             folder,

@@ -12,10 +12,10 @@ from skillc_runtime.devices.disturbances import (
     Disturbance,
     DisturbanceRefused,
     LoseArm,
-    Move,
+    MoveThing,
     PressEmergencyStop,
-    Push,
-    Take,
+    PushArm,
+    TakeThing,
 )
 from skillc_runtime.world.state.names import NoSuchName, resolve_individual
 from skillc_runtime.world.state.world_state import WorldState
@@ -39,9 +39,9 @@ def disturb_cell(disturbance: Disturbance, cell: str, backend: Backend, state: W
 def _resolve_names(disturbance: Disturbance, state: WorldState) -> Disturbance:
     """Return a disturbance with IRIs in place of names; NoSuchName for one that the world does not have."""
     match disturbance:
-        case Push() | LoseArm():
+        case PushArm() | LoseArm():
             return replace(disturbance, arm=resolve_individual(disturbance.arm, state))
-        case Move() | Take():
+        case MoveThing() | TakeThing():
             return replace(disturbance, thing=resolve_individual(disturbance.thing, state))
         case PressEmergencyStop():
             return disturbance

@@ -16,7 +16,7 @@ from skillc.cli.server_connection import asked_cell
 if TYPE_CHECKING:
     from skillc.contract.world import WorldFact, WorldFormat, WorldWrite
     from skillc_runtime.evaluation.trials.series import Series
-    from skillc_runtime.evaluation.trials.trial import Disturbance
+    from skillc_runtime.evaluation.trials.trial import TrialDisturbance
     from skillc_runtime.recording.run_spec import RunSpec
 
 NS = 1e9
@@ -49,7 +49,7 @@ def run_trials(
     arguments: dict[str, str],
     number: int,
     seed: int,
-    disturb: Disturbance,
+    disturb: TrialDisturbance,
     deadline_s: float,
     show_done: Callable[[int], None],
 ) -> Series:

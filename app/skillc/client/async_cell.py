@@ -106,7 +106,7 @@ class AsyncCell(CellCalls):
         return await self._connection.call(SET_PACE, self.name, body=setting)
 
     async def disturb(self, disturbance: Disturbance) -> CellStatus:
-        """Let something happen to it that no skill does, if it is simulated, such as a `skillc.devices.Push`."""
+        """Let something happen to it that no skill does, if it is simulated, such as a `skillc.devices.PushArm`."""
         return await self._connection.call(DISTURB_CELL, self.name, body=disturbance)
 
     async def plan(

@@ -26,7 +26,7 @@ from skillc.contract.api.endpoints import (
 )
 from skillc.contract.commands import Command
 from skillc.contract.job import RunResult, TaskResult
-from skillc.contract.operation import ENDS, Contact, Decision, OperationRequest, OperationStatus, State
+from skillc.contract.operation import ENDS, ContactState, Decision, OperationRequest, OperationStatus, State
 from skillc.contract.report import ReportRequest
 from skillc.contract.stopping import StopReason
 from skillc.errors import RequestError
@@ -65,7 +65,7 @@ class AsyncOperation(OperationCalls):
         return self.status.reason
 
     @property
-    def contact(self) -> Contact:
+    def contact(self) -> ContactState:
         """What becomes of a tool that pressed when it was paused: `kept`, `lifting`, `taken-off` or `approaching`.
 
         `none` if no tool pressed, or while the run is not paused.
@@ -125,7 +125,7 @@ class AsyncOperation(OperationCalls):
 
     async def pause(self, reason: str = "requested") -> None:
         """Pause, and wait until it is paused: at the next point where all active skills may be paused."""
-        await self._command(commands.Pause(reason))
+        await self._command(commands.PauseRun(reason))
         await self._wait_while(frozenset({"running", "pausing"}))
 
     async def resume(self) -> None:
@@ -151,7 +151,7 @@ class AsyncOperation(OperationCalls):
 
     async def retry(self) -> None:
         """After a failure: run the failed step again."""
-        await self._command(commands.Retry())
+        await self._command(commands.RetryStep())
 
     async def skip(self, why: str) -> None:
         """After a failure: count the failed step as done, because somebody did it; its effects are assumed.
@@ -167,7 +167,7 @@ class AsyncOperation(OperationCalls):
 
     async def answer(self, choice: str, prompt: int = 0) -> None:
         """Answer what a skill asks; `prompt` is the `id` of one of `prompts`, 0 for the only one."""
-        await self._command(commands.Answer(choice, prompt=prompt))
+        await self._command(commands.AnswerPrompt(choice, prompt=prompt))
 
     async def set_breakpoints(self, *places: str) -> None:
         """Pause before each SKILL or FILE:LINE of `places` from now on, and before no others; without any, nowhere.

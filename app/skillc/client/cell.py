@@ -179,7 +179,7 @@ class ServerCell(WaitingCell):
         return self._loop.run(self._client.set_pace(pace))
 
     def disturb(self, disturbance: Disturbance) -> CellStatus:
-        """Let something happen to it that no skill does, if it is simulated, such as a `skillc.devices.Push`."""
+        """Let something happen to it that no skill does, if it is simulated, such as a `skillc.devices.PushArm`."""
         return self._loop.run(self._client.disturb(disturbance))
 
     def plan(

@@ -11,7 +11,7 @@ from skillc.client.async_server import AsyncServer
 from skillc.client.loop_thread import LoopThread
 from skillc.contract.cell import CellStatus
 from skillc.contract.lease import Lease
-from skillc.contract.operation import Contact, OperationStatus, State
+from skillc.contract.operation import ContactState, OperationStatus, State
 from skillc.events import Prompt
 
 
@@ -94,7 +94,7 @@ class WaitingOperation:
         return self.status.reason
 
     @property
-    def contact(self) -> Contact:
+    def contact(self) -> ContactState:
         """What becomes of a tool that pressed when it was paused: `kept`, `lifting`, `taken-off` or `approaching`.
 
         `none` if no tool pressed, or while the run is not paused.

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from skillc_runtime.recording.commands import (
-    Answer,
+    AnswerPrompt,
     Approve,
     Command,
-    Pause,
+    PauseRun,
     Replan,
     Resume,
-    Retry,
+    RetryStep,
     SetBreakpoints,
     Skip,
     StepInto,
@@ -21,19 +21,29 @@ from skillc_runtime.recording.commands import (
 )
 
 OperatorCommand: TypeAlias = (
-    Approve | Pause | Resume | StepInto | StepOver | StepOut | Retry | Skip | Replan | Answer | SetBreakpoints
+    Approve
+    | PauseRun
+    | Resume
+    | StepInto
+    | StepOver
+    | StepOut
+    | RetryStep
+    | Skip
+    | Replan
+    | AnswerPrompt
+    | SetBreakpoints
 )
 """The commands that need the role `operate`; who gives one is its client, whatever it says."""
 
 __all__ = [
-    "Answer",
+    "AnswerPrompt",
     "Approve",
     "Command",
     "OperatorCommand",
-    "Pause",
+    "PauseRun",
     "Replan",
     "Resume",
-    "Retry",
+    "RetryStep",
     "SetBreakpoints",
     "Skip",
     "StepInto",

@@ -11,7 +11,7 @@ from skillc_runtime.devices.control_report import ControlReport
 DeviceKind: TypeAlias = Literal["base", "robot", "arm", "gripper", "camera", "sensor"]
 
 
-class Figure(msgspec.Struct, frozen=True):
+class SheetFigure(msgspec.Struct, frozen=True):
     """What a data sheet states: `property` is its short name; `unit` is that of the SI, empty without one."""
 
     property: str
@@ -31,7 +31,7 @@ class Device(msgspec.Struct, frozen=True):
     types: tuple[str, ...]
     part_of: str | None
     controller: str | None
-    figures: tuple[Figure, ...]
+    figures: tuple[SheetFigure, ...]
 
 
 class DeviceStatus(msgspec.Struct, frozen=True):

@@ -9,7 +9,7 @@ import msgspec
 
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.planning.progress import PlanningProgress
-from skillc_runtime.recording.contact import Contact as Contact
+from skillc_runtime.recording.contact import ContactState as ContactState
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.history.account import CallOutput, MeasuredProperty
 from skillc_runtime.recording.run_spec import RunRequest
@@ -54,7 +54,7 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     request: OperationRequest
     state: State
     reason: str = ""
-    contact: Contact = "none"
+    contact: ContactState = "none"
     allowed: tuple[str, ...] = ()
     events: int = 0
     verified: bool | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
@@ -10,6 +10,9 @@ from skillc.contract.values import CheckedBody
 from skillc_runtime.recording.space_claim import SpaceClaim
 
 MAX_PLANNING_S = 60.0
+
+Measure: TypeAlias = Literal["work", "proven work", "makespan"]
+"""What a plan has little of: work, work of which it is proved that no plan has less, or time until all is done."""
 
 
 class PlanRequest(CheckedBody, frozen=True, kw_only=True, tag_field="kind", tag="plan", forbid_unknown_fields=True):

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, TypeAlias
+from typing import Annotated
 
 import msgspec
 
 from skillc_runtime.evaluation.trials.series import Series as Series
 from skillc_runtime.evaluation.trials.trial import TRIAL_LIMIT_S as TRIAL_LIMIT_S
-from skillc_runtime.evaluation.trials.trial import Disturbance
-
-TrialDisturbance: TypeAlias = Disturbance
+from skillc_runtime.evaluation.trials.trial import TrialDisturbance as TrialDisturbance
 
 
 class TrialsRequest(
@@ -33,7 +31,7 @@ class TrialsRequest(
     arguments: dict[str, str] = {}
     number: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 50
     seed: Annotated[int, msgspec.Meta(ge=0, le=2**31)] = 0
-    disturb: Disturbance = "none"
+    disturb: TrialDisturbance = "none"
     deadline_s: Annotated[float, msgspec.Meta(gt=0.0, le=TRIAL_LIMIT_S)] = TRIAL_LIMIT_S
 
 

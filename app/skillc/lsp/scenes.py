@@ -21,7 +21,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 
 if TYPE_CHECKING:
     from skillc.services.tasks.scenes import TaskScenes
-    from skillc_runtime.scene.load import Scene
+    from skillc_runtime.scene.load import LoadedScene
 
 
 def read_scenes(
@@ -41,7 +41,7 @@ def read_scenes(
     own_terms = memo.ask("terms of scenes", (program.vocabulary, base), partial(_own_terms, program.vocabulary, base))
     terms = memo.same("terms of scenes", "", own_terms)
 
-    def read(path: Path, vocabulary: Vocabulary) -> Outcome[Scene | None]:
+    def read(path: Path, vocabulary: Vocabulary) -> Outcome[LoadedScene | None]:
         text = buffers.get(path)
         written = (path.stat().st_mtime_ns if path.is_file() else 0) if text is None else text
         known = memo.same("text of a scene", path, written)

@@ -16,7 +16,7 @@ from skillc_runtime.recording import commands
 Word: TypeAlias = Literal["start", "pause", "resume", "stop", "acknowledge"]
 REASON = "requested by ROS 2"
 COMMANDS: Mapping[Literal["pause", "resume", "stop"], commands.Command] = MappingProxyType(
-    {"pause": commands.Pause(REASON), "resume": commands.Resume(), "stop": commands.Stop(REASON)}
+    {"pause": commands.PauseRun(REASON), "resume": commands.Resume(), "stop": commands.Stop(REASON)}
 )
 
 

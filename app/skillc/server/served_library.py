@@ -26,7 +26,7 @@ POLL_S = 0.5
 CHECK_S = 60.0
 """How long a check may take before its process is ended."""
 
-Answer: TypeAlias = CheckedLibrary | LibraryRefused
+LibraryAnswer: TypeAlias = CheckedLibrary | LibraryRefused
 
 
 @dataclass(slots=True)
@@ -88,7 +88,7 @@ class ServedLibrary:
         self.refused = "\n".join(filter(None, (why, changed)))
         log("library", path=self.path, hash=self.checked.hash, problem=self.refused)
 
-    def _ask(self) -> Answer:
+    def _ask(self) -> LibraryAnswer:
         """Check the library in a process of its own; it is killed if it takes too long, or the server ends."""
         try:
             worker = WorkerProcess(check_again, "spawn")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from skillc.contract.device import Device, DeviceKind, Figure
+from skillc.contract.device import Device, DeviceKind, SheetFigure
 from skillc_runtime.world.state.elements import Element
 from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
@@ -56,10 +56,10 @@ def _describe(iri: str, kinds: Mapping[str, DeviceKind], state: WorldState) -> D
     )
 
 
-def _read_figures(iri: str, state: WorldState) -> list[Figure]:
+def _read_figures(iri: str, state: WorldState) -> list[SheetFigure]:
     sheets = (Element(state, each) for each in sorted(state.objects(iri, HAS_SHEET)))
     stated = (each for sheet in sheets for each in sheet.properties)
-    return [Figure(state.vocabulary.short(each.property), _plain(each.value), each.unit) for each in stated]
+    return [SheetFigure(state.vocabulary.short(each.property), _plain(each.value), each.unit) for each in stated]
 
 
 def _plain(value: object) -> str | bool | int | float:

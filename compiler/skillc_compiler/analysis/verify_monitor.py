@@ -17,7 +17,7 @@ from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, path_length
 from skillc_compiler.analysis.summaries import WriteSummaries
-from skillc_compiler.program.typed import Call, Event, Implementation, Program, Property, TypedNode
+from skillc_compiler.program.typed import Call, Implementation, Program, Property, TypedNode, VerifyEvent
 from skillc_compiler.program.walk import calls_in
 
 Monitor = tuple[int, bool]
@@ -96,7 +96,7 @@ class VerifyMonitor:
             if self.property.pattern == "eventually" and state.monitor[0] == 1 and path is not None:
                 self._violate(path)
 
-    def _check_outside(self, run: Exploration, state: State, path: PathStep, second: Event | None) -> None:
+    def _check_outside(self, run: Exploration, state: State, path: PathStep, second: VerifyEvent | None) -> None:
         if second is not None and second.condition is not None:
             known = evaluate(run.types, state, second.condition.meaning) if self._depth == 0 else None
             if known is not False:
@@ -124,7 +124,7 @@ class VerifyMonitor:
                 pass
         return state.replace(monitor=(number, inside)) if number != state.monitor[0] else state
 
-    def _holds(self, run: Exploration, state: State, event: Event | None) -> bool:
+    def _holds(self, run: Exploration, state: State, event: VerifyEvent | None) -> bool:
         return (
             event is not None
             and event.condition is not None

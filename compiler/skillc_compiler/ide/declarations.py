@@ -188,12 +188,12 @@ class FileOccurrences(BodyOccurrences, frozen=True):
             yield Occurrence(member.label.span, LabelSymbol(owner, member.label.text), declares=True)
         yield from self.condition(known, member.condition)
 
-    def _event(self, known: Locals, event: s.Event | None) -> Iterator[Occurrence]:
+    def _event(self, known: Locals, event: s.VerifyEvent | None) -> Iterator[Occurrence]:
         match event:
             case None:
                 return
-            case s.Event(what=s.Name(text=text, span=span)):
+            case s.VerifyEvent(what=s.Name(text=text, span=span)):
                 if text in self.visible.skills:
                     yield Occurrence(span, SkillSymbol(text))
-            case s.Event(what=condition) if not isinstance(condition, s.Name):
+            case s.VerifyEvent(what=condition) if not isinstance(condition, s.Name):
                 yield from self.condition(known, condition)

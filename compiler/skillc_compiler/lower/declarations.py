@@ -9,7 +9,6 @@ from msgspec import structs
 from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.lower.bodies import lower_node
 from skillc_compiler.program.typed import (
-    Event,
     Implementation,
     Parameter,
     Pause,
@@ -20,6 +19,7 @@ from skillc_compiler.program.typed import (
     Test,
     TypedExpression,
     TypedNode,
+    VerifyEvent,
     start_position,
 )
 from skillc_dsl import syntax as s
@@ -181,7 +181,7 @@ def _property(typed: Property) -> properties.Property:
     )
 
 
-def _event(typed: Event) -> properties.Event:
+def _event(typed: VerifyEvent) -> properties.VerifyEvent:
     if typed.condition is not None:
         return properties.ConditionEvent(fold(typed.condition.meaning))
     if typed.measured is not None:

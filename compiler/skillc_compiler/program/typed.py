@@ -153,7 +153,7 @@ class ForceLimit(msgspec.Struct, frozen=True):
     limit: TypedExpression
 
 
-class Event(msgspec.Struct, frozen=True):
+class VerifyEvent(msgspec.Struct, frozen=True):
     """An event of a `verify` line: one of a skill, a condition and the measured force."""
 
     span: Span
@@ -166,8 +166,8 @@ class Property(msgspec.Struct, frozen=True):
     """A `verify` line; `text` is the line as written."""
 
     pattern: OneOf["never", "outside", "before", "eventually"]
-    first: Event
-    second: Event | None
+    first: VerifyEvent
+    second: VerifyEvent | None
     text: str
     span: Span
 

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from skillc_compiler.program.typed import (
     Call,
-    Event,
     Implementation,
     Program,
     Requirement,
@@ -14,6 +13,7 @@ from skillc_compiler.program.typed import (
     TypedCondition,
     TypedExpression,
     TypedNode,
+    VerifyEvent,
 )
 
 
@@ -70,7 +70,7 @@ def all_conditions(program: Program) -> Iterator[TypedCondition]:
             yield from conditions_in(condition)
 
 
-def all_events(program: Program) -> Iterator[Event]:
+def all_events(program: Program) -> Iterator[VerifyEvent]:
     """Yield the events of all `verify` lines."""
     for implementation in program.implementations:
         for line in implementation.verify:

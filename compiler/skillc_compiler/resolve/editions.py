@@ -27,7 +27,7 @@ _FIELDS: Mapping[type, str] = MappingProxyType(
         s.ImplementationDeclaration: "skill",
         s.CallSkill: "skill",
         s.Invoke: "function",
-        s.Event: "what",
+        s.VerifyEvent: "what",
     }
 )
 """Where a syntax tree names a skill or a function."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_compiler.program.typed import Event, ForceLimit, Property
+from skillc_compiler.program.typed import ForceLimit, Property, VerifyEvent
 from skillc_compiler.program.types import Measure, describe_type, fits
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.scope import FileContext, Scope
@@ -23,19 +23,19 @@ def resolve_verify(context: FileContext, scope: Scope, written: s.Verify, text: 
     return Property(written.pattern, first, second, text, written.span)
 
 
-def _event(context: FileContext, scope: Scope, written: s.Event) -> Event | None:
+def _event(context: FileContext, scope: Scope, written: s.VerifyEvent) -> VerifyEvent | None:
     match written.what:
         case s.Name() as name:
             skill = context.names.look_up_skill(name)
-            return Event(written.span, skill=skill) if skill is not None else None
+            return VerifyEvent(written.span, skill=skill) if skill is not None else None
         case s.Compare(left=s.NameReference(name=name), operator=operator, right=right) if _is_force(scope, name):
             limit = resolve_value(context, scope, right, ExpectedType(Measure(FORCE)))
             if not fits(context.vocabulary, limit.type, Measure(FORCE)):
                 message = f"this is {describe_type(limit.type)}, where a Force is expected"
                 context.report("wrong-type", limit.span, message, "a force has a unit, such as `25 N`")
-            return Event(written.span, measured=ForceLimit(operator, limit))
+            return VerifyEvent(written.span, measured=ForceLimit(operator, limit))
         case _:
-            return Event(written.span, condition=resolve_condition(context, scope, written.what))
+            return VerifyEvent(written.span, condition=resolve_condition(context, scope, written.what))
 
 
 def _is_force(scope: Scope, name: s.Name) -> bool:

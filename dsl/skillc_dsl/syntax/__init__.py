@@ -38,7 +38,6 @@ from skillc_dsl.syntax.members import Body as Body
 from skillc_dsl.syntax.members import DeviceUse as DeviceUse
 from skillc_dsl.syntax.members import Direction as Direction
 from skillc_dsl.syntax.members import Duration as Duration
-from skillc_dsl.syntax.members import Event as Event
 from skillc_dsl.syntax.members import Flag as Flag
 from skillc_dsl.syntax.members import Let as Let
 from skillc_dsl.syntax.members import Parameter as Parameter
@@ -50,6 +49,7 @@ from skillc_dsl.syntax.members import Refinement as Refinement
 from skillc_dsl.syntax.members import Requirement as Requirement
 from skillc_dsl.syntax.members import RunPython as RunPython
 from skillc_dsl.syntax.members import Verify as Verify
+from skillc_dsl.syntax.members import VerifyEvent as VerifyEvent
 from skillc_dsl.syntax.nodes import ApplyPosts as ApplyPosts
 from skillc_dsl.syntax.nodes import Argument as Argument
 from skillc_dsl.syntax.nodes import Block as Block

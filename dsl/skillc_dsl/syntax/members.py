@@ -116,7 +116,7 @@ class Body(msgspec.Struct, frozen=True):
     span: Span
 
 
-class Event(msgspec.Struct, frozen=True):
+class VerifyEvent(msgspec.Struct, frozen=True):
     """What a `verify` property refers to: a called skill (a name) or a condition."""
 
     what: Name | Condition
@@ -127,6 +127,6 @@ class Verify(msgspec.Struct, frozen=True):
     """`never A [outside B]`, `A before B` or `after A eventually B`."""
 
     pattern: Literal["never", "outside", "before", "eventually"]
-    first: Event
-    second: Event | None
+    first: VerifyEvent
+    second: VerifyEvent | None
     span: Span

@@ -20,7 +20,7 @@ class _Disturbance(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     pass
 
 
-class Push(_Disturbance, tag="push", frozen=True):
+class PushArm(_Disturbance, tag="push", frozen=True):
     """Somebody pushes the hand of an arm with a force (x, y, z) in N in the world, from now on for `duration_s` s."""
 
     arm: Name
@@ -28,7 +28,7 @@ class Push(_Disturbance, tag="push", frozen=True):
     duration_s: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_PUSH_S)] = 0.5
 
 
-class Move(_Disturbance, tag="move", frozen=True):
+class MoveThing(_Disturbance, tag="move", frozen=True):
     """Somebody moves a thing by (x, y, z) in m in the world, and turns it about the vertical, in rad."""
 
     thing: Name
@@ -36,7 +36,7 @@ class Move(_Disturbance, tag="move", frozen=True):
     turn_rad: Annotated[float, msgspec.Meta(ge=-MAX_TURN_RAD, le=MAX_TURN_RAD)] = 0.0
 
 
-class Take(_Disturbance, tag="take", frozen=True):
+class TakeThing(_Disturbance, tag="take", frozen=True):
     """Somebody takes a thing out of the hand that holds it, moves it by (x, y, z) in m in the world, and lets it go."""
 
     thing: Name
@@ -56,7 +56,7 @@ class LoseArm(_Disturbance, tag="lost-arm", frozen=True):
     lost: bool = True
 
 
-Disturbance: TypeAlias = Push | Move | Take | PressEmergencyStop | LoseArm
+Disturbance: TypeAlias = PushArm | MoveThing | TakeThing | PressEmergencyStop | LoseArm
 
 
 class Disturber(Protocol):

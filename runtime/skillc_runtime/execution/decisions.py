@@ -31,11 +31,11 @@ def try_command(
             edit_world(world, command)
         case commands.Skip(who=who, why=why):
             return skip_failed_step(attempts[-1], library, world, f"{who}: {why}")
-        case commands.Retry():
+        case commands.RetryStep():
             prepared = continue_plan(attempts[-1], library, world.snapshot())
             context.failures.forget(attempts[-1].steps_with_status("failure"))
             return prepared
-        case commands.Answer(choice=choice, prompt=number):
+        case commands.AnswerPrompt(choice=choice, prompt=number):
             prompt = find_prompt(tree.prompts if tree else (), number, choice)
             assert tree is not None, "a skill that runs asks"
             tree.answer(prompt.id, choice)

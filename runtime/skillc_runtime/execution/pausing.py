@@ -9,9 +9,9 @@ from skillc_runtime.execution.attempt import SETTLE_S
 from skillc_runtime.execution.tree.context import EPSILON_S
 from skillc_runtime.execution.tree.gate import Gate, keep_s
 from skillc_runtime.execution.tree.run import TreeRun
-from skillc_runtime.recording.commands import Pause, Resume, StepInto, StepOut, StepOver
+from skillc_runtime.recording.commands import PauseRun, Resume, StepInto, StepOut, StepOver
 
-PauseCommand: TypeAlias = Pause | Resume | StepInto | StepOver | StepOut
+PauseCommand: TypeAlias = PauseRun | Resume | StepInto | StepOver | StepOut
 PauseState: TypeAlias = Literal["running", "pausing", "paused"]
 
 
@@ -30,7 +30,7 @@ class PauseControl:
     def obey(self, command: PauseCommand, tree: TreeRun) -> None:
         """Begin to pause, or let the tree go on, to the end of a step if one is requested."""
         match command:
-            case Pause(reason=reason):
+            case PauseRun(reason=reason):
                 self._gate.close(reason)
                 self.state, self.reason = "pausing", reason
                 if tree.paused:  # its tools approach again

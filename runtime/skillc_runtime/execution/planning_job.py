@@ -37,7 +37,7 @@ GRACE_S = 2.0
 POLL_S = 0.05
 """The interval at which a wait looks whether planning was cancelled."""
 
-Answer: TypeAlias = PreparedTask | NotStarted
+Preparation: TypeAlias = PreparedTask | NotStarted
 
 
 class PlanningJob:
@@ -66,7 +66,7 @@ class PlanningJob:
         OSError if no process can be started.
         """
         self._assignment, self._cancel = assignment, cancel or CancelToken()
-        self._answer: Answer | None = None
+        self._answer: Preparation | None = None
         self._deadline = CancelToken(deadline_s + GRACE_S + (0.0 if look is None else LOOK_S))
         task = _PlanningTask(
             assignment, library, failures or FailedSteps(library), planners, self._cancel.limited(deadline_s), look
@@ -85,11 +85,11 @@ class PlanningJob:
     def __exit__(self, *_: object) -> None:
         self.kill()
 
-    def poll(self) -> Answer | None:
+    def poll(self) -> Preparation | None:
         """Return the answer if there is one, else None; it never waits, unless a worker has to be ended now."""
         return self.wait(0.0)
 
-    def wait(self, seconds: float) -> Answer | None:
+    def wait(self, seconds: float) -> Preparation | None:
         """Wait for the answer for up to `seconds`; None if there is none yet."""
         end = CancelToken(seconds)
         self._look(0.0)
@@ -111,7 +111,7 @@ class PlanningJob:
         elif (why := self._cancel.reason or self._deadline.reason) is not None:
             self.kill(why)
 
-    def _interpret(self, result: WorkerResult) -> Answer:
+    def _interpret(self, result: WorkerResult) -> Preparation:
         if not isinstance(result, Returned):
             return NotStarted(f"planning failed: {result.why}")
         if isinstance(result.value, NotStarted):

@@ -31,7 +31,7 @@ class NotRepeatable(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
+class Divergence:
     """Where a repetition differs: the event with this number, from 1, as recorded and as repeated; None for none."""
 
     number: int
@@ -50,7 +50,7 @@ class Repetition:
     """
 
     events: tuple[Event, ...]
-    difference: Difference | None
+    difference: Divergence | None
     run: TaskRun | None = field(default=None, compare=False, repr=False)
 
     @property
@@ -105,7 +105,7 @@ class _Player:
     ) -> None:
         started = _find_start(recorded, library, backend)
         self.events: list[Event] = []
-        self.difference: Difference | None = None
+        self.difference: Divergence | None = None
         self._is_whole = _has_end(recorded)
         self._recorded = tuple(recorded if self._is_whole else _without_end(recorded))
         self._library, self._backend = library, backend
@@ -158,7 +158,7 @@ class _Player:
             recorded = self._recorded[number] if number < len(self._recorded) else None
             self.events.append(event)
             if event != recorded:
-                self.difference = Difference(number + 1, recorded, event)
+                self.difference = Divergence(number + 1, recorded, event)
 
     def _find_missing(self, at_end: bool) -> None:
         """Find the next recorded event missing, if there is one, once its time has passed or nothing can follow."""
@@ -166,7 +166,7 @@ class _Player:
         if self.difference is None and number < len(self._recorded):
             missing = self._recorded[number]
             if at_end or missing.time < self._backend.clock.now - 1.5 * TICK_S:
-                self.difference = Difference(number + 1, missing, None)
+                self.difference = Divergence(number + 1, missing, None)
 
     def _prepare(self, assignment: Assignment, failures: FailedSteps) -> _RecordedPlan:
         arrival = self._arrivals.popleft() if self._arrivals else None

@@ -11,7 +11,7 @@ from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE, 
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.planning.progress import PlanningProgress
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.recording.contact import Contact
+from skillc_runtime.recording.contact import ContactState
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact, unverified_facts
 from skillc_runtime.recording.run_spec import RunSpec
@@ -32,7 +32,7 @@ class RunStatus:
         self.id, self.assignment, self.spec = run_id, assignment, spec
         self.state: State = "queued"
         self.reason = ""
-        self.contact: Contact = "none"
+        self.contact: ContactState = "none"
         self.end: EndState | None = None
         self.attempts: list[AttemptResult] = []
         self.failure: Failure | None = None

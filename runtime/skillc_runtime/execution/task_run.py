@@ -33,7 +33,7 @@ from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.recording import commands
-from skillc_runtime.recording.contact import Contact
+from skillc_runtime.recording.contact import ContactState
 from skillc_runtime.recording.events import Event, Replanned, Requested, StateChanged, TaskEnded
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.failure_text import describe_failure
@@ -136,7 +136,7 @@ class TaskRun(RunStatus):
                     self._end_attempt(self._attempt)
             case commands.Abort(reason=reason):
                 self.end_as("failed", reason)
-            case commands.Approve() | commands.Retry() | commands.Skip():
+            case commands.Approve() | commands.RetryStep() | commands.Skip():
                 self._enter("queued", command.name)
             case commands.Replan():
                 self._context.gate.open()
@@ -146,7 +146,7 @@ class TaskRun(RunStatus):
                     self._prepare()
             case commands.SetBreakpoints(breakpoints=breakpoints):
                 self._context.gate.breakpoints = frozenset(map(read_breakpoint, breakpoints))
-            case commands.EditWorld() | commands.Answer():
+            case commands.EditWorld() | commands.AnswerPrompt():
                 pass
             case _:
                 assert self._attempt is not None, "a pause concerns what runs"
@@ -299,7 +299,9 @@ class TaskRun(RunStatus):
         if self._attempt is not None and self._ending is None:
             self._enter(self._pause.state, self._pause.reason, contact=self._attempt.tree.contact)
 
-    def _enter(self, state: State, reason: str = "", failure: Failure | None = None, contact: Contact = "none") -> None:
+    def _enter(
+        self, state: State, reason: str = "", failure: Failure | None = None, contact: ContactState = "none"
+    ) -> None:
         if (state, reason, contact) != (self.state, self.reason, self.contact):
             self._state_since = self._now if state != self.state else self._state_since
             self.state, self.reason, self.contact = state, reason, contact

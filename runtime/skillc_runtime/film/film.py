@@ -22,7 +22,7 @@ from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.state.terms import ARM_DEVICE, SURFACE
 
 
-class Film:
+class FilmSampler:
     """Samples frames of a run."""
 
     def __init__(

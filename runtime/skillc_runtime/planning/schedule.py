@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal, Protocol
+from typing import Literal, Protocol, TypeAlias
 
 import msgspec
 from msgspec.structs import replace
 
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.planning.plan import GaveUp, LeftOut, Plan, Solved, Step
+from skillc_runtime.planning.plan import GaveUp, LeftOut, Plan, PlanResult, Solved, Step
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 
 
@@ -67,6 +67,10 @@ class FoundSchedule(msgspec.Struct, frozen=True):
 
     schedule: Schedule
     at_least_s: float
+
+
+PlanAnswer: TypeAlias = PlanResult | Scheduled
+"""What came of planning, with or without times."""
 
 
 class Scheduler(Protocol):

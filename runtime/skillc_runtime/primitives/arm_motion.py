@@ -14,7 +14,7 @@ from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, SpaceLacking, Status
 from skillc_runtime.primitives.time_limits import STANDSTILL_S
 from skillc_runtime.primitives.touch_guard import RESISTANCE_N, TouchGuard
-from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 from skillc_runtime.world.state.terms import HAS_GRIPPER
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ class ArmMotion(Primitive):
         if not self.arm.motion.stationary:
             self._moved_at = now
         elif now - self._moved_at > STANDSTILL_S:
-            standing = Quantity(STANDSTILL_S, "s")
+            standing = LabelledQuantity(STANDSTILL_S, "s")
             raise SkillFailure("the arm has stood still for {standing} before the end of its motion", standing=standing)
 
     def halt(self, reason: str) -> None:
@@ -133,8 +133,8 @@ class ArmMotion(Primitive):
         if speed > self.arm.task_limits.speed_m_s:
             raise SkillFailure(
                 "{speed} is faster than the {limit} the arm allows",
-                speed=Quantity(speed, "m/s"),
-                limit=Quantity(self.arm.task_limits.speed_m_s, "m/s"),
+                speed=LabelledQuantity(speed, "m/s"),
+                limit=LabelledQuantity(self.arm.task_limits.speed_m_s, "m/s"),
             )
         return MotionLimits(speed, self.arm.task_limits.acceleration_m_s2, jerk=self.arm.task_limits.jerk_m_s3)
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
-from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -63,7 +63,7 @@ class Ask(Primitive):
             return Status.RUNNING
         if not self._answer and not self._default:
             raise SkillFailure(
-                'nobody has answered "{text}" within {limit}', text=self._text, limit=Quantity(self._limit, "s")
+                'nobody has answered "{text}" within {limit}', text=self._text, limit=LabelledQuantity(self._limit, "s")
             )
         self.outputs["answer"] = self._answer or self._default
         self.prompt = None

@@ -8,7 +8,7 @@ from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import IS_ON, PRESSED_WITH
 
@@ -52,8 +52,8 @@ class AwaitSwitch(Primitive):
                 "{button} has not switched within {patience}, pressed with {force:.1f}"
                 + describe_slowness(self.arm.speed),
                 button=label(self._button, self.cell.world.snapshot().vocabulary),
-                patience=Quantity(self._patience, "s"),
-                force=Quantity(self._force, "N"),
+                patience=LabelledQuantity(self._patience, "s"),
+                force=LabelledQuantity(self._force, "N"),
             )
         return Status.RUNNING
 

@@ -18,7 +18,7 @@ from skillc_runtime.primitives.push_force import write_push_force
 from skillc_runtime.primitives.space_needs import Press, SpaceNeed
 from skillc_runtime.primitives.surface_location import write_surface_pose
 from skillc_runtime.primitives.time_limits import approach_limit_s
-from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.arm_driver import ArmDriver
@@ -140,8 +140,8 @@ class Push(Primitive):
         if self._push.force_n > greatest_n:
             raise SkillFailure(
                 "{force} is more than the {limit} the arm allows",
-                force=Quantity(self._push.force_n, "N"),
-                limit=Quantity(greatest_n, "N"),
+                force=LabelledQuantity(self._push.force_n, "N"),
+                limit=LabelledQuantity(greatest_n, "N"),
             )
         if self._push.approach_m_s <= 0.0:
             raise SkillFailure("a tool approaches with more than 0 m/s, else it touches nothing")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.space.surfaces import least_contact_share, least_force_n
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import CONTACT_SHARE
 
@@ -70,8 +70,8 @@ class KeepContact(Primitive):
             "contact with {surface} was lost for {lost:.1f} of the last {over}: the arm measured less than {least}; "
             "it must measure more for {share:.0%} of the time",
             surface=label(self._surface, self.cell.world.snapshot().vocabulary),
-            lost=Quantity(self._lost_s, "s"),
-            over=Quantity(self._over, "s"),
-            least=Quantity(self._least_n, "N"),
-            share=Quantity(self._share),
+            lost=LabelledQuantity(self._lost_s, "s"),
+            over=LabelledQuantity(self._over, "s"),
+            least=LabelledQuantity(self._least_n, "N"),
+            share=LabelledQuantity(self._share),
         )

@@ -25,7 +25,7 @@ from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.space.stands import read_stand, standing_pose
 from skillc_runtime.world.state.changes import AddRelation
-from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import AT, HAS_ARM
 from skillc_runtime.world.state.values import Value
@@ -127,8 +127,8 @@ class DriveBase(Primitive):
             "{robot} has not arrived at {to} within {limit:.0f}: it is {away:.2f} away from there",
             robot=label(self._robot, state.vocabulary),
             to=label(self._to, state.vocabulary),
-            limit=Quantity(self._limit_s, "s"),
-            away=Quantity(float(np.linalg.norm(away)), "m"),
+            limit=LabelledQuantity(self._limit_s, "s"),
+            away=LabelledQuantity(float(np.linalg.norm(away)), "m"),
         )
 
     def halt(self, reason: str) -> None:

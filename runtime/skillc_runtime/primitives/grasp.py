@@ -27,7 +27,7 @@ from skillc_runtime.world.space.placing.chosen_places import end_of_reservation
 from skillc_runtime.world.space.whereabouts import holders_of
 from skillc_runtime.world.state.changes import AddRelation, RemoveRelation, SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
-from skillc_runtime.world.state.labels.labelled import LabelledIri, Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledQuantity
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import CONTAIN, END_EFFECTOR, GRASP_WIDTH, HELD_SIDEWAYS, WIDTH_TOLERANCE
 from skillc_runtime.world.state.values import Value
@@ -103,7 +103,7 @@ class Grasp(Primitive):
                     "{opening:.0f mm} open",
                     gripper=hand,
                     object=thing,
-                    opening=Quantity(opening, "m"),
+                    opening=LabelledQuantity(opening, "m"),
                 )
             )
         width = width_between(state, self._gripper, self._object, self._at)
@@ -115,8 +115,8 @@ class Grasp(Primitive):
                     "{opening:.1f mm} open, {object} is {width:.1f mm} wide",
                     gripper=hand,
                     object=thing,
-                    opening=Quantity(opening, "m"),
-                    width=Quantity(width, "m"),
+                    opening=LabelledQuantity(opening, "m"),
+                    width=LabelledQuantity(width, "m"),
                 )
             )
 
@@ -186,15 +186,15 @@ class Release(Primitive):
             raise SkillFailure(
                 "the fingers of {gripper} have not come to rest within {limit:.1f}: they are {opening:.0f mm} open",
                 gripper=label(self._hand, self.cell.world.snapshot().vocabulary),
-                limit=Quantity(self._limit_s, "s"),
-                opening=Quantity(self._gripper.opening_m, "m"),
+                limit=LabelledQuantity(self._limit_s, "s"),
+                opening=LabelledQuantity(self._gripper.opening_m, "m"),
             )
         if not self._freed:
             words = self.cell.world.snapshot().vocabulary
             raise SkillFailure(
                 "the fingers of {gripper} came to rest {opening:.0f mm} open: {object} is not free",
                 gripper=label(self._hand, words),
-                opening=Quantity(self._gripper.opening_m, "m"),
+                opening=LabelledQuantity(self._gripper.opening_m, "m"),
                 object=label(self._object, words),
             )
         return Status.SUCCESS

@@ -9,7 +9,7 @@ from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure
 from skillc_runtime.primitives.space_needs import Open, SpaceNeed
 from skillc_runtime.primitives.time_limits import finger_limit_s
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
-from skillc_runtime.world.state.labels.labelled import LabelledIri, Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledQuantity
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
@@ -83,8 +83,8 @@ class ParallelGripper(Primitive):
             raise SkillFailure(
                 "{gripper} is {opening:.0f mm} open, not {wanted:.0f mm}: something is in the way",
                 gripper=self._label,
-                opening=Quantity(opening, "m"),
-                wanted=Quantity(self._opening, "m"),
+                opening=LabelledQuantity(opening, "m"),
+                wanted=LabelledQuantity(self._opening, "m"),
             )
         return Status.SUCCESS
 
@@ -93,9 +93,9 @@ class ParallelGripper(Primitive):
             "the fingers of {gripper} have not come to rest within {limit:.1f}: they are {opening:.0f mm} open, not "
             "{wanted:.0f mm}",
             gripper=self._label,
-            limit=Quantity(self._limit_s, "s"),
-            opening=Quantity(self._gripper.opening_m, "m"),
-            wanted=Quantity(self._opening, "m"),
+            limit=LabelledQuantity(self._limit_s, "s"),
+            opening=LabelledQuantity(self._gripper.opening_m, "m"),
+            wanted=LabelledQuantity(self._opening, "m"),
         )
 
     def halt(self, reason: str) -> None:
@@ -119,8 +119,8 @@ def _too_wide(gripper: LabelledIri, widest_m: float, opening_m: float) -> SkillF
     return SkillFailure(
         "{gripper} opens to {widest:.0f mm}, not to {wanted:.0f mm}",
         gripper=gripper,
-        widest=Quantity(widest_m, "m"),
-        wanted=Quantity(opening_m, "m"),
+        widest=LabelledQuantity(widest_m, "m"),
+        wanted=LabelledQuantity(opening_m, "m"),
     )
 
 

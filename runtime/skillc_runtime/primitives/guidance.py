@@ -13,7 +13,7 @@ from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.world.space.frames import relocation_changes
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import IS_TAUGHT
 
@@ -70,8 +70,8 @@ class AwaitGuidance(Primitive):
             raise SkillFailure(
                 "nobody guided the tool of {arm} to a pose within {patience}: it is {away:.0f mm} from its start",
                 arm=label(self._name, self.cell.world.snapshot().vocabulary),
-                patience=Quantity(self._patience, "s"),
-                away=Quantity(away, "m"),
+                patience=LabelledQuantity(self._patience, "s"),
+                away=LabelledQuantity(away, "m"),
             )
         return Status.RUNNING
 

@@ -13,7 +13,7 @@ from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
-from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import DEPTH, INSERTED_DEPTH, IS_SEATED
 
@@ -55,9 +55,9 @@ class SinkBelow(Primitive):
             raise SkillFailure(
                 "nothing gave way within {patience}: the tool sank {sank:.1f mm} below the target, not {wanted:g mm}"
                 + describe_slowness(self.arm.speed),
-                patience=Quantity(self._patience, "s"),
-                sank=Quantity(self._deepest, "m"),
-                wanted=Quantity(self._depth, "m"),
+                patience=LabelledQuantity(self._patience, "s"),
+                sank=LabelledQuantity(self._deepest, "m"),
+                wanted=LabelledQuantity(self._depth, "m"),
             )
         return Status.RUNNING
 
@@ -107,8 +107,8 @@ class Seat(Primitive):
                 + ("" if resting else describe_slowness(self.arm.speed)),
                 object=label(self._peg, words),
                 socket=label(self._socket, words),
-                patience=Quantity(self._patience, "s"),
-                depth=Quantity(depth, "m"),
-                hole=Quantity(self._bottom, "m"),
+                patience=LabelledQuantity(self._patience, "s"),
+                depth=LabelledQuantity(depth, "m"),
+                hole=LabelledQuantity(self._bottom, "m"),
             )
         return Status.SUCCESS

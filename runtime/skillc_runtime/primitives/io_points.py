@@ -5,7 +5,7 @@ from __future__ import annotations
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import SetProperty
-from skillc_runtime.world.state.labels.labelled import LabelledIri, Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledQuantity
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import LEVEL
 
@@ -44,8 +44,8 @@ class SetOutput(Primitive):
             raise SkillFailure(
                 "{output} was set to {wanted}; its controller reports {found}",
                 output=_label(self.cell, self._output),
-                wanted=Quantity(self._level),
-                found=Quantity(found),
+                wanted=LabelledQuantity(self._level),
+                found=LabelledQuantity(found),
             )
         return Status.RUNNING
 
@@ -77,9 +77,9 @@ class AwaitInput(Primitive):
             raise SkillFailure(
                 "{point} is at {found}, not {wanted}, after {patience}",
                 point=_label(self.cell, self._input),
-                found=Quantity(found),
+                found=LabelledQuantity(found),
                 wanted=self._wanted,
-                patience=Quantity(self._patience, "s"),
+                patience=LabelledQuantity(self._patience, "s"),
             )
         return Status.RUNNING
 

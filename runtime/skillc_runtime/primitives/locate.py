@@ -20,7 +20,7 @@ from skillc_runtime.world.space.frames import move_changes, pose
 from skillc_runtime.world.space.lying import lying_problem
 from skillc_runtime.world.space.whereabouts import holders_of, search_changes
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
-from skillc_runtime.world.state.labels.labelled import LabelledIri, Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledQuantity
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import CONTAIN, LOCATED
 from skillc_runtime.world.state.world_state import WorldState
@@ -179,7 +179,7 @@ class Locate(Primitive):
             "and {needed} must; it is hidden, out of view or elsewhere",
             camera=self._label(self._camera),
             object=self._label(self._object),
-            patience=Quantity(self._patience_s, "s"),
+            patience=LabelledQuantity(self._patience_s, "s"),
             images=len(self._estimates),
             agreeing=agreeing,
             needed=AGREEING,

@@ -27,7 +27,7 @@ from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
-from skillc_runtime.world.state.labels.labelled import LabelledVector, Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity, LabelledVector
 from skillc_runtime.world.state.terms import HAS_GRIPPER, HAS_POSTURE, HAS_SHEET, IS_TAKEN, PLACING_POSE, POSTURE_NAME
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class MoveJoints(ArmMotion):
         unreachable = SpaceLacking(
             "the arm cannot reach {target:.3f} in this orientation, {far:.2f} from where its tool is",
             target=LabelledVector((x, y, z), "m"),
-            far=Quantity(float(np.linalg.norm(self._target.position - now.pose.position)), "m"),
+            far=LabelledQuantity(float(np.linalg.norm(self._target.position - now.pose.position)), "m"),
         )
         goals = _PoseGoal(self._target, home, planned)
         end = yield from move_collision_free(self.cell, self._individual, goals, self._pace, unreachable)

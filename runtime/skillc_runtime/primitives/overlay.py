@@ -15,7 +15,7 @@ from skillc_runtime.motion.reference import Overlay
 from skillc_runtime.primitives.arm_motion import infeasible_motion
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.space_needs import SpaceNeed, Spread
-from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
@@ -48,8 +48,8 @@ class AddedMotion(Primitive):
         if self._speed > self.arm.task_limits.speed_m_s:
             raise SkillFailure(
                 f"{self._name} runs with {{speed:.2f}}, faster than the {{limit}} the arm allows",
-                speed=Quantity(self._speed, "m/s"),
-                limit=Quantity(self.arm.task_limits.speed_m_s, "m/s"),
+                speed=LabelledQuantity(self._speed, "m/s"),
+                limit=LabelledQuantity(self.arm.task_limits.speed_m_s, "m/s"),
             )
         try:
             self._handle = self.arm.motion.add_overlay(self._overlay, self._axes, FADE_TIME_S)

@@ -9,7 +9,7 @@ import numpy as np
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.compliance import Push, yield_along
 from skillc_runtime.primitives.primitive import SkillFailure, Status
-from skillc_runtime.world.state.labels.labelled import Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 from skillc_runtime.world.state.labels.labelling import label
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ class PressOnSupport(Push):
                 object=label(self._object, words),
                 to=label(self._to, words),
                 reason=str(failure),
-                travel=Quantity(self._travel, "m"),
+                travel=LabelledQuantity(self._travel, "m"),
             ) from failure
 
     def note_force(self, measured: MeasuredForce) -> None:

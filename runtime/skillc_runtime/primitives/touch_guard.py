@@ -18,7 +18,7 @@ from skillc_runtime.world.space.grasping.hand_shape import read_hand_shape
 from skillc_runtime.world.space.occupants import read_occupants
 from skillc_runtime.world.space.shape.oriented_box import CORNERS
 from skillc_runtime.world.state.data_sheet import SheetError
-from skillc_runtime.world.state.labels.labelled import LabelledValue, Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity, LabelledValue
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import HAS_GRIPPER, TOUCHED_OBSTACLE
 
@@ -100,9 +100,9 @@ class TouchGuard:
         return failure(
             "{touching} touches something at a height of {height:.3f} and meets {force:.0f}: " + there,
             touching=label(thing or next(iter(self._grippers), self._individual), words),
-            height=Quantity(height_m, "m"),
-            force=Quantity(resistance_n, "N"),
-            far=Quantity(far_m, "m"),
+            height=LabelledQuantity(height_m, "m"),
+            force=LabelledQuantity(resistance_n, "N"),
+            far=LabelledQuantity(far_m, "m"),
             **named,
         )
 

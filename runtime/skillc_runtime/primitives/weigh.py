@@ -13,7 +13,7 @@ from skillc_runtime.primitives.contradiction import contradict_place
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
-from skillc_runtime.world.state.labels.labelled import LabelledIri, Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledQuantity
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import CONTAIN, WEIGHT
 
@@ -61,8 +61,8 @@ class Weigh(Primitive):
                 "{object} weighs {known:.2f kg}: an arm that feels weights to {tolerance:.2f kg} cannot tell "
                 "whether it is held",
                 object=self._thing,
-                known=Quantity(self._known_kg, "kg"),
-                tolerance=Quantity(self._tolerance_kg, "kg"),
+                known=LabelledQuantity(self._known_kg, "kg"),
+                tolerance=LabelledQuantity(self._tolerance_kg, "kg"),
             )
         self._began = self._still_since = self.cell.now
         self._forces = []
@@ -96,9 +96,9 @@ class Weigh(Primitive):
             "what {gripper} holds weighs {felt:.2f kg}, {object} weighs {known:.2f kg}: it is something else, or "
             "something touches it",
             gripper=self._hand,
-            felt=Quantity(felt_kg, "kg"),
+            felt=LabelledQuantity(felt_kg, "kg"),
             object=self._thing,
-            known=Quantity(self._known_kg, "kg"),
+            known=LabelledQuantity(self._known_kg, "kg"),
         )
         return contradict_place(self.cell.world, "Weigh", self._object, failure)
 

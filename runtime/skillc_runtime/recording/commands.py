@@ -26,7 +26,7 @@ class Approve(_Command, tag="approve", frozen=True):
     """Run the plan that waits for approval."""
 
 
-class Pause(_Command, tag="pause", frozen=True):
+class PauseRun(_Command, tag="pause", frozen=True):
     """Pause at the next point where all active skills may be paused."""
 
     reason: str = "requested"
@@ -61,7 +61,7 @@ class Abort(_Command, tag="abort", frozen=True):
     reason: str
 
 
-class Retry(_Command, tag="retry", frozen=True):
+class RetryStep(_Command, tag="retry", frozen=True):
     """After a failure: run the failed step again."""
 
 
@@ -75,7 +75,7 @@ class Replan(_Command, tag="replan", frozen=True):
     """Halt what runs and plan again."""
 
 
-class Answer(_Command, tag="answer", frozen=True):
+class AnswerPrompt(_Command, tag="answer", frozen=True):
     """Answer what a skill asks with one of its choices; `prompt` is its number, 0 for the only one."""
 
     choice: str
@@ -97,17 +97,17 @@ class EditWorld(_Command, tag="edit-world", frozen=True):
 
 Command: TypeAlias = (
     Approve
-    | Pause
+    | PauseRun
     | Resume
     | StepInto
     | StepOver
     | StepOut
     | Stop
     | Abort
-    | Retry
+    | RetryStep
     | Skip
     | Replan
-    | Answer
+    | AnswerPrompt
     | SetBreakpoints
     | EditWorld
 )

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Literal, TypeAlias
 
-Contact: TypeAlias = Literal["none", "kept", "lifting", "taken-off", "approaching"]
+ContactState: TypeAlias = Literal["none", "kept", "lifting", "taken-off", "approaching"]
 """none: the run is not paused, or no tool pressed when it was; kept: tools press on; lifting: they are being taken off;
 taken-off: they were taken off and are at rest; approaching: they approach until they sense contact."""
 
-SENTENCES: dict[Contact, str] = {
+SENTENCES: dict[ContactState, str] = {
     "none": "",
     "kept": "the force is kept",
     "lifting": "the tool is being taken off the surface",

@@ -13,7 +13,7 @@ from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.commands import Command
-from skillc_runtime.recording.contact import Contact
+from skillc_runtime.recording.contact import ContactState
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.reasons import (
@@ -73,7 +73,7 @@ class StateChanged(_Event, tag="state-changed", frozen=True, kw_only=True):
     state: State
     reason: str = ""
     failure: Failure | None = None
-    contact: Contact = "none"
+    contact: ContactState = "none"
 
 
 class Requested(_Event, tag="requested", frozen=True, kw_only=True):

@@ -47,7 +47,7 @@ from skillc_runtime.world.state.consistency.representatives import satisfies_axi
 from skillc_runtime.world.state.world_state import WorldState
 
 
-class Scene(msgspec.Struct, frozen=True):
+class LoadedScene(msgspec.Struct, frozen=True):
     """The world of Turtle files, all problems, and the statements about individuals.
 
     `doubtful` are individuals about which not all statements could be read; `unfit` are statements which are no facts,
@@ -118,7 +118,7 @@ def load_documents(documents: Sequence[Document], vocabulary: Vocabulary) -> Wor
     return _valid_state(read_documents(documents, vocabulary))
 
 
-def read_scene(path: Path, vocabulary: Vocabulary) -> Scene:
+def read_scene(path: Path, vocabulary: Vocabulary) -> LoadedScene:
     """Read a scene file and the packaged data sheets; SceneError when the file cannot be read."""
     return read_with_sheets(Document.read(path), vocabulary)
 
@@ -133,7 +133,7 @@ def sheet_documents() -> list[Document]:
     return [Document.of(name, text) for name, text in sheet_files()]
 
 
-def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Scene:
+def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> LoadedScene:
     """Read Turtle documents, with all problems.
 
     Any numeric literal is a number. Prefixes and classes that a document declares are added to the vocabulary of the
@@ -174,7 +174,7 @@ def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Sce
     return replace(scene, problems=_sort_problems(problems))
 
 
-def read_with_sheets(own: Document, vocabulary: Vocabulary) -> Scene:
+def read_with_sheets(own: Document, vocabulary: Vocabulary) -> LoadedScene:
     """Read a scene and the packaged data sheets; SceneError when there is not enough memory."""
     try:
         check_available(PLACED_BYTES * len(own.text))
@@ -199,16 +199,16 @@ def _build_scene(
     problems: list[Diagnostic],
     doubtful: frozenset[str],
     partly: frozenset[str],
-) -> Scene:
+) -> LoadedScene:
     located = LocatedFacts(said, vocabulary)
     written = located.changes()
     state = WorldState.empty(vocabulary).with_changes(change for change, _ in written)
     wrong = [*problems, *located.problems(doubtful), *report_axiom_violations(state, written)]
     wrong += report_scene_violations(state, said, wrong, doubtful, partly)
-    return Scene(state, _sort_problems(wrong), said, doubtful)
+    return LoadedScene(state, _sort_problems(wrong), said, doubtful)
 
 
-def _with_scene_warnings(scene: Scene, written: Sequence[Statement], own: frozenset[str]) -> Scene:
+def _with_scene_warnings(scene: LoadedScene, written: Sequence[Statement], own: frozenset[str]) -> LoadedScene:
     """Return the scene with the problems of statements that are not facts: identity, missing classes, no effect."""
     vocabulary = scene.state.vocabulary
     identity = IdentityChecker(written, scene.state)
@@ -222,7 +222,7 @@ def _sort_problems(problems: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
     return tuple(sorted(dict.fromkeys(problems), key=lambda each: (each.span, each.name, each.message)))
 
 
-def _valid_state(scene: Scene) -> WorldState:
+def _valid_state(scene: LoadedScene) -> WorldState:
     if not scene.ok:
         raise SceneError(scene.problems)
     return scene.state

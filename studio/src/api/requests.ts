@@ -79,7 +79,7 @@ export interface Requests {
   disturb_cell: {
     path: [cell: string];
     query: Record<string, never>;
-    body: Schemas["Push"] | Schemas["Move"] | Schemas["Take"] | Schemas["PressEmergencyStop"] | Schemas["LoseArm"];
+    body: Schemas["PushArm"] | Schemas["MoveThing"] | Schemas["TakeThing"] | Schemas["PressEmergencyStop"] | Schemas["LoseArm"];
     answer: Required<Schemas["CellStatus"]>;
   };
   /** Show the shapes and joints of a simulated cell, as they really are. */
@@ -149,7 +149,7 @@ export interface Requests {
   give_command: {
     path: [operation: string];
     query: Record<string, never>;
-    body: Schemas["Approve"] | Schemas["Pause"] | Schemas["Resume"] | Schemas["StepInto"] | Schemas["StepOver"] | Schemas["StepOut"] | Schemas["CommandsRetry"] | Schemas["Skip"] | Schemas["Replan"] | Schemas["Answer"] | Schemas["SetBreakpoints"];
+    body: Schemas["Approve"] | Schemas["PauseRun"] | Schemas["Resume"] | Schemas["StepInto"] | Schemas["StepOver"] | Schemas["StepOut"] | Schemas["RetryStep"] | Schemas["Skip"] | Schemas["Replan"] | Schemas["AnswerPrompt"] | Schemas["SetBreakpoints"];
     answer: Required<Schemas["OperationStatus"]>;
   };
   /** Stop an operation; nothing happens if it has ended. */

@@ -84,10 +84,10 @@ export interface components {
             name: string;
         };
         /**
-         * Push
+         * PushArm
          * @description Somebody pushes the hand of an arm with a force (x, y, z) in N in the world, from now on for `duration_s` s.
          */
-        Push: {
+        PushArm: {
             /** @enum {unknown} */
             type: "push";
             arm: string;
@@ -100,10 +100,10 @@ export interface components {
             duration_s?: number;
         };
         /**
-         * Move
+         * MoveThing
          * @description Somebody moves a thing by (x, y, z) in m in the world, and turns it about the vertical, in rad.
          */
-        Move: {
+        MoveThing: {
             /** @enum {unknown} */
             type: "move";
             thing: string;
@@ -116,10 +116,10 @@ export interface components {
             turn_rad?: number;
         };
         /**
-         * Take
+         * TakeThing
          * @description Somebody takes a thing out of the hand that holds it, moves it by (x, y, z) in m in the world, and lets it go.
          */
-        Take: {
+        TakeThing: {
             /** @enum {unknown} */
             type: "take";
             thing: string;
@@ -502,7 +502,7 @@ export interface components {
             alternative?: string;
             /** @default {} */
             values?: {
-                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["LabelledQuantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
             };
             /** @default [] */
             causes?: components["schemas"]["Failure"][];
@@ -527,12 +527,12 @@ export interface components {
             label: string;
         };
         /**
-         * Quantity
+         * LabelledQuantity
          * @description A number with its SI unit as the language writes it; the unit is empty for a pure number.
          *
          *         In a message `{depth:.1f mm}` shows it with one digit in mm, `{depth}` with its unit.
          */
-        Quantity: {
+        LabelledQuantity: {
             /** @enum {unknown} */
             type: "quantity";
             value: number;
@@ -591,7 +591,7 @@ export interface components {
         ValueList: {
             /** @enum {unknown} */
             type: "list";
-            values: (boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]))[];
+            values: (boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["LabelledQuantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]))[];
         };
         /**
          * CallOutput
@@ -601,7 +601,7 @@ export interface components {
             skill: string;
             node: number;
             name: string;
-            value: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+            value: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["LabelledQuantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
         };
         /**
          * MeasuredProperty
@@ -623,7 +623,7 @@ export interface components {
             type: "property";
             individual: components["schemas"]["LabelledIri"];
             property: components["schemas"]["LabelledIri"];
-            value: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]) | null;
+            value: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["LabelledQuantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]) | null;
         };
         /**
          * Prompt
@@ -671,10 +671,10 @@ export interface components {
             who?: string;
         };
         /**
-         * Pause
+         * PauseRun
          * @description Pause at the next point where all active skills may be paused.
          */
-        Pause: {
+        PauseRun: {
             /** @enum {unknown} */
             type: "pause";
             /** @default requested */
@@ -723,10 +723,10 @@ export interface components {
             who?: string;
         };
         /**
-         * CommandsRetry
+         * RetryStep
          * @description After a failure: run the failed step again.
          */
-        CommandsRetry: {
+        RetryStep: {
             /** @enum {unknown} */
             type: "retry";
             /** @default  */
@@ -754,10 +754,10 @@ export interface components {
             who?: string;
         };
         /**
-         * Answer
+         * AnswerPrompt
          * @description Answer what a skill asks with one of its choices; `prompt` is its number, 0 for the only one.
          */
-        Answer: {
+        AnswerPrompt: {
             /** @enum {unknown} */
             type: "answer";
             choice: string;
@@ -821,7 +821,7 @@ export interface components {
              */
             minimise?: "" | "makespan" | "work";
             /** @default null */
-            body?: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"]) | null;
+            body?: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"]) | null;
             /** @default {} */
             settings?: components["schemas"]["RunSpec"];
             /** @default [] */
@@ -1016,7 +1016,7 @@ export interface components {
         Sequence: {
             /** @enum {unknown} */
             type: "seq";
-            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
+            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
             reactive: boolean;
             source: components["schemas"]["Position"];
         };
@@ -1027,7 +1027,7 @@ export interface components {
         Selector: {
             /** @enum {unknown} */
             type: "sel";
-            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
+            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
             reactive: boolean;
             source: components["schemas"]["Position"];
         };
@@ -1040,18 +1040,18 @@ export interface components {
             type: "par";
             /** @enum {unknown} */
             policy: "all" | "any" | "lead" | "race";
-            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
+            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
             source: components["schemas"]["Position"];
         };
         /**
-         * TreeRetry
+         * Retry
          * @description Runs the child up to `count` times until it succeeds.
          */
-        TreeRetry: {
+        Retry: {
             /** @enum {unknown} */
             type: "retry";
             count: number;
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1062,7 +1062,7 @@ export interface components {
             /** @enum {unknown} */
             type: "repeat";
             count: number;
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1073,7 +1073,7 @@ export interface components {
             /** @enum {unknown} */
             type: "timeout";
             seconds: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1083,7 +1083,7 @@ export interface components {
         Try: {
             /** @enum {unknown} */
             type: "try";
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1093,7 +1093,7 @@ export interface components {
         Invert: {
             /** @enum {unknown} */
             type: "invert";
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1103,7 +1103,7 @@ export interface components {
         Once: {
             /** @enum {unknown} */
             type: "once";
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1136,8 +1136,8 @@ export interface components {
             type: "if";
             condition: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
             text: string;
-            then: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
-            orelse: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"]) | null;
+            then: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            orelse: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"]) | null;
             source: components["schemas"]["Position"];
         };
         /**
@@ -1150,7 +1150,7 @@ export interface components {
             condition: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
             text: string;
             limit: number;
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1162,7 +1162,7 @@ export interface components {
             type: "for";
             variable: string;
             items: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1209,7 +1209,7 @@ export interface components {
             /** @enum {unknown} */
             type: "with";
             call: components["schemas"]["Call"];
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["TreeRetry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1397,7 +1397,7 @@ export interface components {
             /** @enum {unknown} */
             type: "requested";
             time: number;
-            command: components["schemas"]["Approve"] | components["schemas"]["Pause"] | components["schemas"]["Resume"] | components["schemas"]["StepInto"] | components["schemas"]["StepOver"] | components["schemas"]["StepOut"] | components["schemas"]["Stop"] | components["schemas"]["Abort"] | components["schemas"]["CommandsRetry"] | components["schemas"]["Skip"] | components["schemas"]["Replan"] | components["schemas"]["Answer"] | components["schemas"]["SetBreakpoints"] | components["schemas"]["EditWorld"];
+            command: components["schemas"]["Approve"] | components["schemas"]["PauseRun"] | components["schemas"]["Resume"] | components["schemas"]["StepInto"] | components["schemas"]["StepOver"] | components["schemas"]["StepOut"] | components["schemas"]["Stop"] | components["schemas"]["Abort"] | components["schemas"]["RetryStep"] | components["schemas"]["Skip"] | components["schemas"]["Replan"] | components["schemas"]["AnswerPrompt"] | components["schemas"]["SetBreakpoints"] | components["schemas"]["EditWorld"];
             tick: number;
             /** @default  */
             refused?: string;
@@ -1479,7 +1479,7 @@ export interface components {
             /** @enum {unknown} */
             type: "disturbed";
             time: number;
-            disturbance: components["schemas"]["Push"] | components["schemas"]["Move"] | components["schemas"]["Take"] | components["schemas"]["PressEmergencyStop"] | components["schemas"]["LoseArm"];
+            disturbance: components["schemas"]["PushArm"] | components["schemas"]["MoveThing"] | components["schemas"]["TakeThing"] | components["schemas"]["PressEmergencyStop"] | components["schemas"]["LoseArm"];
             tick: number;
             /** @default  */
             who?: string;
@@ -1542,7 +1542,7 @@ export interface components {
         PlanStep: {
             skill: string;
             arguments: {
-                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["LabelledQuantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
             };
             /** @default null */
             source?: components["schemas"]["Position"] | null;
@@ -1775,7 +1775,7 @@ export interface components {
             failed_call?: components["schemas"]["FailedCallContext"] | null;
             /** @default {} */
             outputs?: {
-                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["LabelledQuantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
             };
             source: components["schemas"]["Position"];
         };
@@ -1789,7 +1789,7 @@ export interface components {
         FailedCallContext: {
             /** @default {} */
             arguments?: {
-                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["LabelledQuantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
             };
             /** @default [] */
             unset?: string[];
@@ -1854,7 +1854,7 @@ export interface components {
             skill: string;
             implementation: string;
             bindings: {
-                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["LabelledQuantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
             };
             /** @default [] */
             rejected?: components["schemas"]["Rejection"][];
@@ -1949,7 +1949,7 @@ export interface components {
             /** @default null */
             expression?: components["schemas"]["WrittenExpression"] | null;
             /** @default null */
-            value?: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]) | null;
+            value?: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["LabelledQuantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]) | null;
         };
         /**
          * WorldChanged
@@ -2179,7 +2179,7 @@ export interface components {
             /** @enum {unknown} */
             how: "default" | "given" | "inferred" | "let" | "loop" | "output" | "passed" | "planned";
             /** @default null */
-            value?: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]) | null;
+            value?: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["LabelledQuantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]) | null;
             /** @default  */
             text?: string;
             /** @default null */
@@ -2526,13 +2526,13 @@ export interface components {
             types: string[];
             part_of: string | null;
             controller: string | null;
-            figures: components["schemas"]["Figure"][];
+            figures: components["schemas"]["SheetFigure"][];
         };
         /**
-         * Figure
+         * SheetFigure
          * @description What a data sheet states: `property` is its short name; `unit` is that of the SI, empty without one.
          */
-        Figure: {
+        SheetFigure: {
             property: string;
             value: string | boolean | number;
             unit: string;
@@ -2984,7 +2984,7 @@ export interface components {
             skill: string;
             implementation: string;
             arguments: {
-                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["Quantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
+                [key: string]: boolean | number | string | (components["schemas"]["LabelledIri"] | components["schemas"]["LabelledQuantity"] | components["schemas"]["NotFinite"] | components["schemas"]["LabelledVector"] | components["schemas"]["LabelledPose"] | components["schemas"]["ValueList"]);
             };
             source: string;
             status: string;

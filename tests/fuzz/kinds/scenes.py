@@ -15,7 +15,7 @@ from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.checks.identity import PROPERTY, SOURCE, TARGETS
 from skillc_runtime.scene.documents import BASE, Document, SceneError, parse
-from skillc_runtime.scene.load import Scene, load_documents, load_in_bulk, read_documents
+from skillc_runtime.scene.load import LoadedScene, load_documents, load_in_bulk, read_documents
 from skillc_runtime.scene.saving import SaveError, format_scene
 from skillc_runtime.scene.statements import SUBCLASS, iri_of, is_annotation, is_term_kind
 from skillc_runtime.store.literals import read_literal
@@ -71,7 +71,7 @@ def _shipped() -> WorldState:
     return load_documents(SHEETS, _vocabulary())
 
 
-def _check_problems(scene: Scene, text: str) -> None:
+def _check_problems(scene: LoadedScene, text: str) -> None:
     """Every problem has a name, words, and a place in a file."""
     last = text.count("\n") + 2
     for each in scene.problems:
@@ -80,7 +80,7 @@ def _check_problems(scene: Scene, text: str) -> None:
         assert each.span.column >= 1 and each.span.end_column >= 1, each
 
 
-def _check_statements(scene: Scene, document: Document, vocabulary: Vocabulary) -> None:
+def _check_statements(scene: LoadedScene, document: Document, vocabulary: Vocabulary) -> None:
     """Where nothing is said to be wrong, RDF libraries read the same, and all of it is known to the world."""
     parsed = parse(document, vocabulary.prefixes)
     if parsed.problems:

@@ -20,7 +20,7 @@ from skillc.cli.server_completions import complete_asked_argument, complete_aske
 from skillc.cli.server_connection import asks_cell
 
 if TYPE_CHECKING:
-    from skillc.services.planning.planning import Measure
+    from skillc.contract.plan import Measure
     from skillc_runtime.planning.progress import PlanningProgress
     from skillc_runtime.recording.run_spec import RunSpec
 

@@ -18,7 +18,7 @@ from skillc.cli.server_access import cell_options, refuse_options
 from skillc.cli.server_completions import complete_asked_argument, complete_asked_task
 from skillc.cli.server_connection import asks_cell
 from skillc.cli.struct_options import struct_options
-from skillc_runtime.evaluation.trials.trial import Disturbance
+from skillc_runtime.evaluation.trials.trial import TrialDisturbance
 
 EXAMPLES = """
 skillc trials clean_table -n 20
@@ -39,7 +39,7 @@ class AskedTrials(msgspec.Struct, frozen=True, kw_only=True):
     seed: int
     jobs: int | None
     scheduler: str | None
-    disturb: Disturbance
+    disturb: TrialDisturbance
     reality: str | None
     out: Path | None
     deadline_s: float
@@ -69,7 +69,7 @@ COUNT, SEED = click.IntRange(min=1), click.IntRange(min=0)
 )
 @click.option(
     "--disturb",
-    type=click.Choice(get_args(Disturbance)),
+    type=click.Choice(get_args(TrialDisturbance)),
     default="none",
     show_default=True,
     help="Disturb each trial: the object is missing, an obstacle is in the way, or a person pushes the arm, or takes "

@@ -59,7 +59,7 @@ class _Player:
             case commands.Stop():
                 self._stopped = True
             case _:
-                self._paused = isinstance(command, commands.Pause)
+                self._paused = isinstance(command, commands.PauseRun)
 
     def _show(self, events: Iterable[Envelope]) -> None:
         for each in events:

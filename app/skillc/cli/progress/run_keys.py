@@ -8,7 +8,7 @@ import msgspec
 
 from skillc.cli.progress.run_view import RunView
 from skillc_runtime.execution.pace import Pace, format_pace
-from skillc_runtime.recording.commands import Answer, Command, Pause, Resume, StepInto, StepOut, StepOver, Stop
+from skillc_runtime.recording.commands import AnswerPrompt, Command, PauseRun, Resume, StepInto, StepOut, StepOver, Stop
 
 ENTER = "\n"
 
@@ -27,7 +27,7 @@ class Key(msgspec.Struct, frozen=True):
 
 
 KEYS = (
-    Key("p", "pause", Pause()),
+    Key("p", "pause", PauseRun()),
     Key("s", "step over", StepOver()),
     Key("i", "step into", StepInto()),
     Key("o", "step out", StepOut()),
@@ -37,7 +37,7 @@ KEYS = (
 CONFIRMING_KEYS = (
     Key(ENTER, "go on", Resume()),
     Key("s", "stop", Stop("stopped by the user")),
-    Key("p", "pause", Pause()),
+    Key("p", "pause", PauseRun()),
 )
 """The keys of a run whose user confirms each step. `s` stops it there, and does not step: nothing moves by mistake."""
 FASTER, SLOWER = "+", "-"
@@ -56,12 +56,12 @@ def format_help(run: RunView, pace: Pace, detachable: bool) -> str:
     return "  ".join((*_format_keys(run), *detach, *paces))
 
 
-def find_answer(digit: str, run: RunView) -> Answer | None:
+def find_answer(digit: str, run: RunView) -> AnswerPrompt | None:
     """Return the answer that a digit means: the choice of the first prompt with this number; None for no choice."""
     number = int(digit)
     if not run.prompts or not 0 < number <= len(run.prompts[0].choices):
         return None
-    return Answer(run.prompts[0].choices[number - 1], run.prompts[0].id, who="the user")
+    return AnswerPrompt(run.prompts[0].choices[number - 1], run.prompts[0].id, who="the user")
 
 
 def explain_refusal(key: Key, run: RunView) -> str:

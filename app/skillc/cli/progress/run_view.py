@@ -12,7 +12,7 @@ from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.tree.gate import GatedCall
 from skillc_runtime.planning.progress import PlanningProgress, describe_progress
-from skillc_runtime.recording.contact import Contact
+from skillc_runtime.recording.contact import ContactState
 from skillc_runtime.recording.events import (
     Event,
     ImplementationChosen,
@@ -48,7 +48,7 @@ class RunView(msgspec.Struct, frozen=True):
     reason: str
     allowed: tuple[str, ...]
     stacks: tuple[CallStack, ...] = ()
-    contact: Contact = "none"
+    contact: ContactState = "none"
     prompts: tuple[Prompt, ...] = ()
     confirms: bool = False
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from skillc.cli.progress.stderr import StderrProgress
-from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.evaluation.trials.trial import Trial, TrialDisturbance
 from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 
 
 class TrialProgress(StderrProgress):
     """Shows each finished trial: a bar on a terminal, a line elsewhere, nothing if `quiet`."""
 
-    def __init__(self, task: str, disturbance: Disturbance, count: int, done: int, quiet: bool) -> None:
+    def __init__(self, task: str, disturbance: TrialDisturbance, count: int, done: int, quiet: bool) -> None:
         super().__init__(task, count, done, quiet)
         self._disturbance, self._count, self._done = disturbance, count, done
 

@@ -17,17 +17,17 @@ from skillc.contract.rehearsal import RehearsalRequest
 from skillc.contract.source import SourceChange
 from skillc.contract.stopping import StopReason
 from skillc.contract.world import WorldEdit, WorldPlacement, WorldQuery
-from skillc_runtime.devices.disturbances import Push
+from skillc_runtime.devices.disturbances import PushArm
 
 _TASK, _SURFACE, _STOP = "clean", {"surface": "lab:Table-1"}, StopReason("a person is in the cell")
 
 EXAMPLES: dict[str, msgspec.Struct] = {
     endpoints.SET_PACE.name: PaceSetting(1.0),
     endpoints.STOP_CELL.name: _STOP,
-    endpoints.DISTURB_CELL.name: Push("lab:Arm-1", (0.0, 20.0, 0.0)),
+    endpoints.DISTURB_CELL.name: PushArm("lab:Arm-1", (0.0, 20.0, 0.0)),
     endpoints.TAKE_LEASE.name: LeaseRequest(600.0),
     endpoints.SUBMIT_OPERATION.name: OperationRequest(task=_TASK, arguments=_SURFACE),
-    endpoints.GIVE_COMMAND.name: commands.Pause("somebody looks at it"),
+    endpoints.GIVE_COMMAND.name: commands.PauseRun("somebody looks at it"),
     endpoints.STOP_OPERATION.name: _STOP,
     endpoints.ADD_ORDER.name: OrderRequest(
         OperationRequest(task=_TASK, arguments=_SURFACE), datetime(2026, 1, 31, 18, tzinfo=UTC), every_s=86_400.0

@@ -15,7 +15,7 @@ from skillc_model.conditions import Condition, Exists, Forall, Individual
 from skillc_model.traversal import walk
 from skillc_rdf.turtle.statements import Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
-from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.load import LoadedScene
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.eval.obstacles import RelationObstacle
@@ -63,7 +63,7 @@ class CellProblem(msgspec.Struct, frozen=True):
 
 
 def cell_diagnostics(
-    scene: Scene, path: str, used: frozenset[str], goals: Sequence[Condition] = ()
+    scene: LoadedScene, path: str, used: frozenset[str], goals: Sequence[Condition] = ()
 ) -> Iterator[Diagnostic]:
     """Yield the diagnostics of what is wrong in the cell of a scene file at `path`.
 

@@ -9,7 +9,7 @@ import msgspec
 from skillc.services.library.cache_entries import DiskStore, describe_models, describe_scene, encode_meaning
 from skillc_dsl.query import Memo
 from skillc_model.conditions import Condition
-from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.load import LoadedScene
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.fact_list import list_facts
 from skillc_runtime.world.state.world_state import WorldState
@@ -17,7 +17,7 @@ from skillc_runtime.world.state.world_state import WorldState
 _ENCODER = msgspec.msgpack.Encoder(order="deterministic")
 
 
-def judge_cell(scene: Scene, goals: Sequence[Condition] = ()) -> tuple[SceneViolation, ...]:
+def judge_cell(scene: LoadedScene, goals: Sequence[Condition] = ()) -> tuple[SceneViolation, ...]:
     """Return everything that is wrong with the things in a cell, also because of goals, each once."""
     return _judge(scene.state, goals)
 
@@ -38,7 +38,7 @@ def _judge(state: WorldState, goals: Sequence[Condition]) -> tuple[SceneViolatio
     return check_cell(state, goals)
 
 
-def describe_judgement(scene: Scene, goals: Sequence[Condition]) -> Iterator[str | bytes]:
+def describe_judgement(scene: LoadedScene, goals: Sequence[Condition]) -> Iterator[str | bytes]:
     """Yield the scene and the goals that a verdict depends on."""
     yield from describe_scene(scene)
     yield encode_meaning(tuple(goals))

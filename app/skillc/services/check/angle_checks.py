@@ -12,14 +12,14 @@ from skillc.services.scene.diagnostics import with_shown_path
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_rdf.turtle.statements import Statement
 from skillc_rdf.vocabulary.types import NumberType, Vocabulary
-from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.load import LoadedScene
 from skillc_runtime.world.state.terms import ANGLES
 
 _DECIMALS = re.compile(r"-?\d*\.(\d{2,})")
 """A number with two decimals or more: a rounded multiple of pi/4 has them, an angle in degrees rarely."""
 
 
-def check_angles(scene: Scene, path: str) -> Iterator[Diagnostic]:
+def check_angles(scene: LoadedScene, path: str) -> Iterator[Diagnostic]:
     """Yield warnings for angles in the scene file at `path` that were probably written in the other unit."""
     vocabulary = scene.state.vocabulary
     for each in scene.said:

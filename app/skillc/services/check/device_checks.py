@@ -17,7 +17,7 @@ from skillc_rdf.turtle.statements import Statement
 from skillc_runtime.control.gains import CONTROLLERS, RobotGains, UnknownController, read_gains, read_law
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.scene.documents import BASE
-from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.load import LoadedScene
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.world.state.data_sheet import DataSheet, SheetError
 from skillc_runtime.world.state.terms import (
@@ -38,7 +38,7 @@ INCOMPLETE = "incomplete-sheet"
 """The problem of a data sheet with properties that are still to be stated."""
 
 
-def check_controllers(scene: Scene, path: str) -> Iterator[Diagnostic]:
+def check_controllers(scene: LoadedScene, path: str) -> Iterator[Diagnostic]:
     """Yield the places in the scene file at `path` where an arm names a controller that does not exist or fit it."""
     named = [each for each in scene.said if each.predicate == COMPLIANT_CONTROLLER and each.lines.path == path]
     if not named:
@@ -88,7 +88,7 @@ def _modes(state: WorldState, arm: str) -> tuple[Mode, ...]:
     return tuple(mode for cls, mode in MODES.items() if state.is_a(arm, cls))
 
 
-def check_sheets(scene: Scene, path: str) -> Iterator[Diagnostic]:
+def check_sheets(scene: LoadedScene, path: str) -> Iterator[Diagnostic]:
     """Yield the places in the scene file at `path` where an arm names a data sheet that lacks required data."""
     for each in scene.said:
         arm = iri_of(each.subject)
@@ -105,7 +105,7 @@ def check_sheets(scene: Scene, path: str) -> Iterator[Diagnostic]:
                 )
 
 
-def _incomplete(scene: Scene, arm: str, sheet: DataSheet, span: Span) -> Diagnostic:
+def _incomplete(scene: LoadedScene, arm: str, sheet: DataSheet, span: Span) -> Diagnostic:
     """Return the diagnostic of an arm whose data sheet says that properties are still to be stated."""
     short = scene.state.vocabulary.short
     names = ", ".join(f"skillc:{name}" for name in sheet.unstated)
@@ -130,7 +130,7 @@ def _unstated(properties: str, span: Span) -> Diagnostic:
     return Diagnostic(INCOMPLETE, span, message, "write them, with their source, and remove them here", "warning")
 
 
-def _misspelt_home(scene: Scene, path: str, sheet: DataSheet, message: str) -> Diagnostic | None:
+def _misspelt_home(scene: LoadedScene, path: str, sheet: DataSheet, message: str) -> Diagnostic | None:
     """Return the diagnostic at a posture in this file whose name is close to the missing one; None without one."""
     near = get_close_matches(HOME, sheet.posture_names, n=1) if HOME not in sheet.posture_names else []
     for each in scene.said:

@@ -26,7 +26,7 @@ from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.execution.selection.refusal import Refusal
 from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual, unsupported_individuals
 from skillc_runtime.planning.reachability import UnreachableGoal, explain_unreachable
-from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.load import LoadedScene
 from skillc_runtime.scene.violation import SceneViolation
 
 
@@ -40,24 +40,24 @@ class SceneQueries:
         vocabulary = memo.same("vocabulary of scenes", library.vocabulary.symbolic, library.vocabulary)
         self._read = *self._around, read_views(library, memo), vocabulary
 
-    def judge(self, path: str, scene: Scene, goals: Sequence[Condition]) -> tuple[SceneViolation, ...]:
+    def judge(self, path: str, scene: LoadedScene, goals: Sequence[Condition]) -> tuple[SceneViolation, ...]:
         """Return what is wrong with the things in the cell of the scene file at `path`, also because of goals."""
         wanted = self._memo.same("goals", path, tuple(goals))
         saved = partial(describe_judgement, scene, goals)
         return self._memo.ask("cell", (*self._around, scene, wanted), partial(judge_cell, scene, goals), saved=saved)
 
-    def explain_unreachable(self, scene: Scene, task: Task, goal: Condition) -> UnreachableGoal | None:
+    def explain_unreachable(self, scene: LoadedScene, task: Task, goal: Condition) -> UnreachableGoal | None:
         """Return why no plan reaches the goal of a task, None if one may."""
         wanted = self._memo.same("goal", task.name, goal)
         explain = partial(explain_unreachable, self.library, scene.state, goal)
         return self._memo.ask("unreachable", (*self._read, scene, wanted), explain)
 
-    def refuse(self, scene: Scene, body: Node) -> tuple[Refusal, ...]:
+    def refuse(self, scene: LoadedScene, body: Node) -> tuple[Refusal, ...]:
         """Return why a body cannot run."""
         find = partial(preflight, body, self.library, scene.state)
         return self._memo.ask("refusals", (*self._read, scene, body, *self._run_by(body)), find)
 
-    def refuse_first_calls(self, scene: Scene, body: Node) -> tuple[Refusal, ...]:
+    def refuse_first_calls(self, scene: LoadedScene, body: Node) -> tuple[Refusal, ...]:
         """Return the calls with which a body begins that cannot start."""
 
         def find() -> tuple[Refusal, ...]:
@@ -65,7 +65,9 @@ class SceneQueries:
 
         return self._memo.ask("first calls", (*self._read, scene, body, *self._run_by(body)), find)
 
-    def find_unsupported(self, scene: Scene, path: str, here: frozenset[str]) -> tuple[UnsupportedIndividual, ...]:
+    def find_unsupported(
+        self, scene: LoadedScene, path: str, here: frozenset[str]
+    ) -> tuple[UnsupportedIndividual, ...]:
         """Return those individuals in the scene file at `path`, stated `here`, that no implementation accepts."""
 
         def find() -> tuple[UnsupportedIndividual, ...]:
@@ -73,7 +75,7 @@ class SceneQueries:
 
         return self._memo.ask("unsupported", (*self._read, scene), find, name=path)
 
-    def check_devices(self, scene: Scene, path: str) -> tuple[Diagnostic, ...]:
+    def check_devices(self, scene: LoadedScene, path: str) -> tuple[Diagnostic, ...]:
         """Return the diagnostics of controllers and data sheets of the arms in a scene."""
 
         def find() -> tuple[Diagnostic, ...]:
@@ -84,7 +86,7 @@ class SceneQueries:
 
         return self._memo.ask("devices", (*self._around, scene), find, name=path)
 
-    def check_angles(self, scene: Scene, path: str) -> tuple[Diagnostic, ...]:
+    def check_angles(self, scene: LoadedScene, path: str) -> tuple[Diagnostic, ...]:
         """Return the diagnostics of angles in the scene file at `path`."""
         return self._memo.ask("angles", (scene,), lambda: tuple(check_angles(scene, path)), name=path)
 

@@ -27,7 +27,7 @@ from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.execution.selection.refusal import Origin
 from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual
 from skillc_runtime.planning.reachability import UnreachableGoal
-from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.load import LoadedScene
 from skillc_runtime.scene.statements import iri_of
 
 LONGEST_TASK = 10
@@ -86,7 +86,7 @@ def check_tasks_in_scenes(
     return [*errors, *others, *unchecked, *seen, *cell]
 
 
-def _unchecked(scenes: Mapping[Path, Scene]) -> Iterator[Diagnostic]:
+def _unchecked(scenes: Mapping[Path, LoadedScene]) -> Iterator[Diagnostic]:
     """Yield a note, in the first of the scenes, if what looks at space and devices is not installed."""
     if scenes and missing_extras("run"):
         first = next(iter(scenes))
@@ -130,7 +130,7 @@ def _with_tasks(problem: CellProblem, stopped: Mapping[CellProblem, Sequence[Lab
     return replace(problem.diagnostic, severity="error", labels=labels)
 
 
-def _used_in(tasks: Sequence[Task], scene: Scene) -> frozenset[str]:
+def _used_in(tasks: Sequence[Task], scene: LoadedScene) -> frozenset[str]:
     """Return the individuals that tasks use in their scene."""
     items = [item for task in tasks for item in (task.goal, task.body) if item is not None]
     return frozenset[str]().union(*(used_individuals(item, scene.state) for item in items))
@@ -178,7 +178,7 @@ def _find_causes(found: UnreachableGoal, cell: Sequence[CellProblem]) -> list[Ce
     return list(dict.fromkeys(each for causes in explained for each in causes)) if all(explained) else []
 
 
-def _of_individuals(asked: SceneQueries, scene: Scene, path: str) -> Iterator[Diagnostic]:
+def _of_individuals(asked: SceneQueries, scene: LoadedScene, path: str) -> Iterator[Diagnostic]:
     """Yield the diagnostics of individuals in the scene file at `path` that no implementation of a skill accepts."""
     own = {iri_of(each.subject): each for each in reversed(scene.said) if each.predicate == RDF_TYPE}
     here = {iri: each for iri, each in own.items() if each.lines.path == path}
@@ -188,12 +188,12 @@ def _of_individuals(asked: SceneQueries, scene: Scene, path: str) -> Iterator[Di
         yield Diagnostic("no-implementation-fits", span, _unfit(each, scene), _accepted(each, scene), "warning")
 
 
-def _unfit(each: UnsupportedIndividual, scene: Scene) -> str:
+def _unfit(each: UnsupportedIndividual, scene: LoadedScene) -> str:
     short = scene.state.vocabulary.short
     classes = " and a ".join(sorted(map(short, scene.state.types(each.individual))))
     return f"no implementation of {', '.join(sorted(each.skills))} fits {short(each.individual)}, a {classes}"
 
 
-def _accepted(each: UnsupportedIndividual, scene: Scene) -> str:
+def _accepted(each: UnsupportedIndividual, scene: LoadedScene) -> str:
     classes = sorted({scene.state.vocabulary.short(cls) for accepted in each.skills.values() for cls in accepted})
     return f"there are implementations for {', '.join(classes)}; or add `impl .. of {min(each.skills)}`"

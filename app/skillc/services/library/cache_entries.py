@@ -15,7 +15,7 @@ from skillc_dsl import cache
 from skillc_ontology.catalogue import user_models
 
 if TYPE_CHECKING:
-    from skillc_runtime.scene.load import Scene
+    from skillc_runtime.scene.load import LoadedScene
 
 _PACKAGES = ("skillc_dsl.", "skillc_rdf.", "skillc_model.", "skillc_compiler.", "skillc_runtime.scene.violation")
 _MOST = 5000
@@ -33,7 +33,7 @@ def find_entry(folder: str, parts: Iterable[str | bytes]) -> Path | None:
     return None if base is None else base / folder / digest_parts((installation_digest(), *parts))
 
 
-def describe_scene(scene: Scene) -> Iterator[str | bytes]:
+def describe_scene(scene: LoadedScene) -> Iterator[str | bytes]:
     """Yield the terms, statements and models that what is found in a scene depends on."""
     yield encode_meaning(scene.state.vocabulary)
     for each in scene.said:

@@ -8,18 +8,17 @@ from typing import assert_never
 
 import msgspec
 
-from skillc.services.planning.planning import Answer
 from skillc.services.reporting.reporter import format_count
 from skillc.services.tasks.loading import LoadedTask
 from skillc_runtime.planning.plan import GaveUp, Solved, Step, Unsolvable, describe_quality
-from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.schedule import PlanAnswer, Scheduled
 from skillc_runtime.recording.space_claim import SpaceClaim
 
 NAMED = 3
 """How many of the things that a planner left out are named in text."""
 
 
-def format_plan(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None = None) -> str:
+def format_plan(answer: PlanAnswer, loaded: LoadedTask, space: SpaceClaim | None = None) -> str:
     """Return the steps, one per line (those of a schedule with their times), or why there is no plan.
 
     `space` is what is known about them in space.
@@ -28,7 +27,7 @@ def format_plan(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None = N
     return text if space is None else f"{text}\n{space.text}"
 
 
-def _format(answer: Answer, loaded: LoadedTask) -> str:
+def _format(answer: PlanAnswer, loaded: LoadedTask) -> str:
     match answer:
         case Solved(plan=plan, planner=planner):
             lines = [f"{number}  {_call(step, loaded)}" for number, step in enumerate(plan.steps, 1)]
@@ -73,12 +72,12 @@ def _left_out(answer: Solved | Scheduled, loaded: LoadedTask) -> Iterator[str]:
             yield f"planned without {names}: {each.why}; {needed} {them}"
 
 
-def plan_as_json(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None = None) -> str:
+def plan_as_json(answer: PlanAnswer, loaded: LoadedTask, space: SpaceClaim | None = None) -> str:
     """Return `describe_answer` as one JSON object, with the names that people type in place of IRIs."""
     return json.dumps(_name(describe_answer(answer, loaded, space)), indent=2)
 
 
-def describe_answer(answer: Answer, loaded: LoadedTask, space: SpaceClaim | None) -> dict[str, object]:
+def describe_answer(answer: PlanAnswer, loaded: LoadedTask, space: SpaceClaim | None) -> dict[str, object]:
     """Return status, steps with source lines, optimality, planner and space, or the reason, as plain data."""
     described = _describe(answer, loaded)
     return described if space is None else {**described, "space": msgspec.to_builtins(space)}
@@ -97,7 +96,7 @@ def _name(described: object) -> object:
             return described
 
 
-def _describe(answer: Answer, loaded: LoadedTask) -> dict[str, object]:
+def _describe(answer: PlanAnswer, loaded: LoadedTask) -> dict[str, object]:
     match answer:
         case Solved(plan=plan):
             steps = [_step(step, loaded) for step in plan.steps]

@@ -4,25 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Literal, TypeAlias
 
 from msgspec.structs import replace
 
+from skillc.contract.plan import Measure
 from skillc.errors import RequestError
 from skillc.services.tasks.loading import LoadedTask
 from skillc_dsl import cache
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
-from skillc_runtime.planning.plan import Excluded, PlanResult
+from skillc_runtime.planning.plan import Excluded
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW, PROVING
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
-from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.schedule import PlanAnswer
 from skillc_runtime.planning.solve import solve
 
-Answer: TypeAlias = PlanResult | Scheduled
-Measure: TypeAlias = Literal["work", "proven work", "makespan"]
 MOST_PLANS = 500
 """The most answers in the plan cache."""
 
@@ -56,7 +54,7 @@ def plan_goal(
     cancel: CancelToken,
     report: ReportProgress = ignore_progress,
     without: Sequence[Excluded] = (),
-) -> Answer:
+) -> PlanAnswer:
     """Plan for the goal of a task: with little work, with work proved minimal in the whole scene, or a short makespan.
 
     `without` are steps that the plan may not contain. RequestError if the task has a body instead of a goal.

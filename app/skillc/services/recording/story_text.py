@@ -7,7 +7,7 @@ from itertools import chain as together
 
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.failure_text import describe_failure, list_details
-from skillc_runtime.recording.history.history import Attempt, FailedNode, RecordedCall, RecordedFact, RunHistory
+from skillc_runtime.recording.history.history import FailedNode, RecordedAttempt, RecordedCall, RecordedFact, RunHistory
 from skillc_runtime.recording.history.origins import LocatedFact, ValueOrigin
 from skillc_runtime.recording.history.question import CallSelection
 from skillc_runtime.recording.known_facts import (
@@ -80,7 +80,7 @@ def _rests_on(story: RunHistory) -> list[str]:
     ]
 
 
-def _attempt(attempt: Attempt) -> Iterator[str]:
+def _attempt(attempt: RecordedAttempt) -> Iterator[str]:
     if attempt.replaces:
         yield f"planned again: {attempt.replaces}"
     if attempt.planner:
@@ -96,7 +96,7 @@ def _attempt(attempt: Attempt) -> Iterator[str]:
     yield from _notes(attempt)
 
 
-def _notes(attempt: Attempt) -> Iterator[str]:
+def _notes(attempt: RecordedAttempt) -> Iterator[str]:
     """Yield what was noted meanwhile, without what the plan says already."""
     known = "" if attempt.space is None else attempt.space.summary
     notes = [each for each in attempt.notes if not known or not each.message.endswith(known)]

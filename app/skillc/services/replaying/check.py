@@ -16,7 +16,7 @@ from skillc.services.run.recordings import find_obstacle
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.checkpoints import CheckpointError
 from skillc_runtime.execution.consistency import check_events
-from skillc_runtime.execution.repeat import Difference, NotRepeatable, Repetition, repeat_run
+from skillc_runtime.execution.repeat import Divergence, NotRepeatable, Repetition, repeat_run
 from skillc_runtime.recording.events import Event, Listener
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -119,7 +119,7 @@ def build_cell(inputs: RunInputs) -> Backend:
     return cell
 
 
-def _describe(found: Difference) -> DifferentEvent:
+def _describe(found: Divergence) -> DifferentEvent:
     return DifferentEvent(found.number, _as_data(found.recorded), _as_data(found.repeated))
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from skillc.errors import ServiceError
 from skillc_runtime.execution.attempt import TICK_S
 from skillc_runtime.execution.pace import Pace
-from skillc_runtime.recording.contact import Contact
+from skillc_runtime.recording.contact import ContactState
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import NodeStarted, StateChanged, TaskEnded
 from skillc_runtime.recording.states import State
@@ -26,7 +26,7 @@ class Playback:
     now: float = 0.0
     state: State = "queued"
     reason: str = ""
-    contact: Contact = "none"
+    contact: ContactState = "none"
     _next: int = 0
 
     def __post_init__(self) -> None:

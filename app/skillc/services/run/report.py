@@ -17,7 +17,7 @@ from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.wiping import WipingDrawing
 from skillc_runtime.evaluation.report.work_figures import list_figures, make_wiping_figure
 from skillc_runtime.evaluation.report.write import ReportPages, write_figures, write_page, write_result
-from skillc_runtime.film.film import Film
+from skillc_runtime.film.film import FilmSampler
 from skillc_runtime.film.footage import Footage
 from skillc_runtime.film.picture_files import FilmError
 from skillc_runtime.recording.history.node_outcome import NodeOutcome
@@ -29,7 +29,7 @@ class DrawnRun:
 
     trees: Sequence[NodeOutcome]
     library: SkillLibrary
-    film: Film | None
+    film: FilmSampler | None
 
 
 def write_run(

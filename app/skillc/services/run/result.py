@@ -23,7 +23,7 @@ from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.recording.run_spec import RunSpec
 
 if TYPE_CHECKING:
-    from skillc_runtime.film.film import Film
+    from skillc_runtime.film.film import FilmSampler
     from skillc_runtime.film.filmed_cell import FilmedCell
 
 PRIMITIVE_LOOKS = "primitive"
@@ -43,7 +43,7 @@ class RunResult(msgspec.Struct, frozen=True):
 class RunSamples(msgspec.Struct, frozen=True):
     """What is sampled during a run: the pictures of the film, unless there is to be none, and what devices do."""
 
-    film: Film | None
+    film: FilmSampler | None
     trace: RunTrace
 
     def sample(self) -> None:
@@ -73,19 +73,19 @@ def check_film(spec: RunSpec) -> None:
         raise RequestError("--film-quality applies to the film, which --no-film leaves out")
 
 
-def make_samples(backend: Backend, film: Film | None = None) -> RunSamples:
+def make_samples(backend: Backend, film: FilmSampler | None = None) -> RunSamples:
     """Return what to sample in a cell, for a film if there is to be one."""
     return RunSamples(film, RunTrace(backend))
 
 
-def begin_film(backend: Backend, spec: RunSpec, reporter: Reporter) -> Film | None:
+def begin_film(backend: Backend, spec: RunSpec, reporter: Reporter) -> FilmSampler | None:
     """Return a film of a cell as a specification wants it; None if that wants none.
 
     None if the cell cannot be drawn, which is reported. ServiceError if there are no such meshes.
     """
     if not spec.film or spec.out is None:
         return None
-    from skillc_runtime.film.film import Film
+    from skillc_runtime.film.film import FilmSampler
     from skillc_runtime.film.filmed_cell import find_filmed
 
     cell = find_filmed(backend)
@@ -93,7 +93,7 @@ def begin_film(backend: Backend, spec: RunSpec, reporter: Reporter) -> Film | No
         reporter.say("no film: this backend cannot be drawn")
         return None
     described = None if spec.looks == PRIMITIVE_LOOKS else _describe_with_meshes(cell, spec.looks)
-    return Film(cell, described, spec.gif, spec.film_quality)
+    return FilmSampler(cell, described, spec.gif, spec.film_quality)
 
 
 def report_run(

@@ -9,7 +9,7 @@ from itertools import zip_longest
 from skillc.contract.runs.run_diff import Difference, Leaf
 from skillc.services.run_diff.alignment import align
 from skillc.services.run_diff.difference import compare_mappings, find_difference
-from skillc_runtime.recording.history.history import Attempt, RecordedCall, RunHistory
+from skillc_runtime.recording.history.history import RecordedAttempt, RecordedCall, RunHistory
 from skillc_runtime.world.state.labels.labelled import LabelledValue
 from skillc_runtime.world.state.labels.labelled_text import format_value
 
@@ -77,7 +77,7 @@ def compare_durations(pairs: list[CallPair]) -> Iterator[Difference]:
             yield from find_difference("times", _name_pair(first, second), (took, other), abs(took - other))
 
 
-def _about_plan(attempt: Attempt, number: int) -> dict[str, Leaf]:
+def _about_plan(attempt: RecordedAttempt, number: int) -> dict[str, Leaf]:
     return {
         f"reason for plan {number}": attempt.replaces or None,
         f"planner of plan {number}": attempt.planner or None,
@@ -87,11 +87,11 @@ def _about_plan(attempt: Attempt, number: int) -> dict[str, Leaf]:
     }
 
 
-def _describe_plan(attempt: Attempt | None) -> str | None:
+def _describe_plan(attempt: RecordedAttempt | None) -> str | None:
     return None if attempt is None else ", ".join(map(_name_step, attempt.steps)) or "no steps"
 
 
-def _find_other_steps(first: Attempt, second: Attempt) -> Iterator[Difference]:
+def _find_other_steps(first: RecordedAttempt, second: RecordedAttempt) -> Iterator[Difference]:
     """Yield the steps that one attempt lacks, and those that were planned with other arguments."""
     for one, other in _align(first.steps, second.steps):
         number = next(each.number for each in (one, other) if each is not None)

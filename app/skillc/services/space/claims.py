@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from skillc.contract.plan import Measure
 from skillc.extras import install_command, missing_extras
-from skillc.services.planning.planning import Answer, Measure, plan_goal
+from skillc.services.planning.planning import plan_goal
 from skillc.services.tasks.loading import LoadedTask
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import Excluded, GaveUp, Unsolvable
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
+from skillc_runtime.planning.schedule import PlanAnswer
 from skillc_runtime.planning.separation import keep_apart
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.terms import ARM_DEVICE
@@ -23,13 +25,13 @@ def plan_goal_in_space(
     planners: Planners,
     cancel: CancelToken,
     report: ReportProgress = ignore_progress,
-) -> tuple[Answer, SpaceClaim | None]:
+) -> tuple[PlanAnswer, SpaceClaim | None]:
     """Plan as `plan_goal` does, for a plan that the arms can carry out; return it and what is known of it in space.
 
     None if there is no arm, or no plan.
     """
 
-    def plan(without: Sequence[Excluded]) -> Answer:
+    def plan(without: Sequence[Excluded]) -> PlanAnswer:
         return plan_goal(loaded, measure, planners, cancel, report, without)
 
     if not loaded.assignment.state.instances(ARM_DEVICE):

@@ -22,7 +22,7 @@ from skillc_model.skills import Compound, SkillLibrary, Task
 from skillc_model.traversal import find_calls
 from skillc_rdf.vocabulary.closure import reachable
 from skillc_runtime.cancellation import Cancelled, CancelToken
-from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.load import LoadedScene
 from skillc_runtime.world.state.terms import ARM_DEVICE
 
 LIMIT_S = 60.0
@@ -51,7 +51,7 @@ class TaskLooks:
         self.looked = frozenset[str]()
         self.in_time = True
 
-    def judge(self, library: SkillLibrary, scene: Scene, task: Task) -> SpaceProblem | OutOfTime | None:
+    def judge(self, library: SkillLibrary, scene: LoadedScene, task: Task) -> SpaceProblem | OutOfTime | None:
         """Return the step of a task that does not go in its scene; None if nothing is known against any."""
         if not scene.state.instances(ARM_DEVICE):
             return None
@@ -66,7 +66,7 @@ class TaskLooks:
         self.looked |= _called(library, entry.skills)
         return entry.problem
 
-    def _look(self, library: SkillLibrary, scene: Scene, task: Task) -> _Entry | None:
+    def _look(self, library: SkillLibrary, scene: LoadedScene, task: Task) -> _Entry | None:
         """Look at a task; None if the time is over."""
         # The simulator is slow to import.
         from skillc.services.space.look import look_at_task
@@ -94,7 +94,7 @@ def _store(path: Path | None, entry: _Entry) -> None:
         cache.delete_oldest(path.parent, _MOST, _MOST // 2)
 
 
-def _inputs(library: SkillLibrary, scene: Scene, task: Task) -> Iterator[str | bytes]:
+def _inputs(library: SkillLibrary, scene: LoadedScene, task: Task) -> Iterator[str | bytes]:
     """Yield everything that a look depends on but the bodies of skills, and skills that only calls lead to."""
     yield from describe_scene(scene)
     yield encode_meaning((task.goal, task.body))

@@ -22,7 +22,7 @@ from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.refusal import Origin, Refusal
 from skillc_runtime.planning.reachability import UnreachableGoal
-from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.load import LoadedScene
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.world.state.terms import CONTAIN, MANIPULATABLE
 
@@ -36,7 +36,7 @@ DisplayPath: TypeAlias = Callable[[str], str]
 class TaskDiagnostics:
     """Makes diagnostics about one task."""
 
-    def __init__(self, display_path: DisplayPath, scene: Scene, task: Task) -> None:
+    def __init__(self, display_path: DisplayPath, scene: LoadedScene, task: Task) -> None:
         self._display_path, self.scene, self.task = display_path, scene, task
 
     def stopped(self) -> Label:

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator
 from skillc.services.scene.diagnostics import with_shown_path
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
-from skillc_runtime.scene.load import Scene
+from skillc_runtime.scene.load import LoadedScene
 from skillc_runtime.scene.statements import iri_of
 
 TERM_KINDS = ("class", "relation", "property", "type")
@@ -21,7 +21,7 @@ def find_missing_terms(program: Program) -> frozenset[str]:
     return frozenset(namespaces[path] + name for path, name in named if path in namespaces)
 
 
-def select_problems(scene: Outcome[Scene | None], missing: Collection[str]) -> Iterator[Diagnostic]:
+def select_problems(scene: Outcome[LoadedScene | None], missing: Collection[str]) -> Iterator[Diagnostic]:
     """Yield the problems of a scene but those at a class or predicate that is one of the missing terms."""
     said = scene.value.said if scene.value is not None and missing else ()
     places = {with_shown_path(each.predicate_place) for each in said if each.predicate in missing}

@@ -19,7 +19,7 @@ from skillc_dsl.spelling import did_you_mean
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, SceneError
-from skillc_runtime.scene.load import Scene, read_with_sheets
+from skillc_runtime.scene.load import LoadedScene, read_with_sheets
 from skillc_runtime.world.state.world_state import WorldState
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 Individuals: TypeAlias = dict[str, list[str]]
 """The IRIs of a scene with their classes."""
-ReadScene: TypeAlias = Callable[[Path, Vocabulary], Outcome[Scene | None]]
+ReadScene: TypeAlias = Callable[[Path, Vocabulary], Outcome[LoadedScene | None]]
 """Reads a scene file with the terms of a vocabulary; None, with diagnostics, if it cannot be read."""
 
 
@@ -56,13 +56,13 @@ class TaskScenes(msgspec.Struct, frozen=True):
     """
 
     files: Mapping[str, Path]
-    valid: Mapping[Path, Scene]
+    valid: Mapping[Path, LoadedScene]
     individuals: Mapping[str, Individuals]
     problems: tuple[Diagnostic, ...]
     symbolic: bool = False
 
 
-def read_scene(path: Path, vocabulary: Vocabulary, text: str | None = None) -> Outcome[Scene | None]:
+def read_scene(path: Path, vocabulary: Vocabulary, text: str | None = None) -> Outcome[LoadedScene | None]:
     """Read a scene file, or `text` in its place."""
     try:
         document = Document.read(path) if text is None else Document.of(str(path), text)

@@ -11,7 +11,7 @@ import msgspec
 from skillc_model.skills import SkillLibrary, Task
 
 if TYPE_CHECKING:
-    from skillc_runtime.scene.load import Scene
+    from skillc_runtime.scene.load import LoadedScene
 
 
 class SpaceProblem(msgspec.Struct, frozen=True):
@@ -36,5 +36,5 @@ class OutOfTime:
     after_s: float
 
 
-SpaceJudge: TypeAlias = "Callable[[SkillLibrary, Scene, Task], SpaceProblem | OutOfTime | None]"
+SpaceJudge: TypeAlias = "Callable[[SkillLibrary, LoadedScene, Task], SpaceProblem | OutOfTime | None]"
 """Returns the step of a task that does not go in its scene; None if nothing is known against any."""

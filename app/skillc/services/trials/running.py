@@ -28,7 +28,7 @@ from skillc_runtime.evaluation.trials.hosting import Tried
 from skillc_runtime.evaluation.trials.journal import Heading, JournalError, TrialJournal, find_missing_seeds
 from skillc_runtime.evaluation.trials.judging import judge_series
 from skillc_runtime.evaluation.trials.series import Series
-from skillc_runtime.evaluation.trials.trial import TRIAL_LIMIT_S, Disturbance, Trial
+from skillc_runtime.evaluation.trials.trial import TRIAL_LIMIT_S, Trial, TrialDisturbance
 from skillc_runtime.evaluation.trials.trial_cell import is_without_effect
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -51,7 +51,7 @@ class TrialRequest:
     """
 
     reference: str
-    disturbance: Disturbance
+    disturbance: TrialDisturbance
     seeds: Sequence[int]
     executor: OpenExecutor
     out: Path | None
@@ -86,7 +86,7 @@ def run_trials(request: TrialRequest, watch: StartMonitor, reporter: Reporter) -
     return judge_series(experiment.task, request.disturbance, len(request.seeds), tuple(done.values()), took_s)
 
 
-def require_effect(disturbance: Disturbance, state: WorldState) -> None:
+def require_effect(disturbance: TrialDisturbance, state: WorldState) -> None:
     """RequestError for a disturbance that changes nothing in a scene; ServiceError if it cannot be simulated."""
     try:
         without_effect = is_without_effect(disturbance, state)
@@ -119,7 +119,7 @@ def make_experiment(
     task: str,
     scene: Path,
     state: WorldState,
-    disturbance: Disturbance = "none",
+    disturbance: TrialDisturbance = "none",
     reality: str | None = None,
 ) -> Experiment:
     """Return what trials of a task run; `state` is the world of the scene. ServiceError if a file cannot be read."""

@@ -110,10 +110,10 @@ class MemberBuilder(NodeBuilder):
         kind = cast(Literal["never", "outside", "before", "eventually"], pattern)
         return s.Verify(kind, events[0], second, self.over(children))
 
-    def _event(self, child: Child) -> s.Event:
+    def _event(self, child: Child) -> s.VerifyEvent:
         condition = self.condition(child)
         match condition:
             case s.Bare(value=s.NameReference(name=name)):
-                return s.Event(name, condition.span)
+                return s.VerifyEvent(name, condition.span)
             case _:
-                return s.Event(condition, condition.span)
+                return s.VerifyEvent(condition, condition.span)

@@ -60,7 +60,7 @@ class ControlRefused(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Condition:
+class DeviceCondition:
     """The condition of a device, with a sentence for whoever stands before it; empty for ready and in-control."""
 
     kind: ConditionKind
@@ -200,7 +200,7 @@ class RobotLink(Protocol):
         ...
 
     @property
-    def condition(self) -> Condition:
+    def condition(self) -> DeviceCondition:
         """The condition as of the last `read` or `write`; asked in every cycle, so it asks nobody."""
         ...
 

@@ -14,8 +14,8 @@ import numpy as np
 
 from skillc_runtime.backends.control_process.link import (
     CommandView,
-    Condition,
     ControlRefused,
+    DeviceCondition,
     LinkAbilities,
     LinkLost,
     LinkMode,
@@ -80,7 +80,7 @@ class FrankaLink(RobotLink):
         self._robot: Any = None
         self._control: Any = None
         self._sent = np.zeros(0)
-        self._condition = Condition("wrong-mode", f"{description.name} is not connected")
+        self._condition = DeviceCondition("wrong-mode", f"{description.name} is not connected")
 
     @property
     def period_s(self) -> float:
@@ -128,7 +128,7 @@ class FrankaLink(RobotLink):
                 self._lose_control(error)
 
     @property
-    def condition(self) -> Condition:
+    def condition(self) -> DeviceCondition:
         """The condition as of the last `read` or `write`."""
         return self._condition
 
@@ -196,7 +196,7 @@ class FrankaLink(RobotLink):
         with suppress(LinkLost):  # A robot that does not answer ends its motion by itself.
             self.give_back()
         self._control = self._robot = None
-        self._condition = Condition("wrong-mode", f"{self._description.name} is not connected")
+        self._condition = DeviceCondition("wrong-mode", f"{self._description.name} is not connected")
 
     def _receive(self) -> Any:
         """Return the next state; one that ends the control is followed by one that says why."""
@@ -213,7 +213,7 @@ class FrankaLink(RobotLink):
             self._condition = read_condition(state, controls=False)
             return state
 
-    def _ask(self) -> Condition:
+    def _ask(self) -> DeviceCondition:
         """Return the condition of the robot by its next state, without control."""
         self._condition = read_condition(self._robot.read_once(), controls=False)
         return self._condition
@@ -244,7 +244,9 @@ class FrankaLink(RobotLink):
 
     def _lose_control(self, error: Exception) -> None:
         self._control = None
-        self._condition = Condition("protective-stop", f"{self._description.name} ended the motion: {_sentence(error)}")
+        self._condition = DeviceCondition(
+            "protective-stop", f"{self._description.name} ended the motion: {_sentence(error)}"
+        )
 
     def _set_collision_behaviour(self) -> None:
         """Set from where on the robot stops by a reflex, and reports contact, if the facts say so."""

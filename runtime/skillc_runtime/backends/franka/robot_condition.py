@@ -6,7 +6,7 @@ import re
 from types import MappingProxyType
 from typing import Any
 
-from skillc_runtime.backends.control_process.link import Condition
+from skillc_runtime.backends.control_process.link import DeviceCondition
 
 CAUSES = MappingProxyType(
     {
@@ -25,16 +25,18 @@ CAUSES = MappingProxyType(
 )
 """What the names of the robot's errors mean, as libfranka documents them (errors.h)."""
 
-READY, IN_CONTROL = Condition("ready"), Condition("in-control")
+READY, IN_CONTROL = DeviceCondition("ready"), DeviceCondition("in-control")
 MODES = MappingProxyType(
     {
-        "Move": Condition("not-in-control", "another program or an app in Desk moves the robot; end it"),
-        "Guiding": Condition("wrong-mode", "the robot is guided by hand; let go of its buttons and leave that mode"),
-        "UserStopped": Condition(
+        "Move": DeviceCondition("not-in-control", "another program or an app in Desk moves the robot; end it"),
+        "Guiding": DeviceCondition(
+            "wrong-mode", "the robot is guided by hand; let go of its buttons and leave that mode"
+        ),
+        "UserStopped": DeviceCondition(
             "emergency-stop", "the robot was stopped by its stop button or enabling device; release it"
         ),
-        "AutomaticErrorRecovery": Condition("wrong-mode", "the robot recovers from an error; wait"),
-        "Other": Condition(
+        "AutomaticErrorRecovery": DeviceCondition("wrong-mode", "the robot recovers from an error; wait"),
+        "Other": DeviceCondition(
             "wrong-mode", "the robot takes no commands: unlock its joints and activate FCI in Desk, in Execution mode"
         ),
     }
@@ -42,11 +44,11 @@ MODES = MappingProxyType(
 """The conditions of a robot that neither waits for a command nor has stopped by a reflex, by the name of its mode."""
 
 
-def read_condition(state: Any, controls: bool) -> Condition:
+def read_condition(state: Any, controls: bool) -> DeviceCondition:
     """Return the condition by a state of the robot; `controls` is whether this program has control."""
     mode = state.robot_mode.name
     if mode == "Reflex":
-        return Condition("protective-stop", describe_stop(state.current_errors or state.last_motion_errors))
+        return DeviceCondition("protective-stop", describe_stop(state.current_errors or state.last_motion_errors))
     if mode == "Idle" or (mode == "Move" and controls):
         return IN_CONTROL if controls else READY
     return MODES[mode]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from skillc_runtime.backends.control_process.link import Condition
+from skillc_runtime.backends.control_process.link import DeviceCondition
 from skillc_runtime.backends.ros2.session import Session, find_message
 
 ABORTED = 6
@@ -62,14 +62,14 @@ class GoalClient:
         if self._handle is not None and self._handle.accepted:
             self._handle.cancel_goal_async()
 
-    def find_obstacle(self) -> Condition | None:
+    def find_obstacle(self) -> DeviceCondition | None:
         """Return why goals would have no effect, or contend with those of others."""
         if not self._client.server_is_ready():
-            return Condition(
+            return DeviceCondition(
                 "wrong-mode", f"nobody offers the action {self.name} ({self.kind}): activate its controller"
             )
         if self._session.node.count_clients(f"{self.name}/_action/send_goal") > 1:
-            return Condition("not-in-control", f"another node sends goals to {self.name} as well: end it")
+            return DeviceCondition("not-in-control", f"another node sends goals to {self.name} as well: end it")
         return None
 
     def _end(self, number: int, future: Any) -> None:

@@ -13,8 +13,8 @@ import numpy as np
 
 from skillc_runtime.backends.control_process.link import (
     CommandView,
-    Condition,
     ControlRefused,
+    DeviceCondition,
     LinkAbilities,
     LinkLost,
     LinkMode,
@@ -53,7 +53,7 @@ class UrLink(RobotLink):
         self._leaving = Leaving()
         self._is_tared, self._offset = False, np.zeros(6)
         self._load, self._version = NO_MASS, (0, 0)
-        self._condition = Condition("wrong-mode", f"{self._name} is not connected")
+        self._condition = DeviceCondition("wrong-mode", f"{self._name} is not connected")
 
     @property
     def period_s(self) -> float:
@@ -95,7 +95,7 @@ class UrLink(RobotLink):
             self._update_condition()
 
     @property
-    def condition(self) -> Condition:
+    def condition(self) -> DeviceCondition:
         """The condition as of the last `read` or `write`."""
         return self._condition
 
@@ -174,7 +174,7 @@ class UrLink(RobotLink):
                 self._leaving.leave(each.connection)
         self._program = self._states = self._mode = None
         self._leaving.wait(CLOSE_S)
-        self._condition = Condition("wrong-mode", f"{self._name} is not connected")
+        self._condition = DeviceCondition("wrong-mode", f"{self._name} is not connected")
 
     @property
     def _connected(self) -> UrStates:
@@ -189,7 +189,7 @@ class UrLink(RobotLink):
         if program is not None and self._mode is not None:
             program.has_ended = program.has_ended or found.kind == "not-in-control"
             if found.kind == "in-control" and (contradiction := program.find_contradiction()) is not None:
-                found = Condition("wrong-mode", contradiction)
+                found = DeviceCondition("wrong-mode", contradiction)
         if found != self._condition:
             self._condition = found
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.backends.control_process.link import Condition, LinkLost, StateView
+from skillc_runtime.backends.control_process.link import DeviceCondition, LinkLost, StateView
 from skillc_runtime.backends.ur.conditions import PLAYING, RUNNING, read_condition
 from skillc_runtime.backends.ur.facts import UrFacts
 from skillc_runtime.backends.ur.flange import FlangeModel
@@ -135,7 +135,7 @@ class UrStates:
         self._flange.move(np.array(self.connection.getActualQ()))
         self._flange.on_flange(self.connection.getActualTCPForce(), out)
 
-    def read_condition(self, controls: bool) -> Condition:
+    def read_condition(self, controls: bool) -> DeviceCondition:
         """Return the condition; `controls`: whether the program that the controller executes is ours."""
         receive = self.connection
         return read_condition(

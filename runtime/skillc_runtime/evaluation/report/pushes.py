@@ -15,7 +15,7 @@ from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.run_trace import ArmPath
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.history.history import RecordedCall
-from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledVector, Quantity
+from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledQuantity, LabelledVector
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import ARM_DEVICE, BUTTON, END_EFFECTOR, FIXTURE, LOCATION, ROBOT, SURFACE
 from skillc_runtime.world.state.world_state import WorldState
@@ -152,7 +152,7 @@ def _read_scope(
     if pressing is None:
         return
     arm, along, force = (pressing.bindings.get(name) for name in (ARM, ALONG, FORCE))
-    if not (isinstance(arm, LabelledIri) and isinstance(along, LabelledVector) and isinstance(force, Quantity)):
+    if not (isinstance(arm, LabelledIri) and isinstance(along, LabelledVector) and isinstance(force, LabelledQuantity)):
         return
     samples = record.arm_path(arm.iri).between(scope[0] - 0.5, scope[1])
     if len(samples.time) >= LEAST_SAMPLES:

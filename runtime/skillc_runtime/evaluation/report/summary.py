@@ -22,7 +22,7 @@ from skillc_runtime.evaluation.report.result import (
 from skillc_runtime.evaluation.report.wiping import Wiping, rate_wiping
 from skillc_runtime.execution.execute import Execution
 from skillc_runtime.recording.failure_text import describe_failure
-from skillc_runtime.recording.history.history import Attempt, RecordedCall, RunHistory
+from skillc_runtime.recording.history.history import RecordedAttempt, RecordedCall, RunHistory
 from skillc_runtime.recording.states import EndState
 from skillc_runtime.world.state.labels.labelled import LabelledIri
 from skillc_runtime.world.state.labels.labelling import label
@@ -143,7 +143,7 @@ def _add_history(result: TaskResult, history: RunHistory) -> TaskResult:
     )
 
 
-def _list_steps(attempt: Attempt, is_last: bool) -> Iterator[RecordedCall]:
+def _list_steps(attempt: RecordedAttempt, is_last: bool) -> Iterator[RecordedCall]:
     """Yield the steps of an attempt; of one that was abandoned, those that were started."""
     yield from (step for step in attempt.steps if is_last or step.node)
 

@@ -18,7 +18,7 @@ from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording.history.history import RecordedCall, RunHistory
 from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.space.surfaces import least_force_n, surface_layout
-from skillc_runtime.world.state.labels.labelled import Quantity, display_name
+from skillc_runtime.world.state.labels.labelled import LabelledQuantity, display_name
 from skillc_runtime.world.state.labels.labelling import label
 from skillc_runtime.world.state.terms import ARM_DEVICE, SURFACE, TOOL
 from skillc_runtime.world.state.world_state import WorldState
@@ -91,7 +91,7 @@ def _make_wiping(call: RecordedCall, history: RunHistory, state: WorldState) -> 
     surfaces = [each for each in individuals if state.is_a(each, SURFACE)]
     tools = [each for each in individuals if state.is_a(each, TOOL)]
     forces = [each.bindings.get(FORCE) for each in _find_activities(call, "press")]
-    pressed = [force.value for force in forces if isinstance(force, Quantity)]
+    pressed = [force.value for force in forces if isinstance(force, LabelledQuantity)]
     followed = _find_activities(call, "follow-path")
     strokes = tuple(
         (each.started, each.ended) for each in followed if each.started is not None and each.ended is not None

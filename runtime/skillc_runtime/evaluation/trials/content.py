@@ -13,7 +13,7 @@ from skillc_ontology import catalogue
 from skillc_runtime.devices.reality import set_reality
 from skillc_runtime.evaluation.trials.experiment import TrialRunner
 from skillc_runtime.evaluation.trials.identity import compute_digest
-from skillc_runtime.evaluation.trials.trial import Disturbance
+from skillc_runtime.evaluation.trials.trial import TrialDisturbance
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.terms import MESH
 from skillc_runtime.world.state.world_state import WorldState
@@ -28,7 +28,7 @@ class Experiment(msgspec.Struct, frozen=True, kw_only=True):
 
     library: bytes
     task: str
-    disturbance: Disturbance
+    disturbance: TrialDisturbance
     scene_name: str
     scene: bytes
     folders: tuple[dict[str, bytes], ...] = ()

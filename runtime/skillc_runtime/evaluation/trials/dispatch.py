@@ -12,10 +12,10 @@ from typing import assert_never
 
 from skillc_runtime.evaluation.trials import dask_worker
 from skillc_runtime.evaluation.trials.hosting import (
-    Answer,
     Case,
     Prepare,
     Refused,
+    TrialAnswer,
     Tried,
     end_idle_children,
     make_order,
@@ -36,7 +36,7 @@ class Dispatch:
 
     def __init__(self, executor: Executor, prepare: Prepare, limit_s: float = TRIAL_LIMIT_S) -> None:
         self._executor, self._order = executor, make_order(prepare, limit_s)
-        self._given: dict[Case, Future[Answer]] = {}
+        self._given: dict[Case, Future[TrialAnswer]] = {}
         self._ended: SimpleQueue[Case] = SimpleQueue()
 
     def __len__(self) -> int:
@@ -85,11 +85,11 @@ def run_on(
             yield dispatch.take()[1]
 
 
-def _note(ended: SimpleQueue[Case], case: Case, _future: Future[Answer]) -> None:
+def _note(ended: SimpleQueue[Case], case: Case, _future: Future[TrialAnswer]) -> None:
     ended.put_nowait(case)
 
 
-def _read(seed: int, future: Future[Answer]) -> Tried:
+def _read(seed: int, future: Future[TrialAnswer]) -> Tried:
     """Return the trial of a future that has ended."""
     try:
         answer = future.result(0)

@@ -7,7 +7,7 @@ from typing import Protocol
 
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.cell import Cell
-from skillc_runtime.devices.disturbances import Disturber, Take
+from skillc_runtime.devices.disturbances import Disturber, TakeThing
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Array
@@ -103,6 +103,6 @@ class TakeDisturbance:
                 self._held_since.pop(hand, None)
             elif now - self._held_since.setdefault(hand, now) >= self._after_s:
                 turn = float(self._rng.uniform(-pi, pi))
-                self._simulation.disturber.disturb(Take(thing, (TAKE_M * cos(turn), TAKE_M * sin(turn), 0.0)))
+                self._simulation.disturber.disturb(TakeThing(thing, (TAKE_M * cos(turn), TAKE_M * sin(turn), 0.0)))
                 self.taken = True
                 return

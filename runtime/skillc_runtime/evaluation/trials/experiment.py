@@ -18,7 +18,7 @@ from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
 from skillc_runtime.evaluation.trials.disturbance import PushDisturbance, TakeDisturbance, TrialCell
 from skillc_runtime.evaluation.trials.settings import Setting, apply_settings
-from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.evaluation.trials.trial import Trial, TrialDisturbance
 from skillc_runtime.evaluation.trials.trial_cell import make_trial_cell
 from skillc_runtime.execution.assignment import (
     AchieveGoal,
@@ -67,7 +67,7 @@ class TrialRunner:
     Durations and conditions may depend on what is set, so that other settings have a plan of their own.
     """
 
-    def __init__(self, library: SkillLibrary, state: WorldState, task: str, disturbance: Disturbance) -> None:
+    def __init__(self, library: SkillLibrary, state: WorldState, task: str, disturbance: TrialDisturbance) -> None:
         """Plan."""
         self._library, self._state, self._task, self._disturbance = library, state, task, disturbance
         self._variants: dict[tuple[Setting, ...], _Variant] = {}

@@ -79,7 +79,7 @@ class Refused:
     why: str
 
 
-Answer: TypeAlias = Tried | Refused
+TrialAnswer: TypeAlias = Tried | Refused
 
 
 def make_order(prepare: Prepare, limit_s: float) -> TrialOrder:
@@ -87,7 +87,7 @@ def make_order(prepare: Prepare, limit_s: float) -> TrialOrder:
     return TrialOrder(zlib.compress(pickle.dumps(prepare)), identify_skillc(), limit_s, CancelToken())
 
 
-def run_trial(order: TrialOrder, case: Case) -> Answer:
+def run_trial(order: TrialOrder, case: Case) -> TrialAnswer:
     """Run the trial of a case; this is what workers of executors call.
 
     A trial that raises an exception, takes too long, or of which ATTEMPTS processes die has crashed.

@@ -10,7 +10,7 @@ from typing import BinaryIO, TypeVar
 
 import msgspec
 
-from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.evaluation.trials.trial import Trial, TrialDisturbance
 from skillc_runtime.platforms.file_locks import try_lock
 
 FILE = "trials.jsonl"
@@ -22,7 +22,7 @@ class Heading(msgspec.Struct, frozen=True, kw_only=True):
 
     format: int = FORMAT
     task: str
-    disturbance: Disturbance
+    disturbance: TrialDisturbance
     skillc: str
     library: str
     scene: str

@@ -9,12 +9,12 @@ from typing import Any
 from skillc_runtime.evaluation.trials.confidence import compute_mean_interval, compute_proportion_interval
 from skillc_runtime.evaluation.trials.series import FailedSeed, Series, Spread
 from skillc_runtime.evaluation.trials.targets import Metric, list_trial_values
-from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.evaluation.trials.trial import Trial, TrialDisturbance
 from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
 
 
 def judge_series(
-    task: str, disturbance: Disturbance, wanted: int, trials: Sequence[Trial], took_s: Sequence[float] = ()
+    task: str, disturbance: TrialDisturbance, wanted: int, trials: Sequence[Trial], took_s: Sequence[float] = ()
 ) -> Series:
     """Judge the trials of a task, of which `wanted` were requested; `took_s` are the wall times of some, in s."""
     ordered = tuple(sorted(trials, key=lambda trial: trial.seed))

@@ -7,7 +7,7 @@ from typing import Literal
 import msgspec
 
 from skillc_runtime.evaluation.trials.confidence import Interval
-from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.evaluation.trials.trial import Trial, TrialDisturbance
 
 
 class Spread(msgspec.Struct, frozen=True, kw_only=True):
@@ -56,7 +56,7 @@ class Series(msgspec.Struct, frozen=True, kw_only=True):
     """
 
     task: str
-    disturbance: Disturbance
+    disturbance: TrialDisturbance
     wanted: int
     done: int
     passed: int

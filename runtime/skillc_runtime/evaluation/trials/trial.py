@@ -15,7 +15,7 @@ TRIAL_LIMIT_S = 3600.0
 Status: TypeAlias = EndState | Literal["refused", "crashed"]
 """How a task ended; `refused` if it did not start, `crashed` if its process ended without a result."""
 
-Disturbance: TypeAlias = Literal["none", "missing", "obstacle", "push", "take"]
+TrialDisturbance: TypeAlias = Literal["none", "missing", "obstacle", "push", "take"]
 """How a trial is disturbed: the work object is missing, an obstacle is in the way, a person pushes the arm, or takes
 what a hand holds out of it."""
 

@@ -14,22 +14,22 @@ from skillc_runtime.backends.simulation.variation.variation import (
     exact_variation,
     make_all_absent,
 )
-from skillc_runtime.evaluation.trials.trial import Disturbance
+from skillc_runtime.evaluation.trials.trial import TrialDisturbance
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
 
 
-def make_trial_cell(world: WorldModel, seed: int, disturbance: Disturbance) -> SimulatedCell:
+def make_trial_cell(world: WorldModel, seed: int, disturbance: TrialDisturbance) -> SimulatedCell:
     """Build the cell of a trial; SheetError or FrameError if the scene cannot be simulated."""
     return SimulatedCell(world, seed, reality=partial(draw_disturbed_variation, disturbance))
 
 
-def draw_disturbed_variation(disturbance: Disturbance, scene: SceneSpec, seed: int) -> Variation:
+def draw_disturbed_variation(disturbance: TrialDisturbance, scene: SceneSpec, seed: int) -> Variation:
     """Draw how reality differs from the world model, with the disturbance applied."""
     return _disturb(draw_variation(scene, seed), disturbance, scene)
 
 
-def is_without_effect(disturbance: Disturbance, state: WorldState) -> bool:
+def is_without_effect(disturbance: TrialDisturbance, state: WorldState) -> bool:
     """Whether a scene has nothing that can be missing, or nothing on which an obstacle can be.
 
     SheetError or FrameError if the scene cannot be simulated.
@@ -41,7 +41,7 @@ def is_without_effect(disturbance: Disturbance, state: WorldState) -> bool:
     return _disturb(exact, disturbance, scene) == exact
 
 
-def _disturb(drawn: Variation, disturbance: Disturbance, scene: SceneSpec) -> Variation:
+def _disturb(drawn: Variation, disturbance: TrialDisturbance, scene: SceneSpec) -> Variation:
     match disturbance:
         case "none" | "push" | "take":
             return drawn

@@ -8,10 +8,10 @@ from typing import assert_never
 from skillc_runtime.evaluation.measures.work import InsertingWork, PolishingWork, PressingWork, WipingWork
 from skillc_runtime.evaluation.metrics.coverage_text import format_coverage
 from skillc_runtime.evaluation.trials.targets import MetricValue, list_trial_values, list_work_values
-from skillc_runtime.evaluation.trials.trial import Disturbance, Trial
+from skillc_runtime.evaluation.trials.trial import Trial, TrialDisturbance
 
 
-def find_unmet_criteria(trial: Trial, disturbance: Disturbance) -> tuple[str, ...]:
+def find_unmet_criteria(trial: Trial, disturbance: TrialDisturbance) -> tuple[str, ...]:
     """Return the criteria that a trial does not meet, as text; empty if it passed."""
     if trial.status in ("refused", "crashed"):
         return (_describe_end(trial),)
@@ -25,7 +25,7 @@ def find_failures(trial: Trial) -> tuple[str, ...]:
     return (*_false_success(trial), *_require_success(trial), *_safety_problems(trial))
 
 
-def _outcome_problems(trial: Trial, disturbance: Disturbance) -> Iterator[str]:
+def _outcome_problems(trial: Trial, disturbance: TrialDisturbance) -> Iterator[str]:
     """Yield how the outcome of the task differs from the expected one."""
     match disturbance:
         case "none":

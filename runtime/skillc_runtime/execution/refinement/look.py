@@ -11,16 +11,15 @@ from typing import TypeAlias, TypeVar
 import msgspec
 
 from skillc_runtime.execution.refinement.failure import Cause
-from skillc_runtime.planning.plan import Excluded, GaveUp, LeftOut, PlanResult, Step, StepWhile, Unsolvable
-from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.plan import Excluded, GaveUp, LeftOut, Step, StepWhile, Unsolvable
+from skillc_runtime.planning.schedule import PlanAnswer
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.world_state import WorldState
 
 ROUNDS = 30
 """How often is planned at most."""
 
-Answer: TypeAlias = PlanResult | Scheduled
-AnswerT = TypeVar("AnswerT", bound=Answer)
+AnswerT = TypeVar("AnswerT", bound=PlanAnswer)
 PlanWithout: TypeAlias = Callable[[Sequence[Excluded]], AnswerT]
 """Plans without some steps."""
 

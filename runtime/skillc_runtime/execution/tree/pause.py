@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.primitives.primitive import SkillFailure
-from skillc_runtime.recording.contact import Contact
+from skillc_runtime.recording.contact import ContactState
 from skillc_runtime.recording.events import Paused, Resumed
 
 APPROACH_S = 30.0
@@ -19,7 +19,7 @@ PausePhase: TypeAlias = Literal["none", "kept", "withdrawn", "approaching"]
 """kept: paused, tools go on pressing; withdrawn: they were taken off; approaching: they are to touch again."""
 
 
-class Pause:
+class PrimitivePause:
     """Pauses the active primitives of a run. Every method may raise what a primitive raises.
 
     `phase` is how far the pause is; `contact` what becomes of the tools that pressed when it began.
@@ -27,7 +27,7 @@ class Pause:
 
     def __init__(self, context: TreeContext) -> None:
         self.phase: PausePhase = "none"
-        self.contact: Contact = "none"
+        self.contact: ContactState = "none"
         self._context = context
         self._approach_by = self._moved_at = 0.0
 

@@ -21,13 +21,13 @@ from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.lexical_scope import CallFailures, LexicalScope
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, Node
-from skillc_runtime.execution.tree.pause import Pause
+from skillc_runtime.execution.tree.pause import PrimitivePause
 from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.fact_monitor import FactMonitor
 from skillc_runtime.primitives.planned_postures import PlannedPosture
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.primitives.standing_bases import place_standing_bases
-from skillc_runtime.recording.contact import Contact
+from skillc_runtime.recording.contact import ContactState
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.history.node_outcome import NodeOutcome
@@ -86,7 +86,7 @@ class TreeRun:
         self._stop_listening = cell.world.subscribe(self._emit_world_change) if listeners else None
         self._root = build_node(body, self._context, LexicalScope(self._undo, failures=inputs.failures))
         self._path = ActivePath(self._root)
-        self._pause = Pause(self._context)
+        self._pause = PrimitivePause(self._context)
         self._devices = FactMonitor(cell)
         self._before_tick: tuple[object, int] = (None, 0)
         self.status = Status.IDLE
@@ -113,7 +113,7 @@ class TreeRun:
         return self._pause.phase in ("withdrawn", "approaching")
 
     @property
-    def contact(self) -> Contact:
+    def contact(self) -> ContactState:
         """What becomes of the tools that pressed when the run was paused."""
         return self._pause.contact
 

@@ -30,7 +30,7 @@ BOUND_S = 2.0
 """The time limit for proving that a plan for a part of the scene is optimal for the whole scene."""
 
 Pose: TypeAlias = Callable[[AbstractionSize | None], PosedProblem]
-Answer: TypeAlias = Callable[[PosedProblem, CancelToken], PlanResult]
+AskPlanner: TypeAlias = Callable[[PosedProblem, CancelToken], PlanResult]
 Search: TypeAlias = Callable[[Problem, CancelToken], PlanResult]
 Explain: TypeAlias = Callable[[PosedProblem], UnsolvabilityReason]
 
@@ -42,7 +42,7 @@ class PlanningStages(msgspec.Struct, frozen=True):
     """
 
     pose: Pose
-    answer: Answer
+    answer: AskPlanner
     search: Search
     explain: Explain
     cancel: CancelToken

@@ -125,7 +125,7 @@ class RecordedNote(_Part, frozen=True, kw_only=True):
     message: str
 
 
-class Attempt(_Part, frozen=True, kw_only=True):
+class RecordedAttempt(_Part, frozen=True, kw_only=True):
     """A plan and its steps in order of time, or those of a body that was given, which has no `planner`.
 
     Steps that were not started come last. `planned` is how many steps the plan has.
@@ -167,7 +167,7 @@ class RunHistory(_Part, frozen=True, kw_only=True):
     last: float = 0.0
     failure: Failure | None = None
     chain: tuple[FailedNode, ...] = ()
-    attempts: tuple[Attempt, ...] = ()
+    attempts: tuple[RecordedAttempt, ...] = ()
     pauses: tuple[tuple[float, float | None], ...] = ()
 
     @property

@@ -14,7 +14,7 @@ from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording import events
 from skillc_runtime.recording.events import Event
 from skillc_runtime.recording.history.attempt_steps import collect_steps, failure_chain
-from skillc_runtime.recording.history.history import Attempt, RecordedFact, RecordedNote, RunHistory
+from skillc_runtime.recording.history.history import RecordedAttempt, RecordedFact, RecordedNote, RunHistory
 from skillc_runtime.recording.history.node_outcome import NodeOutcome
 from skillc_runtime.recording.history.node_records import AttemptRecord, NodeRecords
 from skillc_runtime.recording.history.record_tree import draw_attempt
@@ -121,8 +121,8 @@ class HistoryBuilder:
         pairs = zip(self._attempts, history.attempts, strict=True)
         return [draw_attempt(record, attempt, history) for record, attempt in pairs]
 
-    def _make_attempts(self) -> list[Attempt]:
-        attempts, count = list[Attempt](), 0
+    def _make_attempts(self) -> list[RecordedAttempt]:
+        attempts, count = list[RecordedAttempt](), 0
         for record in self._attempts:
             attempts.append(_make_attempt(record, count, self._body_to_do))
             count += len(attempts[-1].steps)
@@ -197,14 +197,14 @@ def _without_value(fact: LabelledFact) -> LabelledFact:
     )
 
 
-def _make_attempt(record: AttemptRecord, before: int, body: tree.Node | None) -> Attempt:
+def _make_attempt(record: AttemptRecord, before: int, body: tree.Node | None) -> RecordedAttempt:
     """Return an attempt whose steps are numbered from `before` + 1.
 
     The calls of `body` that were not made are steps that were not started; None if none of them is missed.
     """
     calls = () if body is None or not record.roots else tuple(_find_wanted(body, record.decided))
     plan = record.plan
-    return Attempt(
+    return RecordedAttempt(
         steps=collect_steps(record, before, calls),
         planned=len(plan.steps) if plan is not None else 0,
         planner=plan.planner if plan is not None else "",

@@ -5,12 +5,12 @@ from __future__ import annotations
 from msgspec import structs
 
 from skillc_rdf.vocabulary.types import Position
-from skillc_runtime.recording.history.history import Attempt, RecordedCall, RunHistory
+from skillc_runtime.recording.history.history import RecordedAttempt, RecordedCall, RunHistory
 from skillc_runtime.recording.history.node_outcome import NodeOutcome
 from skillc_runtime.recording.history.node_records import AttemptRecord, NodeRecord
 
 
-def draw_attempt(record: AttemptRecord, attempt: Attempt, history: RunHistory) -> NodeOutcome:
+def draw_attempt(record: AttemptRecord, attempt: RecordedAttempt, history: RunHistory) -> NodeOutcome:
     """Return the tree of an attempt, with the steps that were not started at its end."""
     here = Position(path=history.library, line=1, column=1)
     roots = tuple(map(_draw, record.roots))

@@ -18,8 +18,8 @@ from skillc.server.jobs.running import RunningJob
 
 if TYPE_CHECKING:
     from skillc.cells.snapshot import CellSnapshot
-    from skillc.services.planning.planning import Answer
     from skillc_runtime.planning.plan import Excluded
+    from skillc_runtime.planning.schedule import PlanAnswer
 
 GRACE_S = 10.0
 """How long an answer may take after the deadline of the planners, with all that is not search: looks may need 5 s."""
@@ -52,7 +52,7 @@ def preview_plan(request: PlanRequest, known: CellSnapshot) -> PlanPreview:
     loaded = LoadedTask(known.library, assignment, WorldModel(known.state))
     planners, cancel = prepare_planners(True), CancelToken(request.deadline_s)
 
-    def plan(without: Sequence[Excluded]) -> Answer:
+    def plan(without: Sequence[Excluded]) -> PlanAnswer:
         measure = "proven work" if request.prove else request.minimise
         return plan_goal(loaded, measure, planners, cancel, without=without)
 

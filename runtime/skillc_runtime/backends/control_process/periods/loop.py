@@ -10,8 +10,8 @@ from skillc_runtime.backends.control_process.calls import CALLS_A_CYCLE_SHARE, M
 from skillc_runtime.backends.control_process.handshake import Patience
 from skillc_runtime.backends.control_process.link import (
     CALL_S,
-    Condition,
     ControlRefused,
+    DeviceCondition,
     LinkLost,
     RobotLink,
     make_state,
@@ -51,7 +51,7 @@ class ControlLoop:
         self._measured, self._clock = make_state(plan.layout.joints), CycleClock(link.period_s)
         self._publisher = Publisher(plan, memory, arm, self._measured, self._clock)
         self._phase: Phase = "connected"
-        self._condition: Condition | None = None
+        self._condition: DeviceCondition | None = None
         self._seen = self._rested = monotonic()
         self._ending_since: float | None = None
         self._is_tree_silent = self._is_excused = False

@@ -6,7 +6,7 @@ from time import monotonic
 
 import numpy as np
 
-from skillc_runtime.backends.control_process.link import Condition
+from skillc_runtime.backends.control_process.link import DeviceCondition
 from skillc_runtime.backends.control_process.memory_plan import TIME
 from skillc_runtime.backends.control_process.remote.host import ControlProcess
 from skillc_runtime.devices.backend import BackendBroken
@@ -76,7 +76,7 @@ def find_control_state(process: ControlProcess) -> tuple[ControlState, str]:
         if phase == "lost":
             stop = process.call("device", "explain")
             return "lost", "" if stop is None else stop.reason
-        condition: Condition = process.call("device", "condition")
+        condition: DeviceCondition = process.call("device", "condition")
     except BackendBroken as error:
         return "lost", str(error)
     return condition.kind, condition.sentence

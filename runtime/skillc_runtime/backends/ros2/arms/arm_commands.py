@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from skillc_runtime.backends.control_process.link import CommandKind, CommandView, Condition
+from skillc_runtime.backends.control_process.link import CommandKind, CommandView, DeviceCondition
 from skillc_runtime.backends.ros2.session import Session, describe_topic, find_message, name_nodes
 from skillc_runtime.motion.pose import Array
 
@@ -28,7 +28,7 @@ class ArmCommands(Protocol):
         """Let the arm stand still, with the joints at q (nv,) in rad."""
         ...
 
-    def find_obstacle(self) -> Condition | None:
+    def find_obstacle(self) -> DeviceCondition | None:
         """Return why commands would have no effect, or contend with those of others."""
         ...
 
@@ -41,13 +41,13 @@ class CommandTopic:
         self.publisher = session.publish(topic, kind, reliable)
         self.message = find_message(kind)()
 
-    def find_obstacle(self) -> Condition | None:
+    def find_obstacle(self) -> DeviceCondition | None:
         """Return why commands would have no effect, or contend with those of others."""
         if self.publisher.get_subscription_count() == 0:
             problem = describe_topic(self._node, self._topic, self._kind, offered=False)
-            return Condition("wrong-mode", f"{problem}: activate the controller that takes the commands")
+            return DeviceCondition("wrong-mode", f"{problem}: activate the controller that takes the commands")
         if self._node.count_publishers(self._topic) > 1:
             ends = self._node.get_publishers_info_by_topic(self._topic)
             who = name_nodes(ends, {self._node.get_name()}) or "another node of the same name"
-            return Condition("not-in-control", f"{who} publishes commands to {self._topic} as well: end it")
+            return DeviceCondition("not-in-control", f"{who} publishes commands to {self._topic} as well: end it")
         return None

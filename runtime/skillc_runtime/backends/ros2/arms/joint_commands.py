@@ -7,7 +7,7 @@ from time import monotonic
 
 import numpy as np
 
-from skillc_runtime.backends.control_process.link import CommandKind, CommandView, Condition
+from skillc_runtime.backends.control_process.link import CommandKind, CommandView, DeviceCondition
 from skillc_runtime.backends.ros2.arms.arm_commands import ArmCommands, CommandTopic
 from skillc_runtime.backends.ros2.arms.controller_parameters import ask_controller
 from skillc_runtime.backends.ros2.facts import ARRAY, FOLLOW, TRAJECTORY, ArmInterface
@@ -56,7 +56,7 @@ class ArrayCommands:
             self._values[:] = 0.0
             self._target.publisher.publish(self._target.message)
 
-    def find_obstacle(self) -> Condition | None:
+    def find_obstacle(self) -> DeviceCondition | None:
         """Return why commands would have no effect, or contend with those of others."""
         return self._target.find_obstacle()
 
@@ -91,7 +91,7 @@ class TrajectoryCommands:
     def rest(self, q: Array) -> None:
         """Do nothing: the last position is kept."""
 
-    def find_obstacle(self) -> Condition | None:
+    def find_obstacle(self) -> DeviceCondition | None:
         """Return why commands would have no effect, or contend with those of others."""
         return self._target.find_obstacle()
 
@@ -136,7 +136,7 @@ class ActionCommands:
         """Give the last goal up: the controller stops the arm."""
         self._action.cancel()
 
-    def find_obstacle(self) -> Condition | None:
+    def find_obstacle(self) -> DeviceCondition | None:
         """Return why goals would have no effect, or contend with those of others."""
         return self._action.find_obstacle()
 

@@ -11,8 +11,8 @@ import numpy as np
 from skillc_runtime.backends.control_process.link import (
     KINDS,
     CommandView,
-    Condition,
     ControlRefused,
+    DeviceCondition,
     LinkAbilities,
     LinkLost,
     LinkMode,
@@ -34,7 +34,7 @@ LATE = 1.5
 """How many periods a new state is waited for before a cycle goes on with the last one."""
 RECOVER_S, FIND_S = 1.5, 1.0
 """How long a service of the driver may take, and how long those who take commands are looked for, in s."""
-READY, IN_CONTROL = Condition("ready"), Condition("in-control")
+READY, IN_CONTROL = DeviceCondition("ready"), DeviceCondition("in-control")
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +93,7 @@ class Ros2Link:
         return "with-weight" if wrench.has_weight else "with-held-weight"
 
     @property
-    def condition(self) -> Condition:
+    def condition(self) -> DeviceCondition:
         """The condition as of the last `read`."""
         return self._condition
 
@@ -135,7 +135,7 @@ class Ros2Link:
         if self._has_control and self._condition is IN_CONTROL:
             problem = self._commands.send(KINDS[int(command.kind[0])], command)
             if problem is not None:
-                self._lose(Condition("wrong-mode", problem))
+                self._lose(DeviceCondition("wrong-mode", problem))
 
     def take_control(self, mode: LinkMode) -> None:
         """Begin to publish commands; ControlRefused if nobody takes them, or somebody else publishes them."""
@@ -273,13 +273,13 @@ class Ros2Link:
         problem = self._commands.find_obstacle()
         if not self._runs:
             why = f"{self._facts.services.running} says that commands have no effect"
-            self._lose(Condition("protective-stop", why))
+            self._lose(DeviceCondition("protective-stop", why))
         elif problem is not None:
             self._lose(problem)
         else:
             self._condition = IN_CONTROL if self._has_control else READY
 
-    def _lose(self, condition: Condition) -> None:
+    def _lose(self, condition: DeviceCondition) -> None:
         """Publish no more commands, after one to stand still: controllers of speeds and torques go on with the last."""
         if self._has_control:
             self._commands.rest(self._order.positions)

@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from skillc_runtime.backends.control_process.link import Condition
+from skillc_runtime.backends.control_process.link import DeviceCondition
 from skillc_runtime.backends.ros2.session import Session, find_message
 from skillc_runtime.motion.pose import Array
 
@@ -46,14 +46,14 @@ class StiffnessParameters:
         self._client.handle.send_request(self._request)
         self._waits_until, self._sent = monotonic() + ANSWER_S, stiffness.copy()
 
-    def find_obstacle(self) -> Condition | None:
+    def find_obstacle(self) -> DeviceCondition | None:
         """Return why the stiffness cannot be set; None if it can."""
         self._take_answer()
         if not self._client.service_is_ready():
-            return Condition(
+            return DeviceCondition(
                 "wrong-mode", f"nobody offers the service {self._service} ({KIND}): activate the controller"
             )
-        return Condition("wrong-mode", f"{self._service} refuses: {self._refusal}") if self._refusal else None
+        return DeviceCondition("wrong-mode", f"{self._service} refuses: {self._refusal}") if self._refusal else None
 
     def _take_answer(self) -> None:
         found = self._client.handle.take_response(self._kind.Response)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.backends.control_process.link import CommandKind, CommandView, Condition
+from skillc_runtime.backends.control_process.link import CommandKind, CommandView, DeviceCondition
 from skillc_runtime.backends.ros2.arms.arm_commands import ArmCommands, CommandTopic
 from skillc_runtime.backends.ros2.arms.flange import FlangeModel
 from skillc_runtime.backends.ros2.arms.joint_commands import make_joint_commands
@@ -90,7 +90,7 @@ class ToolCommands:
         """Push with nothing, and hold the flange where it is, with the joints at q (nv,) in rad."""
         self.begin(q)
 
-    def find_obstacle(self) -> Condition | None:
+    def find_obstacle(self) -> DeviceCondition | None:
         """Return why commands would have no effect, or contend with those of others."""
         targets = [each for each in (self._pose, self._stiffness, self._wrench, self._joints) if each is not None]
         return next((found for each in targets if (found := each.find_obstacle()) is not None), None)

@@ -15,10 +15,10 @@ from skillc_runtime.devices.disturbances import (
     Disturbance,
     DisturbanceRefused,
     LoseArm,
-    Move,
+    MoveThing,
     PressEmergencyStop,
-    Push,
-    Take,
+    PushArm,
+    TakeThing,
 )
 from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_from_rotation
 
@@ -47,17 +47,17 @@ class SimulatedDisturber:
     ) -> None:  # fmt: skip
         self._cell, self._scene, self._model, self._data, self._hands = cell, scene, model, data, hands
         self._stops = stops
-        self._pushes: dict[str, tuple[Push, float]] = {}
+        self._pushes: dict[str, tuple[PushArm, float]] = {}
 
     def disturb(self, disturbance: Disturbance) -> None:
         """Let something happen between two ticks; DisturbanceRefused if it is not possible."""
         match disturbance:
-            case Push(arm=arm):
+            case PushArm(arm=arm):
                 self._check_hand(arm)
                 self._pushes[arm] = disturbance, float(self._data.time) + disturbance.duration_s
-            case Move():
+            case MoveThing():
                 self._move(disturbance)
-            case Take():
+            case TakeThing():
                 self._take(disturbance)
             case PressEmergencyStop(pressed=pressed):
                 self._stops.press(pressed)
@@ -90,14 +90,14 @@ class SimulatedDisturber:
         except KeyError:
             raise DisturbanceRefused(f"{arm} is no arm with a hand that can be pushed") from None
 
-    def _move(self, wanted: Move) -> None:
+    def _move(self, wanted: MoveThing) -> None:
         """Put a thing elsewhere, at rest; nothing else is moved out of its way."""
         if self._hand_with(wanted.thing) is not None:
             name = self._scene.names[wanted.thing]
             raise DisturbanceRefused(f"{name} is in a gripper; it can be taken out of the hand")
         self._shift(wanted.thing, np.array(wanted.by_m), wanted.turn_rad)
 
-    def _take(self, wanted: Take) -> None:
+    def _take(self, wanted: TakeThing) -> None:
         """Let a hand lose what it holds, and put that elsewhere; fingers that press on nothing close."""
         hand = self._hand_with(wanted.thing)
         if hand is None:

@@ -22,7 +22,7 @@ class LabelledIri(msgspec.Struct, frozen=True, tag="iri"):
         return self.label
 
 
-class Quantity(msgspec.Struct, frozen=True, tag="quantity"):
+class LabelledQuantity(msgspec.Struct, frozen=True, tag="quantity"):
     """A number with its SI unit as the language writes it; the unit is empty for a pure number.
 
     In a message `{depth:.1f mm}` shows it with one digit in mm, `{depth}` with its unit.
@@ -70,7 +70,7 @@ class ValueList(msgspec.Struct, frozen=True, tag="list"):
 
 
 LabelledValue: TypeAlias = (
-    bool | int | str | LabelledIri | Quantity | NotFinite | LabelledVector | LabelledPose | ValueList
+    bool | int | str | LabelledIri | LabelledQuantity | NotFinite | LabelledVector | LabelledPose | ValueList
 )
 """Truth values, integers and texts are themselves."""
 

@@ -22,11 +22,11 @@ from skillc_runtime.world.state.labels.labelled import (
     LabelledIri,
     LabelledPose,
     LabelledProperty,
+    LabelledQuantity,
     LabelledRelation,
     LabelledValue,
     LabelledVector,
     NotFinite,
-    Quantity,
     ValueList,
 )
 from skillc_runtime.world.state.values import Value
@@ -60,7 +60,7 @@ def value_of_labelled(labelled: LabelledValue) -> Value:
             return labelled
         case LabelledIri(iri):
             return iri
-        case Quantity(value):
+        case LabelledQuantity(value):
             return value
         case NotFinite(text):
             return float(text.split()[0])

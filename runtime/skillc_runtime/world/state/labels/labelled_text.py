@@ -12,11 +12,11 @@ from skillc_runtime.world.state.labels.labelled import (
     LabelledIri,
     LabelledPose,
     LabelledProperty,
+    LabelledQuantity,
     LabelledRelation,
     LabelledValue,
     LabelledVector,
     NotFinite,
-    Quantity,
     ValueList,
 )
 
@@ -37,7 +37,7 @@ def format_value(value: LabelledValue) -> str:
             return f'"{value}"'
         case LabelledIri(_, name):
             return name
-        case Quantity() | LabelledVector():
+        case LabelledQuantity() | LabelledVector():
             return f"{value}"
         case NotFinite(text):
             return text

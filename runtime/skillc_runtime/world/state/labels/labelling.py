@@ -31,11 +31,11 @@ from skillc_runtime.world.state.labels.labelled import (
     LabelledIri,
     LabelledPose,
     LabelledProperty,
+    LabelledQuantity,
     LabelledRelation,
     LabelledValue,
     LabelledVector,
     NotFinite,
-    Quantity,
     ValueList,
 )
 from skillc_runtime.world.state.properties import value_at
@@ -91,9 +91,9 @@ def label_pose(value: motion.Pose) -> LabelledPose:
 def make_recordable(value: object) -> LabelledValue:
     """Return a value from skill code as a value that can be recorded and read back."""
     match value:
-        case Quantity(number) if not isfinite(number):
+        case LabelledQuantity(number) if not isfinite(number):
             return NotFinite(f"{value}")
-        case LabelledIri() | Quantity() | NotFinite() | LabelledVector() | LabelledPose() | ValueList():
+        case LabelledIri() | LabelledQuantity() | NotFinite() | LabelledVector() | LabelledPose() | ValueList():
             return value
         case _:
             return label_value(cast(Value, value), None, Vocabulary())
@@ -151,7 +151,7 @@ def _number(value: float, type_: ValueType | None) -> LabelledValue:
     if isinstance(value, int) and not isinstance(type_, NumberType):
         return value
     unit = SI_UNITS.get(type_.dimension, "") if isinstance(type_, NumberType) else ""
-    return Quantity(float(value), unit) if isfinite(value) else NotFinite(f"{value:g} {unit}".strip())
+    return LabelledQuantity(float(value), unit) if isfinite(value) else NotFinite(f"{value:g} {unit}".strip())
 
 
 def _vector(value: np.ndarray, type_: ValueType | None) -> LabelledValue:
@@ -161,4 +161,4 @@ def _vector(value: np.ndarray, type_: ValueType | None) -> LabelledValue:
         case [x, y, z]:
             return LabelledVector((x, y, z), unit)
         case parts:
-            return ValueList(tuple(Quantity(part, unit) for part in parts))
+            return ValueList(tuple(LabelledQuantity(part, unit) for part in parts))
