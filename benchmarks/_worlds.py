@@ -17,9 +17,10 @@ from typing import TypeVar
 import pyoxigraph as ox
 
 from skillc.services.library import libraries
+from skillc_dsl.position import Position
 from skillc_model.conditions import Condition, HasProperty, Holds, IsA, Variable
 from skillc_model.skills import Parameter, Requirement
-from skillc_rdf.vocabulary.types import ClassType, Position, Vocabulary
+from skillc_rdf.vocabulary.types import ClassType, Vocabulary
 from skillc_runtime.scene.documents import Document
 from skillc_runtime.scene.load import load_scene, load_sheets, read_documents, sheet_documents
 from skillc_runtime.scene.saving import save_scene

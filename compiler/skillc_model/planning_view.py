@@ -7,11 +7,12 @@ from typing import TypeAlias
 
 import msgspec
 
+from skillc_dsl.position import Position
 from skillc_model.conditions import Expression, Given, Individual, Variable
 from skillc_model.skills import Implementation, Let, Parameter, Post, Requirement, Skill
 from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.closure import reachable
-from skillc_rdf.vocabulary.types import ClassType, Position
+from skillc_rdf.vocabulary.types import ClassType
 
 Description: TypeAlias = Skill | Implementation
 _NOWHERE = Position("", 0, 0)

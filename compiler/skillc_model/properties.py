@@ -7,8 +7,8 @@ from typing import TypeAlias
 
 import msgspec
 
+from skillc_dsl.position import Position
 from skillc_model.conditions import Condition, Expression, Operator
-from skillc_rdf.vocabulary.types import Position
 
 
 class Runs(msgspec.Struct, frozen=True, tag="runs"):

@@ -7,10 +7,11 @@ from typing import TypeAlias
 
 import msgspec
 
+from skillc_dsl.position import Position
 from skillc_model.conditions import Condition, Effect, Expression
 from skillc_model.properties import Property
 from skillc_model.tree import Node
-from skillc_rdf.vocabulary.types import Position, ValueType, Vocabulary
+from skillc_rdf.vocabulary.types import ValueType, Vocabulary
 
 FORMAT = 5
 KEEP_S = 2.0

@@ -8,8 +8,8 @@ from typing import TypeAlias, get_args
 
 import msgspec
 
+from skillc_dsl.position import Position
 from skillc_model.conditions import Condition, Expression
-from skillc_rdf.vocabulary.types import Position
 
 
 class Sequence(msgspec.Struct, frozen=True, tag="seq"):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from skillc_dsl.editions import NEWEST
+from skillc_dsl.position import Position
 
 
 class Source(NamedTuple):
@@ -36,6 +37,11 @@ class Span(NamedTuple):
     def begins_in(self, other: Span) -> bool:
         """Whether this span starts within another one of the same file."""
         return (other.line, other.column) <= (self.line, self.column) < (other.end_line, other.end_column)
+
+    @property
+    def start(self) -> Position:
+        """The position where this one begins."""
+        return Position(self.path, self.line, self.column)
 
     @property
     def after(self) -> Span:

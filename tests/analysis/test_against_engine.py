@@ -28,18 +28,19 @@ from skillc_compiler.analysis.proof import Prover
 from skillc_compiler.checks import find_all, load_checks
 from skillc_compiler.lower.library import lower_program
 from skillc_compiler.program.marks import Marks, Need
-from skillc_compiler.program.typed import Implementation, Program, TypedNode, start_position
+from skillc_compiler.program.typed import Implementation, Program, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_compiler.resolve.files import read_sources
 from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.position import Position
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 from skillc_model import tree
 from skillc_model.conditions import Condition, Holds, Individual, Variable
 from skillc_model.skills import SkillLibrary
 from skillc_model.traversal import free_variables
-from skillc_rdf.vocabulary.types import Position, Vocabulary
+from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, ImplementationChosen, NodeEnded, NodeStarted
@@ -116,10 +117,10 @@ def claims_of(prover: Prover, implementation: Implementation, body: TypedNode) -
         implementation,
         run,
         ends,
-        {start_position(p.span) for p in requirements_of(implementation, "post") if p.span not in unproved},
-        {start_position(h.span) for h in requirements_of(implementation, "hold") if h.span not in broken},
-        {(start_position(t.call.written.span), start_position(t.requirement.span)) for t in sure},
-        {start_position(s.written.span) for s in nodes_in(body) if id(s) not in run.reached},
+        {p.span.start for p in requirements_of(implementation, "post") if p.span not in unproved},
+        {h.span.start for h in requirements_of(implementation, "hold") if h.span not in broken},
+        {(t.call.written.span.start, t.requirement.span.start) for t in sure},
+        {s.written.span.start for s in nodes_in(body) if id(s) not in run.reached},
         [n for n, line in enumerate(implementation.verify) if line.span not in open_],
     )
 

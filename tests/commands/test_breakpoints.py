@@ -10,9 +10,9 @@ from skillc.errors import RequestError
 from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import SHIPPED, find_library
 from skillc.services.tasks.breakpoints import parse_breakpoints
+from skillc_dsl.position import Position
 from skillc_model.skills import Compound, SkillLibrary
 from skillc_model.traversal import find_calls
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.gate import AtLine, AtSkill
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from skillc.cli.progress.run_display import format_estimate
 from skillc.cli.progress.run_estimate import PlanProgress
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.recording.events import NodeEnded, NodeStarted, PlanMade, PlanStep, Replanned
 
 HERE = Position("a.skill", 1, 1)

@@ -9,10 +9,10 @@ from shipped import library, shelf, vocabulary
 from skillc_compiler.goals.parsing import home_of, parse_call, parse_goal
 from skillc_compiler.pipeline import compile
 from skillc_dsl.diagnostics import Outcome
+from skillc_dsl.position import Position
 from skillc_dsl.source import Source
 from skillc_model.conditions import And, Condition, Exists, Forall, Holds, Individual, Literal
 from skillc_model.format_condition import format_condition
-from skillc_rdf.vocabulary.types import Position
 
 LAB = "http://example.org/lab#"
 

@@ -5,12 +5,12 @@ from shipped import shelf, vocabulary
 
 from skillc_compiler.pipeline import compile
 from skillc_dsl.diagnostics import Outcome
+from skillc_dsl.position import Position
 from skillc_dsl.source import Source
 from skillc_model.conditions import Holds, Not, Retract
 from skillc_model.properties import Runs
 from skillc_model.skills import Compound, SkillLibrary
 from skillc_model.tree import Call, Parallel, Sequence, With
-from skillc_rdf.vocabulary.types import Position
 
 HEADER = """
 use skiros, rparts, wiping, skillc

@@ -3,21 +3,13 @@
 import pyoxigraph as ox
 import pytest
 
+from skillc_dsl.position import Position
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.vocabulary.load import load
 from skillc_rdf.vocabulary.positions import find_subjects
-from skillc_rdf.vocabulary.types import (
-    Bounds,
-    DirectionType,
-    NumberType,
-    PlainType,
-    Position,
-    Signature,
-    VectorType,
-    Vocabulary,
-)
+from skillc_rdf.vocabulary.types import Bounds, DirectionType, NumberType, PlainType, Signature, VectorType, Vocabulary
 
 HEAD = """@prefix t: <http://example.org/t#> .
 @prefix owl: <http://www.w3.org/2002/07/owl#> .

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from skillc_dsl.position import Position
 from skillc_model.conditions import (
     Anything,
     Assert,
@@ -32,7 +33,6 @@ from skillc_rdf.vocabulary.types import (
     ClassType,
     NumberType,
     PlainType,
-    Position,
     PropertyTerm,
     RelationTerm,
     Signature,

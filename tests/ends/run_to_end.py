@@ -15,7 +15,7 @@ import numpy as np
 
 from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.run.recorded_run import RecordedRun, RecordingOptions, recorded_run
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.motion.arrays import OutVector
 from skillc_runtime.motion.numerics.compiled import LISTENERS, compiled

@@ -17,10 +17,10 @@ from plans import depot
 from skillc.errors import RequestError
 from skillc.services.planning.planning import with_minimal_makespan
 from skillc.services.tasks.loading import LoadedTask
+from skillc_dsl.position import Position
 from skillc_model.conditions import Condition, Holds, Individual
 from skillc_model.pddl.problem import Problem
 from skillc_model.tree import Sequence
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
 from skillc_runtime.planning.cp_sat.solver import CpSat, find_cp_sat

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from recording.runs import publish
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.recording.events import Event, NodeEnded, NodeStarted, StateChanged, TaskEnded, WorldChanged
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.history.account import MAX_LISTED, CallOutput, RunAccount

@@ -7,7 +7,7 @@ from typing import Any
 
 from msgspec import structs
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.evaluation.report.film_story import find_moments
 from skillc_runtime.film.footage import Moment
 from skillc_runtime.recording.history.history import RecordedAttempt, RecordedCall, RunHistory

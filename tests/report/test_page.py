@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from msgspec import structs
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.evaluation.report.figure import DrawnFigure, WorkFigure, number_files, render_figure
 from skillc_runtime.evaluation.report.page import render_page
 from skillc_runtime.evaluation.report.plotting import INK, MOST_POINTS, TRUTH, count_columns, thin_curve

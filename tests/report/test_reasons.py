@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.evaluation.report.result import ChoiceResult, StepResult, TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_recording
 from skillc_runtime.evaluation.report.table import format_choice_reason

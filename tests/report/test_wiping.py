@@ -10,8 +10,8 @@ from typing import Any
 
 import skillc_runtime
 import skillc_skills
+from skillc_dsl.position import Position
 from skillc_model.format_type import SI_UNITS
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
 from skillc_runtime.recording.history.history import RecordedAttempt, RecordedCall, RunHistory
 from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledQuantity, LabelledValue

@@ -8,7 +8,7 @@ from typing import Any
 
 from skillc.events import NodeEnded, NodeStarted
 from skillc.ros.started_nodes import PERIOD_S, StartedNodes
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 
 PLACE = Position("a.skill", 1, 1)
 

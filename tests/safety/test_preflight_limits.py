@@ -14,12 +14,12 @@ from msgspec import structs
 from skillc.cli.main import skillc
 from skillc.services.library import libraries
 from skillc.services.library.files import SHIPPED, find_library
+from skillc_dsl.position import Position
 from skillc_model import skills as model
 from skillc_model import tree
 from skillc_model.conditions import Expression, Individual, Invoke, Literal, PropertyOf
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, NotStarted, PreparedTask, prepare_task
 from skillc_runtime.execution.selection.preflight import preflight

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal as OneOf
 
+from skillc_dsl.position import Position
 from skillc_model import tree
 from skillc_model.conditions import Anything, Assert, Condition, Expression, Holds, Not, Retract, Variable
 from skillc_model.skills import (
@@ -17,7 +18,7 @@ from skillc_model.skills import (
     SkillLibrary,
 )
 from skillc_model.skills import Primitive as PrimitiveBody
-from skillc_rdf.vocabulary.types import ClassTerm, NumberType, Position, Vocabulary
+from skillc_rdf.vocabulary.types import ClassTerm, NumberType, Vocabulary
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.world_state import WorldState

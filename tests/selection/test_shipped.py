@@ -9,11 +9,11 @@ import pytest
 
 from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import SHIPPED, find_library
+from skillc_dsl.position import Position
 from skillc_model import tree
 from skillc_model.conditions import Individual
 from skillc_model.skills import Primitive, SkillLibrary
 from skillc_ontology import catalogue
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.execution.selection.python_targets import import_matching_primitive
 from skillc_runtime.execution.selection.select import NoneSelected, SelectedImplementation, select_implementation

@@ -8,10 +8,10 @@ from cells import LAB, world
 
 from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import SHIPPED, find_library
+from skillc_dsl.position import Position
 from skillc_model import tree
 from skillc_model.conditions import Individual
 from skillc_model.skills import SkillLibrary
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.execution.selection.select import NoneSelected, select_implementation
 from skillc_runtime.execution.tree.run import TreeRun

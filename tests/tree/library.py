@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import count
 from typing import Literal
 
+from skillc_dsl.position import Position
 from skillc_model import tree
 from skillc_model.conditions import Assign, Compare, Condition, Expression, Individual, PropertyOf, Variable
 from skillc_model.conditions import Literal as Constant
@@ -26,7 +27,6 @@ from skillc_rdf.vocabulary.types import (
     FunctionTerm,
     ListType,
     PlainType,
-    Position,
     PropertyTerm,
     Vocabulary,
 )

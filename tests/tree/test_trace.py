@@ -14,7 +14,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.recording import events

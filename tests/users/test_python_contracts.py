@@ -9,8 +9,9 @@ import pytest
 from click.testing import CliRunner
 
 from skillc.cli.main import skillc
+from skillc_dsl.position import Position
 from skillc_model.skills import Parameter
-from skillc_rdf.vocabulary.types import PlainType, Position
+from skillc_rdf.vocabulary.types import PlainType
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, check_function, import_matching_primitive
 
 HEAD = """\

@@ -1,9 +1,10 @@
 """What follows from relations, and what a library changes by what its skills state."""
 
+from skillc_dsl.position import Position
 from skillc_model.conditions import Assert, Holds, Retract, Variable
 from skillc_model.read_write import changing_terms, is_fixed, terms_written_by
 from skillc_model.skills import Implementation, Post, Primitive, SkillLibrary
-from skillc_rdf.vocabulary.types import Position, RelationTerm, Vocabulary
+from skillc_rdf.vocabulary.types import RelationTerm, Vocabulary
 
 HERE = Position("here", 1, 1)
 X, Y = Variable("x"), Variable("y")

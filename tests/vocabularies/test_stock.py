@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from skillc_dsl.encoding import decode
+from skillc_dsl.position import Position
 from skillc_dsl.source import Source
-from skillc_rdf.vocabulary.types import THING, NumberType, PlainType, Position, Signature
+from skillc_rdf.vocabulary.types import THING, NumberType, PlainType, Signature
 from vocabularies.reading import HEAD, STOCK, T, beside, shipped_alone
 
 SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"

@@ -18,9 +18,9 @@ from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.run.running import RunOptions, run_task
 from skillc.services.run_diff.objective import compare_objectives
 from skillc.services.tasks.loading import load_task
+from skillc_dsl.position import Position
 from skillc_model.conditions import And, Compare, Holds, Individual, Literal, Not, PropertyOf
 from skillc_model.tree import Apply, Call, Node, Parallel, Selector, Sequence
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.disturbances import PushArm
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import (

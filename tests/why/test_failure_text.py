@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.execution.selection.select import combine_rejections
 from skillc_runtime.recording.failure import Failure, Rejection, Stage
 from skillc_runtime.recording.failure_text import describe_failure, list_details

@@ -11,8 +11,8 @@ from hypothesis import HealthCheck, event, given, settings
 from msgspec import structs
 
 from skillc.services.recording.story_text import overview_lines
+from skillc_dsl.position import Position
 from skillc_model import tree
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import (

@@ -1,5 +1,6 @@
 """A small vocabulary and scene that the tests of the world model and of planning share."""
 
+from skillc_dsl.position import Position
 from skillc_model.conditions import Condition, Holds, Variable
 from skillc_model.skills import Parameter, Requirement
 from skillc_rdf.vocabulary.types import (
@@ -9,7 +10,6 @@ from skillc_rdf.vocabulary.types import (
     FunctionTerm,
     NumberType,
     PlainType,
-    Position,
     PropertyTerm,
     RelationTerm,
     Signature,

@@ -10,10 +10,11 @@ from skillc_compiler.resolve.homes import Homes
 from skillc_compiler.resolve.individuals import Individuals, most_specific_classes
 from skillc_compiler.resolve.names import KINDS, Kind, Names, bare_terms
 from skillc_compiler.resolve.scope import FileContext
+from skillc_dsl.position import Position
 from skillc_dsl.source import Span
 from skillc_model import skills as library
 from skillc_model.conditions import Expression, Literal
-from skillc_rdf.vocabulary.types import Position, Vocabulary
+from skillc_rdf.vocabulary.types import Vocabulary
 
 
 def make_context(

@@ -24,13 +24,14 @@ from skillc_compiler.resolve.tasks import resolve_task
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.parsing.parser import parse
+from skillc_dsl.position import Position
 from skillc_dsl.source import Source, Span
 from skillc_model import tree
 from skillc_model.conditions import Condition
 from skillc_model.rewriting import fold
 from skillc_model.skills import Skill, SkillLibrary
 from skillc_model.traversal import is_nested_deeper
-from skillc_rdf.vocabulary.types import Position, Vocabulary
+from skillc_rdf.vocabulary.types import Vocabulary
 
 T = TypeVar("T")
 

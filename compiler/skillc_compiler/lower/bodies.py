@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import assert_never
 
 from skillc_compiler.logic.rounds import count_rounds
-from skillc_compiler.program.typed import TypedNode, start_position
+from skillc_compiler.program.typed import TypedNode
 from skillc_dsl import syntax as s
 from skillc_model import tree as t
 from skillc_model.conditions import Condition, Expression
@@ -16,7 +16,7 @@ from skillc_model.rewriting import fold
 def lower_node(node: TypedNode) -> t.Node:
     """Return the tree node of a typed node."""
     written = node.written
-    source = start_position(written.span)
+    source = written.span.start
     match written:
         case s.Block():
             return _lower_block(node, written)
@@ -49,12 +49,12 @@ def _lower_decorator(node: TypedNode, written: s.Decorator) -> t.Node:
     """Return the node with a number of rounds, or an expression in seconds, for each slot."""
     counts, times = map(count_rounds, written.counts), (fold(time.meaning) for time in node.values)
     slots = {slot.field: next(counts if slot.kind == "count" else times) for slot in written.row.slots}
-    child, source = _lower_as_one(node.children, node), start_position(written.span)
+    child, source = _lower_as_one(node.children, node), written.span.start
     return t.DECORATORS[written.kind](**slots, child=child, source=source)
 
 
 def _lower_block(node: TypedNode, written: s.Block) -> t.Node:
-    source = start_position(written.span)
+    source = written.span.start
     match written.kind:
         case "seq" | "reactive seq":
             return t.Sequence(_lower_all(node), written.kind == "reactive seq", source)
@@ -80,7 +80,7 @@ def _lower_as_one(children: Sequence[TypedNode], of: TypedNode) -> t.Node:
     """Return the only child, or several children as a sequence."""
     if len(children) == 1:
         return lower_node(children[0])
-    return t.Sequence(tuple(lower_node(child) for child in children), False, start_position(of.written.span))
+    return t.Sequence(tuple(lower_node(child) for child in children), False, of.written.span.start)
 
 
 def _lower_call(node: TypedNode) -> t.Call:
@@ -91,7 +91,7 @@ def _lower_call(node: TypedNode) -> t.Call:
         implementation=call.implementation,
         arguments={argument.name.text: fold(argument.value.meaning) for argument in call.arguments},
         out=call.out.text if call.out else None,
-        source=start_position(call.written.span),
+        source=call.written.span.start,
     )
 
 

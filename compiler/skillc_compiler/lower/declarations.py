@@ -20,7 +20,6 @@ from skillc_compiler.program.typed import (
     TypedExpression,
     TypedNode,
     VerifyEvent,
-    start_position,
 )
 from skillc_dsl import syntax as s
 from skillc_dsl.descriptions.members import FLAGS
@@ -45,7 +44,7 @@ def lower_skill(typed: Skill, implementations: Sequence[str]) -> library.Skill:
         shares=_devices(typed, "shares"),
         pause=_pause(typed.pause),
         implementations=tuple(implementations),
-        source=start_position(typed.span),
+        source=typed.span.start,
         **{flag.field: flag.value for flag in FLAGS if flag.keyword in typed.flags},
     )
 
@@ -68,7 +67,7 @@ def lower_implementation(typed: Implementation, body: TypedNode | s.RunPython) -
         if isinstance(body, TypedNode)
         else library.Primitive(body.target.value),
         verify=tuple(_property(each) for each in typed.verify),
-        source=start_position(typed.span),
+        source=typed.span.start,
     )
 
 
@@ -82,7 +81,7 @@ def lower_task(typed: Task) -> library.Task:
         goal=fold(typed.goal.meaning) if typed.goal else None,
         goal_text=typed.goal_text,
         body=lower_node(typed.body) if typed.body else None,
-        source=start_position(typed.span),
+        source=typed.span.start,
     )
 
 
@@ -97,7 +96,7 @@ def lower_test(typed: Test) -> library.Test:
                 condition=fold(each.condition.meaning) if each.condition else None,
                 failure=each.failure,
                 text=each.text,
-                source=start_position(each.span),
+                source=each.span.start,
             )
             for each in typed.expects
         ),
@@ -121,7 +120,7 @@ def label_requirements(requirements: Sequence[Requirement]) -> list[tuple[str, R
 
 def _requirements(labelled: Sequence[tuple[str, Requirement]], kind: str) -> tuple[library.Requirement, ...]:
     return tuple(
-        library.Requirement(label=name, condition=fold(r.condition.meaning), text=r.text, source=start_position(r.span))
+        library.Requirement(label=name, condition=fold(r.condition.meaning), text=r.text, source=r.span.start)
         for name, r in labelled
         if r.kind == kind
     )
@@ -135,7 +134,7 @@ def _posts(labelled: Sequence[tuple[str, Requirement]]) -> tuple[library.Post, .
             effects=tuple(effect for effect in effects_of(r.condition) if not isinstance(effect, NoEffect)),
             sensed=r.sensed,
             text=r.text,
-            source=start_position(r.span),
+            source=r.span.start,
         )
         for name, r in labelled
         if r.kind == "post"
@@ -152,7 +151,7 @@ def _parameter(typed: Parameter) -> library.Parameter:
         low=constant_number(typed.low.meaning) if typed.low else None,
         high=constant_number(typed.high.meaning) if typed.high else None,
         doc=typed.doc,
-        source=start_position(typed.span),
+        source=typed.span.start,
     )
 
 
@@ -177,7 +176,7 @@ def _property(typed: Property) -> properties.Property:
         first=_event(typed.first),
         second=_event(typed.second) if typed.second else None,
         text=typed.text,
-        source=start_position(typed.span),
+        source=typed.span.start,
     )
 
 

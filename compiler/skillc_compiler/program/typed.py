@@ -16,7 +16,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.editions import NEWEST
 from skillc_dsl.source import Span
 from skillc_model.conditions import Condition, Expression, Operator
-from skillc_rdf.vocabulary.types import Position, ValueType, Vocabulary
+from skillc_rdf.vocabulary.types import ValueType, Vocabulary
 
 
 class TypedExpression(msgspec.Struct, frozen=True):
@@ -306,8 +306,3 @@ class Program:
         """Return the implementations that may be selected for a call."""
         known = self.implementations_of.get(call.skill.name, ()) if call.skill else ()
         return tuple(one for one in known if call.implementation in (None, one.name))
-
-
-def start_position(span: Span) -> Position:
-    """Return the position where a span begins."""
-    return Position(span.path, span.line, span.column)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
-from skillc_compiler.program.typed import ParsedFile, start_position
+from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.declarations import FileDeclarations, library_prefix, term_kind
 from skillc_compiler.resolve.names import Kind, Names
 from skillc_compiler.resolve.type_names import BUILT_IN, resolve_type
@@ -127,9 +127,7 @@ def _class(written: s.ClassDeclaration, iri: str, old: ClassTerm | None, names: 
     parents = _resolve_classes(names, written.parents)
     disjoint = _resolve_classes(names, written.disjoint)
     if old is None:
-        return ClassTerm(
-            iri=iri, parents=parents, disjoint=disjoint, comment=written.doc, source=start_position(written.span)
-        )
+        return ClassTerm(iri=iri, parents=parents, disjoint=disjoint, comment=written.doc, source=written.span.start)
     return msgspec.structs.replace(old, parents=_union(old.parents, parents), disjoint=_union(old.disjoint, disjoint))
 
 
@@ -138,7 +136,7 @@ def _relation(written: s.RelationDeclaration, iri: str, old: RelationTerm | None
     signatures = (Signature(domain, range_),) if domain and range_ else ()
     traits = {trait.kind: trait for trait in written.traits}
     others = {kind: names.look_up_term("relation", t.name) for kind, t in traits.items() if t.name is not None}
-    term = old or RelationTerm(iri=iri, signatures=(), comment=written.doc, source=start_position(written.span))
+    term = old or RelationTerm(iri=iri, signatures=(), comment=written.doc, source=written.span.start)
     parent = others.get("sub")
     return msgspec.structs.replace(
         term,
@@ -156,9 +154,7 @@ def _property(written: s.PropertyDeclaration, iri: str, old: PropertyTerm | None
     domains = (domain,) if domain else ()
     declared = resolve_type(names, written.type)
     if old is None:
-        return PropertyTerm(
-            iri=iri, domains=domains, type=declared, comment=written.doc, source=start_position(written.span)
-        )
+        return PropertyTerm(iri=iri, domains=domains, type=declared, comment=written.doc, source=written.span.start)
     if old.type != declared:
         names.problems.append(_contradiction(written, old, names))
     return msgspec.structs.replace(old, domains=_union(old.domains, domains))
@@ -182,7 +178,7 @@ def _function(written: s.FunctionDeclaration, names: Names) -> FunctionTerm:
         result=resolve_type(names, written.result),
         python=written.python.value,
         comment=written.doc,
-        source=start_position(written.span),
+        source=written.span.start,
     )
 
 

@@ -6,11 +6,12 @@ from collections.abc import Iterable, Iterator, Mapping
 
 import msgspec
 
+from skillc_dsl.position import Position
 from skillc_model.conditions import Assert, Assign, HasProperty, Holds, Individual, PropertyOf, Retract
 from skillc_model.pddl.hierarchy import find_common_class
 from skillc_model.skills import Implementation, Parameter, Skill, SkillLibrary
 from skillc_model.traversal import walk
-from skillc_rdf.vocabulary.types import ClassType, Position, Vocabulary
+from skillc_rdf.vocabulary.types import ClassType, Vocabulary
 
 
 class Mention(msgspec.Struct, frozen=True):

@@ -11,9 +11,9 @@ from typing import TypeAlias
 
 import msgspec
 
+from skillc_dsl.position import Position
 from skillc_model.conditions import Condition, Expression
 from skillc_model.pddl.formulas import Change, Formula, Typed
-from skillc_rdf.vocabulary.types import Position
 
 ROOT = "thing"
 

@@ -9,6 +9,7 @@ import pyoxigraph as ox
 from msgspec.structs import replace
 
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.position import Position
 from skillc_dsl.source import Span
 from skillc_dsl.spelling import did_you_mean
 from skillc_dsl.units import DIMENSIONS
@@ -21,7 +22,6 @@ from skillc_rdf.vocabulary.types import (
     DirectionType,
     NumberType,
     PlainType,
-    Position,
     ValueType,
     VectorType,
     local_name,

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.position import Position
 from skillc_dsl.source import Span
 from skillc_dsl.spelling import did_you_mean
 from skillc_rdf.vocabulary.conflicts import Conflict
 from skillc_rdf.vocabulary.graph import Graph
 from skillc_rdf.vocabulary.iris import DOMAIN, INVERSE, RANGE, SKILLC, TYPE
 from skillc_rdf.vocabulary.places import TermPositions
-from skillc_rdf.vocabulary.types import Position, PropertyTerm, RelationTerm, Vocabulary
+from skillc_rdf.vocabulary.types import PropertyTerm, RelationTerm, Vocabulary
 
 
 def lint_ontology(graph: Graph, vocabulary: Vocabulary, places: TermPositions) -> Iterator[Diagnostic]:

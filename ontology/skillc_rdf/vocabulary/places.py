@@ -8,13 +8,14 @@ from functools import cached_property
 
 import pyoxigraph as ox
 
+from skillc_dsl.position import Position
 from skillc_dsl.source import Source, Span
 from skillc_rdf.formats.detect import detect_format
 from skillc_rdf.formats.subjects import find_elements
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.turtle.statements import Statement
 from skillc_rdf.vocabulary.positions import find_subjects
-from skillc_rdf.vocabulary.types import Position, local_name
+from skillc_rdf.vocabulary.types import local_name
 
 _IRI = re.compile(r"[^\s<>\"'{}|^`\\]+")
 _WORD = re.compile(r"[\w%-]+(?:\.[\w%-]+)*")

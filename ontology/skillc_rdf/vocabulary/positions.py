@@ -8,8 +8,8 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
 
+from skillc_dsl.position import Position
 from skillc_dsl.source import Source
-from skillc_rdf.vocabulary.types import Position
 
 MOST_FILES = 64
 """The number of files whose positions are cached: more than are shipped."""

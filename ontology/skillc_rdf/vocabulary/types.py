@@ -8,6 +8,7 @@ from typing import Literal, TypeAlias, TypeVar
 
 import msgspec
 
+from skillc_dsl.position import Position
 from skillc_rdf.vocabulary.closure import RelationClosure
 from skillc_rdf.vocabulary.components import components
 
@@ -17,17 +18,6 @@ THING = "http://www.w3.org/2002/07/owl#Thing"
 LITERAL = "http://www.w3.org/2000/01/rdf-schema#Literal"
 CHARACTERISTICS = ("functional", "inverse_functional", "symmetric", "transitive", "asymmetric", "irreflexive")
 """The characteristics of relations, in the order of messages."""
-
-
-class Position(msgspec.Struct, frozen=True, order=True):
-    """A position in a file: path relative to the library (or `std/..`), line and column from 1."""
-
-    path: str
-    line: int
-    column: int
-
-    def __str__(self) -> str:
-        return f"{self.path}:{self.line}"
 
 
 class ClassType(msgspec.Struct, frozen=True, tag="class"):

@@ -7,9 +7,9 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
+from skillc_dsl.position import Position
 from skillc_model.conditions import Condition
 from skillc_model.tree import Node
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.recording.commands import Command

@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.world.state.labels.labelled import LabelledValue
 
 FailureKind: TypeAlias = Literal[

@@ -6,7 +6,7 @@ from typing import Literal
 
 import msgspec
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.recording.failure import Rejection
 from skillc_runtime.world.state.labels.labelled import LabelledFact, LabelledIri, LabelledValue
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.position import Position
 from skillc_dsl.source import Span
 from skillc_rdf.turtle.statements import Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.scene.checks.containment import check_containment
 from skillc_runtime.scene.checks.data_sheets import check_data_sheets
 from skillc_runtime.scene.checks.frames import check_frames

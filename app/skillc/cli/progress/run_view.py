@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import msgspec
 
 from skillc.contract.operation import OperationStatus
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.tree.gate import GatedCall

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import msgspec
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.recording.history.origins import ValueOrigin
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 
 
 class TreeNode(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):

@@ -10,11 +10,11 @@ from typing import TypeAlias
 import pyoxigraph as ox
 
 from skillc.services.reporting.files import inspect_path
+from skillc_dsl.position import Position
 from skillc_ontology.catalogue import ROOT, sheet_files
 from skillc_rdf.turtle.parser import parse
 from skillc_rdf.turtle.statements import Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.world.state.labels.labelled import (
     LabelledClass,
     LabelledFact,

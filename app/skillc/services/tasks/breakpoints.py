@@ -7,9 +7,9 @@ from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 
 from skillc.errors import RequestError
+from skillc_dsl.position import Position
 from skillc_model.skills import Compound, SkillLibrary
 from skillc_model.traversal import find_calls
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.gate import AtLine, AtSkill, Breakpoint, Gate
 from skillc_runtime.recording.run_spec import RunRequest
 

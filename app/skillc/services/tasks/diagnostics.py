@@ -14,12 +14,12 @@ from skillc.services.scene import diagnostics as scene_diagnostics
 from skillc.services.tasks import value_checks
 from skillc.services.tasks.space_problems import OutOfTime, SpaceProblem
 from skillc_dsl.diagnostics import Diagnostic, Label, Severity
+from skillc_dsl.position import Position
 from skillc_dsl.source import Span
 from skillc_dsl.spelling import did_you_mean
 from skillc_model.skills import Task
 from skillc_model.traversal import find_calls
 from skillc_rdf.turtle.terms import RDF_TYPE
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.refusal import Origin, Refusal
 from skillc_runtime.planning.reachability import UnreachableGoal
 from skillc_runtime.scene.load import LoadedScene

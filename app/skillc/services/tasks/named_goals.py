@@ -19,8 +19,8 @@ from skillc.services.tasks.diagnostics import TaskDiagnostics
 from skillc.services.tasks.space_problems import OutOfTime, SpaceJudge, SpaceProblem
 from skillc_compiler.goals.parsing import home_of, parse_call, parse_goal
 from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.position import Position
 from skillc_model.skills import SkillLibrary, Task
-from skillc_rdf.vocabulary.types import Position
 
 
 def named_scene(project: Project, name: str) -> Path:

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from skillc_compiler.program import walk
-from skillc_compiler.program.typed import Implementation, Program, TypedExpression, start_position
+from skillc_compiler.program.typed import Implementation, Program, TypedExpression
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label, Outcome, Severity
+from skillc_dsl.position import Position
 from skillc_dsl.source import Span
 from skillc_dsl.spelling import did_you_mean
 from skillc_model.conditions import Literal
 from skillc_model.skills import Compound, SkillLibrary
-from skillc_rdf.vocabulary.types import Position
 
 if TYPE_CHECKING:
     from skillc.services.tasks.scenes import TaskScenes
@@ -41,9 +41,9 @@ def value_places(program: Program) -> dict[tuple[Position, str], Span]:
     """
     found: dict[tuple[Position, str], Span] = {}
     for call in walk.all_calls(program):
-        found |= {(start_position(call.written.span), each.name.text): each.value.span for each in call.arguments}
+        found |= {(call.written.span.start, each.name.text): each.value.span for each in call.arguments}
     for one in program.implementations:
-        at = start_position(one.span)
+        at = one.span.start
         found |= {(at, each.name): each.default.span for each in one.parameters if each.default}
         found |= {(at, each.name.text): each.value.span for each in one.lets}
     own = _own(program)

@@ -8,10 +8,10 @@ from typing import Literal, TypeAlias, get_args
 
 import msgspec
 
+from skillc_dsl.position import Position
 from skillc_model import tree
 from skillc_model.skills import Compound, Implementation, SkillLibrary
 from skillc_model.traversal import walk
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.events import Event, ImplementationChosen, NodeEnded, NodeStarted
 from skillc_runtime.recording.failure import Failure
 

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 from skillc.services.testing.path import TakenCall
 from skillc.services.testing.running import TestRun, describe_end
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.position import Position
 from skillc_dsl.source import Span
 from skillc_model.skills import Expectation, Test
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.state.python_calls import EvaluationError

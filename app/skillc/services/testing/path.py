@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.recording.events import Event, NodeEnded, NodeStarted
 
 

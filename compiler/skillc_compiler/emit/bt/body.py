@@ -11,11 +11,12 @@ import msgspec
 from skillc_compiler.emit.bt.model import Kind, Model, Port
 from skillc_compiler.emit.bt.names import NodeIds, entry_name, port_name
 from skillc_compiler.emit.bt.ports import format_plain_value, port_type
+from skillc_dsl.position import Position
 from skillc_model.conditions import Condition, Expression, Variable
 from skillc_model.format_condition import format_expression
 from skillc_model.skills import Parameter, Post, SkillLibrary
 from skillc_model.traversal import free_variables_in_order
-from skillc_rdf.vocabulary.types import Position, ValueType
+from skillc_rdf.vocabulary.types import ValueType
 
 
 class ParameterBinding(msgspec.Struct, frozen=True):

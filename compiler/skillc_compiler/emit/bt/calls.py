@@ -26,11 +26,11 @@ from skillc_compiler.emit.bt.ports import (
     tree_ports,
     whole_ports,
 )
+from skillc_dsl.position import Position
 from skillc_model.skills import Compound, Implementation, Parameter, Skill, SkillLibrary
 from skillc_model.traversal import find_calls
 from skillc_model.tree import Call, Node
 from skillc_rdf.vocabulary.closure import reachable
-from skillc_rdf.vocabulary.types import Position
 
 
 def is_tree(library: SkillLibrary, skill: Skill) -> bool:

@@ -8,8 +8,9 @@ from collections.abc import Iterable
 import msgspec
 from markupsafe import Markup
 
+from skillc_dsl.position import Position
 from skillc_model.format_type import format_type
-from skillc_rdf.vocabulary.types import ClassType, ListType, Position, ValueType, Vocabulary, local_name
+from skillc_rdf.vocabulary.types import ClassType, ListType, ValueType, Vocabulary, local_name
 
 _NAME = re.compile(r"[A-Za-z_][\w-]*(?::[A-Za-z_][\w-]*)?")
 

@@ -18,6 +18,7 @@ from skillc_compiler.emit.owl.words import (
     SKILLC,
     SKIROS,
 )
+from skillc_dsl.position import Position
 from skillc_model.conditions import (
     Compare,
     Condition,
@@ -42,7 +43,7 @@ from skillc_model.skills import (
     Skill,
     SkillLibrary,
 )
-from skillc_rdf.vocabulary.types import ClassType, NumberType, Position
+from skillc_rdf.vocabulary.types import ClassType, NumberType
 
 Statement = tuple[str, str, Object]
 BOUND = ("in", "infer")

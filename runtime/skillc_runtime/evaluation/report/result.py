@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.history.history import LoopRound
 from skillc_runtime.recording.known_facts import KnownFact

@@ -7,12 +7,12 @@ from typing import assert_never
 
 from msgspec import structs
 
+from skillc_dsl.position import Position
 from skillc_model import tree
 from skillc_model.conditions import And, Condition, Expression, Individual, Not
 from skillc_model.rewriting import substitute
 from skillc_model.skills import SkillLibrary
 from skillc_model.traversal import free_variables
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.recording.space_claim import SpaceClaim

@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 
 Cause: TypeAlias = Literal[
     "out-of-reach",

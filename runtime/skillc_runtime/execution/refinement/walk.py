@@ -13,10 +13,10 @@ from typing import assert_never
 from msgspec import structs
 
 from skillc_dsl.descriptions.nodes import DECORATOR_OF
+from skillc_dsl.position import Position
 from skillc_model import tree
 from skillc_model.conditions import Condition
 from skillc_model.skills import Compound, Declared, Implementation, Primitive, SkillLibrary
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.cancellation import check_current
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.meetings import find_meeting_arms

@@ -9,12 +9,12 @@ from typing import TypeAlias
 import msgspec
 
 from skillc_dsl.descriptions.nodes import DECORATOR_OF
+from skillc_dsl.position import Position
 from skillc_model import tree
 from skillc_model.conditions import Condition, Expression, Not
 from skillc_model.read_write import changing_terms, is_fixed
 from skillc_model.skills import Declared, Implementation, Primitive, SkillLibrary
 from skillc_model.traversal import free_variables
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.binding import bind_arguments
 from skillc_runtime.execution.selection.foresight import ForesightTracker
 from skillc_runtime.execution.selection.inferred_parameters import infer_fixed_parameters

@@ -7,10 +7,10 @@ from typing import TypeAlias
 
 import msgspec
 
+from skillc_dsl.position import Position
 from skillc_model import tree
 from skillc_model.conditions import Expression, Variable
 from skillc_model.skills import Implementation
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.text_names import UnknownTextName
 from skillc_runtime.recording.failure import Rejection
 

@@ -8,8 +8,8 @@ from typing import Final
 import msgspec
 from msgspec import structs
 
+from skillc_dsl.position import Position
 from skillc_model.skills import Implementation, SkillLibrary
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
 from skillc_runtime.recording.failure import Failure, Rejection, Stage, as_failure
 from skillc_runtime.world.state.values import Value

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from heapq import heappop, heappush
 
+from skillc_dsl.position import Position
 from skillc_model.skills import SkillLibrary
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.tree.active_primitives import ActivePrimitives

@@ -5,7 +5,7 @@ from __future__ import annotations
 import traceback
 from pathlib import PurePath
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.devices.backend import BackendBroken
 from skillc_runtime.devices.cell import WatchdogTimeout
 from skillc_runtime.devices.device_map import NoSuchDevice

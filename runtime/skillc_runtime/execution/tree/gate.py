@@ -7,8 +7,8 @@ from typing import Literal, Protocol, TypeAlias, assert_never
 
 import msgspec
 
+from skillc_dsl.position import Position
 from skillc_model.skills import KEEP_S, PausePolicy
-from skillc_rdf.vocabulary.types import Position
 
 StepKind: TypeAlias = Literal["into", "over", "out"]
 MOST_DIGITS = 9

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import make_error
 from skillc_runtime.execution.tree.locks import Holders

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from skillc_dsl.position import Position
 from skillc_model import tree
 from skillc_model.skills import SkillLibrary
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.build import build_node
 from skillc_runtime.execution.tree.calls.call_node import CallNode
 from skillc_runtime.execution.tree.context import TreeContext

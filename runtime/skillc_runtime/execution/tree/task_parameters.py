@@ -7,11 +7,12 @@ from typing import TypeAlias, cast
 
 import msgspec
 
+from skillc_dsl.position import Position
 from skillc_model.conditions import Expression, Variable
 from skillc_model.skills import SkillLibrary, Task
 from skillc_model.traversal import children, walk
 from skillc_model.tree import Call, ForEach
-from skillc_rdf.vocabulary.types import Position, ValueType
+from skillc_rdf.vocabulary.types import ValueType
 from skillc_runtime.world.eval.identity_cache import IdentityCache
 
 _Index: TypeAlias = Mapping[tuple[Position, str], tuple[Task, Expression]]

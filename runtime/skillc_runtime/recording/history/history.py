@@ -7,7 +7,7 @@ from math import inf
 
 import msgspec
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.reasons import Highlight, ParameterReason, UntriedImplementation, WrittenExpression

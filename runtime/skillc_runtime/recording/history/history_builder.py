@@ -8,9 +8,9 @@ from typing import assert_never
 import msgspec
 from msgspec import structs
 
+from skillc_dsl.position import Position
 from skillc_model import tree
 from skillc_model.traversal import children
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording import events
 from skillc_runtime.recording.events import Event
 from skillc_runtime.recording.history.attempt_steps import collect_steps, failure_chain

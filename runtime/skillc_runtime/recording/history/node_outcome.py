@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import msgspec
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.recording.failure import Failure, Rejection
 
 

@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias, assert_never
 
 import msgspec
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.recording.history.history import RecordedCall, RecordedFact, RunHistory
 from skillc_runtime.recording.reasons import DecidingCondition, NameInExpression, WrittenExpression
 from skillc_runtime.world.state.labels.labelled import LabelledFact, LabelledIri, LabelledValue

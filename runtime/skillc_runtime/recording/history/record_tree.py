@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from msgspec import structs
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.recording.history.history import RecordedAttempt, RecordedCall, RunHistory
 from skillc_runtime.recording.history.node_outcome import NodeOutcome
 from skillc_runtime.recording.history.node_records import AttemptRecord, NodeRecord

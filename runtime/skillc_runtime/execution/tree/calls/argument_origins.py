@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from skillc_dsl.position import Position
 from skillc_model import tree
 from skillc_model.conditions import Expression, Literal
 from skillc_model.format_condition import format_expression
 from skillc_model.skills import Implementation
 from skillc_model.traversal import free_variables_in_order
-from skillc_rdf.vocabulary.types import ListType, Position
+from skillc_rdf.vocabulary.types import ListType
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import LexicalScope
 from skillc_runtime.execution.tree.node import Node

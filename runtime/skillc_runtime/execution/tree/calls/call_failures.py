@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from msgspec import structs
 
+from skillc_dsl.position import Position
 from skillc_model.skills import Implementation
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.recording.failure import Failure, Rejection
 
 

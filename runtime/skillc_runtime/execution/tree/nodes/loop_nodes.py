@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+from skillc_dsl.position import Position
 from skillc_model import tree
-from skillc_rdf.vocabulary.types import Position
 from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope

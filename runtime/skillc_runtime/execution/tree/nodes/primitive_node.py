@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import ClassVar
 
-from skillc_rdf.vocabulary.types import Position
+from skillc_dsl.position import Position
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import describe_exception
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
