@@ -139,10 +139,10 @@ def test_the_patterns_of_verify() -> None:
     ]
     force = ("Compare", ("NameReference", "force"), ">", ("Quantity", 25.0, "N"))
     assert found == [
-        ("Verify", "outside", ("Event", "A"), ("Event", "B")),
-        ("Verify", "before", ("Event", "A"), ("Event", "B")),
-        ("Verify", "eventually", ("Event", "A"), ("Event", "B")),
-        ("Verify", "never", ("Event", force), None),
+        ("Verify", "outside", ("VerifyEvent", "A"), ("VerifyEvent", "B")),
+        ("Verify", "before", ("VerifyEvent", "A"), ("VerifyEvent", "B")),
+        ("Verify", "eventually", ("VerifyEvent", "A"), ("VerifyEvent", "B")),
+        ("Verify", "never", ("VerifyEvent", force), None),
     ]
 
 
