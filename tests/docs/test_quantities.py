@@ -1,4 +1,7 @@
-"""The documentation of functions for geometry, control and devices says the unit, shape and frame of each quantity."""
+"""The documentation of functions for geometry, control and devices says the unit, shape and frame of each quantity.
+
+Each argument that is a quantity is named there; where there are more than two, each has a line of its own.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +9,14 @@ import ast
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 import pytest
 
 RUNTIME = Path(__file__).parents[2] / "runtime/skillc_runtime"
-PACKAGES = ("control", "devices", "motion", "world/space")
+PACKAGES = ("collision", "control", "devices", "kinematics", "motion", "world/space")
+MOST_IN_PROSE = 2
+"""So many quantities may be described in sentences."""
 
 Function: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -36,6 +41,11 @@ NUMBER = re.compile(r"float(?: \| None)?|tuple\[float(?:, float)*\]|Iterator\[fl
 ARRAY = re.compile(r"\b(?:Array|Vector|Matrix|OutVector|OutMatrix|NDArray)\b")
 
 
+Kind: TypeAlias = Literal["array", "number", "pose"]
+IN_A_LINE: dict[Kind, tuple[re.Pattern[str], ...]] = {"array": (SHAPE, UNIT), "number": (UNIT,), "pose": (FRAME,)}
+"""What the line of an argument says."""
+
+
 class Documented(NamedTuple):
     """A public function and what its documentation says: for a method, that of its class as well."""
 
@@ -57,6 +67,33 @@ def public_functions(tree: ast.Module) -> Iterator[Documented]:
                     yield Documented(name, method, f"{about}\n{ast.get_docstring(method) or ''}")
 
 
+def kind_of(annotation: str) -> Kind | None:
+    """Return which kind of quantity a type is, None for another type."""
+    if ARRAY.search(annotation):
+        return "array"
+    if NUMBER.fullmatch(annotation):
+        return "number"
+    return "pose" if re.search(r"\bPose\b", annotation) else None
+
+
+def undescribed(function: Function, text: str) -> list[str]:
+    """Return the arguments that are not named, or that have no line of their own with what it should say."""
+    arguments = [*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs]
+    kinds = {each.arg: kind_of(ast.unparse(each.annotation)) for each in arguments if each.annotation}
+    quantities = {name: kind for name, kind in kinds.items() if kind is not None}
+    unsaid = {
+        name: kind for name, kind in quantities.items() if not (NAMED_UNIT.search(name) or NAMED_FRAME.search(name))
+    }
+    if len(quantities) <= MOST_IN_PROSE:
+        return [name for name in unsaid if not re.search(rf"\b{name}\b", text)]
+    lines = {name: re.search(rf"^{name}: (.*)$", text, re.MULTILINE) for name in unsaid}
+    said = {
+        name: line and all(pattern.search(line[1]) for pattern in IN_A_LINE[unsaid[name]])
+        for name, line in lines.items()
+    }
+    return [name for name, is_said in said.items() if not is_said]
+
+
 def missing(function: Function, text: str) -> list[str]:
     """Return which of shape, unit and frame the documentation of a function does not say."""
     arguments = [*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs]
@@ -70,7 +107,8 @@ def missing(function: Function, text: str) -> list[str]:
         "unit": (arrays or numbers, UNIT),
         "frame": (poses or (arrays and SPATIAL.search(text)), FRAME),
     }
-    return [what for what, (applies, pattern) in needed.items() if applies and not pattern.search(text)]
+    lacking = [what for what, (applies, pattern) in needed.items() if applies and not pattern.search(text)]
+    return [*lacking, *(f"`{name}`" for name in undescribed(function, text))]
 
 
 @pytest.mark.parametrize("package", PACKAGES)
@@ -91,9 +129,17 @@ CASES = {
     "def f(q: Array) -> None: 'Move to joints q (nv,).'": ["unit"],
     "def f(point: Array) -> None: 'Move to a point (3,) in m of the world.'": [],
     "def f(point: Array) -> None: 'Move to a point (3,) in m.'": ["frame"],
-    "def f(goal: Pose) -> None: 'Move there.'": ["frame"],
+    "def f(goal: Pose) -> None: 'Move to the goal.'": ["frame"],
+    "def f(goal: Pose) -> None: 'Move there, in the world.'": ["`goal`"],
+    "def f(q: Array, dq: Array, period: float) -> None: 'Move q, dq (nv,) in rad, rad/s, for a period in s.'": [
+        "`q`",
+        "`dq`",
+        "`period`",
+    ],
+    "def f(q: Array, dq: Array, h: float) -> None: 'Move.\\nq: (nv,) in rad.\\ndq: (nv,) in rad/s.\\nh: s.'": [],
+    "def f(q: Array, dq: Array, h: float) -> None: 'Move.\\nq: (nv,) in rad.\\ndq: in rad/s.\\nh: s.'": ["`dq`"],
     "def f(goal_in_base: Pose) -> None: 'Move there.'": [],
-    "def f(speed: float) -> None: 'Move so fast.'": ["unit"],
+    "def f(speed: float) -> None: 'Move at this speed.'": ["unit"],
     "def f(speed: float) -> None: 'Move with a speed in m/s.'": [],
     "def f(speed_m_s: float) -> None: 'Move so fast.'": [],
     "def speed() -> float: 'Return the speed.'": ["unit"],

@@ -59,7 +59,10 @@ class ArmParts:
         yield from self._list(q, base, self._geoms.tolist())
 
     def list_hand(self, q: Array, base: Pose) -> Iterator[SolidObstacle]:
-        """Yield the geoms of the hand and of what it holds, as `list_obstacles`."""
+        """Yield the geoms of the hand and of what it holds, as `list_obstacles`.
+
+        q (nv,): rad; base: pose in the world.
+        """
         yield from self._list(q, base, [each for each in self._geoms.tolist() if each not in self._body.links])
 
     def _list(self, q: Array, base: Pose, geoms: list[int]) -> Iterator[SolidObstacle]:

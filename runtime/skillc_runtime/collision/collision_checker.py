@@ -78,7 +78,7 @@ class CollisionChecker:
         """From now on allow distances as small as at the start of a motion and, without contact, at its end.
 
         Pairs that overlap at the start may overlap twice as much on the way out. An overlap deeper than the clearance
-        cannot be real, so the pose of such an obstacle is wrong and it is ignored.
+        cannot be real, so the pose of such an obstacle is wrong and it is ignored. start, goal (nv,): rad.
         """
         begin, end = self.near_pairs(start), self.near_pairs(goal)
         deep = [pair for pair, far in begin.items() if far < SLACK_M / 2 - self.model.margin and not self._within(pair)]
@@ -97,13 +97,13 @@ class CollisionChecker:
         return self._collision(*min(wrong)) if wrong else None
 
     def first_collision(self, way: Iterable[Array]) -> Collision | None:
-        """Return the first collision along postures (nv,), None if there is none."""
+        """Return the first collision along postures `way`, each (nv,) in rad, None if there is none."""
         return next((touch for q in way if (touch := self.find_collision(q)) is not None), None)
 
     def find_free_share(self, start: Array, goal: Array) -> float:
-        """Return which share of the straight way from a posture that is free to another (nv,) is free: 1 for all.
+        """Return which share of the straight way from a posture that is free to another is free: 1 for all.
 
-        0 if less than half is: the middle is looked at first.
+        0 if less than half is: the middle is looked at first. start, goal (nv,): rad.
         """
         change, share, before = goal - start, 0.0, 0.0
         if self._look_ahead(start, 0.5, change) < 0.0:
@@ -121,7 +121,7 @@ class CollisionChecker:
         return self._find_advance(self._least, self._data, change)
 
     def worst_collision(self, way: Iterable[Array]) -> Collision | None:
-        """Return the worst collision along postures (nv,), None if there is none."""
+        """Return the worst collision along postures `way`, each (nv,) in rad, None if there is none."""
         touches = (touch for q in way if (touch := self.find_collision(q)) is not None)
         return min(touches, key=lambda touch: touch.distance_m, default=None)
 

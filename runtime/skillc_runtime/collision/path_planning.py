@@ -45,7 +45,7 @@ def plan_joint_path(
     """Return the postures (nv,) of a path, without the start, to the first goal that can be reached.
 
     `contacts` then allows the distances at start and goal. Raises NoPath, which says what is in the way to the first
-    goal. Cancelled if the work around it ends.
+    goal. Cancelled if the work around it ends. start, each of goals (nv,): rad.
     """
     reasons, searched = list[str](), 0
     for goal in goals:
@@ -84,7 +84,7 @@ def find_motion_collision(contacts: CollisionChecker, motion: JointTrajectory) -
 
 
 def is_path_free(contacts: CollisionChecker, postures: Sequence[Array]) -> bool:
-    """Whether the straight pieces between postures (nv,) are free, the first of which is."""
+    """Whether the straight pieces between postures, each (nv,) in rad, are free, the first of which is."""
     return all(contacts.find_free_share(*piece) == 1.0 for piece in pairwise(postures))
 
 

@@ -27,7 +27,10 @@ CUTS = (0.75, 0.5, 0.25)
 def sample_path(reach: Reach, start: Array, goal: Array, bounds: Array, rounds: int, seed: int) -> list[Array] | None:
     """Return the points (n,) of a path from start to goal whose straight pieces are free; None if none was found.
 
-    bounds (n, 2) contain start and goal. At most `rounds` random points are drawn.
+    At most `rounds` random points are drawn.
+    start: (n,) in any unit, such as joints in rad.
+    goal: (n,) in any unit, that of the start.
+    bounds: (n, 2) in any unit, that of the start; they contain start and goal.
     """
     draw, low, span = np.random.default_rng(seed), bounds[:, 0], bounds[:, 1] - bounds[:, 0]
     longest = LONGEST * float(np.linalg.norm(span))
@@ -44,7 +47,10 @@ def sample_path(reach: Reach, start: Array, goal: Array, bounds: Array, rounds: 
 
 
 def shorten(points: list[Array], reach: Reach) -> list[Array]:
-    """Return a path from the first to the last of the points (n,) of one, shorter where the way is free."""
+    """Return a path from the first to the last of the points of one, shorter where the way is free.
+
+    points: each (n,) in any unit.
+    """
     points = _skip(points, reach)
     for share in CUTS:
         kept = points[:1]

@@ -74,7 +74,7 @@ class Scenery(msgspec.Struct, frozen=True):
 
 
 def pose_key(pose: Pose) -> PoseKey:
-    """Return a pose as numbers, rounded to 1 um and 1 urad so that equal poses compare equal."""
+    """Return a pose in any frame as numbers, rounded to 1 um and 1 urad so that equal poses compare equal."""
     quaternion = quaternion_from_rotation(pose.rotation)
     return PoseKey(tuple(np.round(pose.position, 6).tolist()), tuple(np.round(quaternion, 6).tolist()))
 

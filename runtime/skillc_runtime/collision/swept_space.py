@@ -65,7 +65,10 @@ class SweptSpace:
 
 
 def sweep_space(assembly: ArmAssembly, base: Pose, way: Sequence[Array]) -> SweptSpace:
-    """Return the space that an arm with its base at a pose sweeps from posture to posture, each (nv,) in rad."""
+    """Return the space that an arm sweeps from posture to posture of `way`, each (nv,) in rad.
+
+    base: pose of its base in the world.
+    """
     parts = ArmParts(assembly)
     looks = [parts.place(way[0])]
     for one, other in pairwise(way):

@@ -43,8 +43,12 @@ DAMPING: Final = 1e-3
 class BlindStop:
     """Commands one arm until somebody has acknowledged that its signals are wrong.
 
-    dq (nv,): rad/s at the start, q (nv,): rad, where servos are commanded to be; holds (nv,): bias N m of the last
-    plausible posture; back (nv,): rad, by which servos go back then; period: s.
+    dq: (nv,) in rad/s, the speeds of the joints at the start.
+    q: (nv,) in rad, where servos are commanded to be.
+    holds: (nv,) in N m, the bias torques of the last plausible posture.
+    mass: (nv, nv) in kg m^2, the mass matrix of the joints there.
+    back: (nv,) in rad, by which servos go back then.
+    period: s, of control.
     """
 
     def __init__(

@@ -139,9 +139,12 @@ class ComplianceControl:
             self._task.tool.restore_rotation(self._task.now)
 
     def push(self, axis: Array, force_n: float, fastest_m_s: float = inf) -> None:
-        """Push opposite to `axis` (3,), which must be released; ValueError if it is not.
+        """Push opposite to an axis, which must be released; ValueError if it is not.
 
         The tool is braked if it moves faster than `fastest_m_s` in the direction of the push, for whatever reason.
+        axis: (3,), a unit vector in the world.
+        force_n: N.
+        fastest_m_s: m/s.
         """
         self._let_go()
         tool = self._task.move_tool()

@@ -159,9 +159,12 @@ class ComplianceState:
         return before.frame[:, before.stiffness[:3] != after.stiffness[:3]]
 
     def push(self, direction: Array, force_n: float, fastest_m_s: float = inf) -> None:
-        """Push along a direction (3,) of the tool frame, and limit the speed of the tool in it.
+        """Push along a direction, and limit the speed of the tool in it.
 
         Raises ValueError if the direction is not released.
+        direction: (3,), a unit vector in the tool frame.
+        force_n: N.
+        fastest_m_s: m/s.
         """
         axis = _axis(self.wanted.frame, direction)
         if not self.yields(direction):

@@ -31,15 +31,24 @@ SQUARES, PRODUCTS, FORCE, STIFFNESS = range(4)
 
 
 def stiffest_contact(admittance: float, lag_s: float, delay_s: float) -> float:
-    """Return K_0 in N/m for an admittance in m/(s N), its lag T_v and the delay d of commands in s."""
+    """Return K_0 in N/m.
+
+    admittance: m/(s N), of the tool.
+    lag_s: s, the lag T_v of the admittance.
+    delay_s: s, the delay d of commands.
+    """
     return GREATEST_GAIN / (admittance * (lag_s + 2.0 * delay_s))
 
 
 @inlined
 def identify_stiffness(memory: OutVector, speed: float, force: float, approach: float, period: float) -> None:
-    """Let the stiffness follow from a period: memory (4,); speed, approach: m/s, as it is and as wanted; force: N.
+    """Let the stiffness follow from a period; speed and force are along the same axis, in any frame.
 
-    Speed and force are along the same axis, in any frame; period: s.
+    memory: (4,) in m^2, N m, N and N/m, see `SQUARES`; it is changed.
+    speed: m/s, as it is.
+    force: N.
+    approach: m/s, as it is wanted.
+    period: s.
     """
     keep, way = exp(-period / FORGETTING_S), speed * period
     memory[SQUARES] = keep * memory[SQUARES] + way * way

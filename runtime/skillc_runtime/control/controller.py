@@ -27,7 +27,7 @@ class Controller(Protocol):
         ...
 
     def reset(self, state: ArmState, q: Array, dq: Array) -> None:
-        """Start from joint positions and speeds (nv,), rad and rad/s: those commanded last, or the measured ones."""
+        """Start from what was commanded last, or measured. q (nv,): rad; dq (nv,): rad/s."""
         ...
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:

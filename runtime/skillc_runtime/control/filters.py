@@ -10,15 +10,19 @@ from skillc_runtime.motion.numerics.compiled import compiled, inlined
 
 @inlined
 def lag_share(period: float, time_constant: float) -> float:
-    """Return the share of the way to its target that a lag with a time constant covers in a period, both in s."""
+    """Return the share of the way to its target that a lag covers in a period; period, time_constant: s."""
     return 1 - exp(-period / time_constant) if time_constant > 0 else 1.0
 
 
 @compiled
 def step_lag(value: OutVector, target: Vector, share: float, grain: float) -> bool:
-    """Let a value (n,) cover a share of the way to its target (n,); at a distance of `grain`, in its unit, all of it.
+    """Let a value cover a share of the way to its target; at a distance of `grain` all of it.
 
     Return whether it has arrived.
+    value: (n,) in any unit.
+    target: (n,) in any unit, that of the value.
+    share: 0 to 1, the share of the way, without a unit.
+    grain: in any unit, that of the value.
     """
     square = 0.0
     for i in range(value.size):

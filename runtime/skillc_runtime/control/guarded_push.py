@@ -57,7 +57,7 @@ class ActivePush:
 
 
 def measured_force(memory: Array) -> MeasuredForce:
-    """Return what was measured of the force of a push (n,), in N, up to now."""
+    """Return what was measured of the force of a push up to now; memory (n,): in N, s and m, of the push."""
     free = int(min(memory[numbers.FREE_COUNT] - TOUCHING_SAMPLES, numbers.FREE_SAMPLES))
     count = memory[numbers.COUNT]
     samples = memory[numbers.FREE : numbers.FREE + max(free, 0)].tolist()

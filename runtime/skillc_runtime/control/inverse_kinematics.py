@@ -11,10 +11,13 @@ from skillc_runtime.motion.pose import Array, Pose
 
 
 def solve_inverse_kinematics(arm: VirtualArm, target: Pose, seed: Array, limits: Array) -> Array | None:
-    """Return joints (nv,) in rad, within limits (nv, 2), with the tool at `target` in base; None if there are none.
+    """Return joints (nv,) in rad, within limits, with the tool at the target; None if there are none.
 
-    The result is the solution from `seed` (nv,) if there is one, else the one nearest to it from seeds all over the
-    range. Joints keep away from the ends of their ranges, where they are pushed back.
+    The result is the solution from the seed if there is one, else the one nearest to it from seeds all over the range.
+    Joints keep away from the ends of their ranges, where they are pushed back.
+    target: pose of the tool in the frame of the base.
+    seed: (nv,) in rad.
+    limits: (nv, 2) in rad, the ranges of the joints.
     """
     if not arm.may_reach(target):
         return None
@@ -22,9 +25,12 @@ def solve_inverse_kinematics(arm: VirtualArm, target: Pose, seed: Array, limits:
 
 
 def rank_arm_postures(arm: VirtualArm, target: Pose, rest: Array, limits: Array) -> Array:
-    """Return postures (n, nv) in rad, within limits (nv, 2), with the tool at `target` in base, the best first.
+    """Return postures (n, nv) in rad, within limits, with the tool at the target, the best first.
 
-    The first one is the one of `solve_inverse_kinematics` from `rest` (nv,).
+    The first one is the one of `solve_inverse_kinematics` from `rest`.
+    target: pose of the tool in the frame of the base.
+    rest: (nv,) in rad.
+    limits: (nv, 2) in rad, the ranges of the joints.
     """
     if not arm.may_reach(target):
         return np.empty((0, len(rest)))

@@ -64,9 +64,12 @@ class Kinematics:
         check_overlay_feasible(self._arm, overlay, axes, limits)
 
     def limit_tool_speed(self, start: Array, goal: Array, speed: Array, most_m_s: float, state: ArmState) -> Array:
-        """Return joint speeds (nv,) in rad/s, all scaled down so that a joint motion keeps the tool below `most_m_s`.
+        """Return joint speeds (nv,) in rad/s, all scaled down so that a joint motion keeps the tool below a speed.
 
-        start, goal (nv,): rad; speed (nv,): rad/s.
+        start: (nv,) in rad.
+        goal: (nv,) in rad.
+        speed: (nv,) in rad/s, of the joints.
+        most_m_s: m/s, of the tool.
         """
         change, fastest = goal - start, 0.0
         way = np.maximum(np.abs(change), 1e-12)
@@ -79,9 +82,12 @@ class Kinematics:
     def joint_path(
         self, postures: Sequence[Array], limits: ArmLimits, share: float, most_m_s: float, blend: float, state: ArmState
     ) -> JointPath:
-        """Return a joint motion through postures (nv,) in rad, at a share of joint speeds, the tool below a speed.
+        """Return a joint motion through postures, which keeps the tool below a speed.
 
-        blend: share, 0 to 1, of the possible overlap at each intermediate posture; the motion stops there at 0.
+        postures: each (nv,) in rad.
+        share: above 0 to 1, the share of the greatest joint speeds.
+        most_m_s: m/s, of the tool.
+        blend: 0 to 1, the share of the possible overlap at each intermediate posture; the motion stops there at 0.
         """
         calm = [self.limit_tool_speed(*piece, share * limits.velocity, most_m_s, state) for piece in pairwise(postures)]
         slowest = np.min(calm, axis=0)
@@ -101,14 +107,21 @@ class Kinematics:
         return f"{self._arm.joint_name(joint)} is {far[joint]:.3f} {unit} away from where it shall be"
 
     def inverse_kinematics(self, target: Pose, seed: Array, limits: Array, state: ArmState) -> Array | None:
-        """Return joints (nv,) in rad, within limits (nv, 2), with the tool at `target` in base, near `seed`.
+        """Return joints (nv,) in rad, within limits, with the tool at the target, near the seed, or None.
 
-        Or None.
+        target: pose of the tool in the frame of the base.
+        seed: (nv,) in rad.
+        limits: (nv, 2) in rad, the ranges of the joints.
         """
         self._arm.mount_tool(state.q, state.tool)
         return solve_inverse_kinematics(self._arm, target, seed, limits)
 
     def rank_postures(self, target: Pose, rest: Array, limits: Array, state: ArmState) -> Array:
-        """Return postures (n, nv) in rad, within limits (nv, 2), with the tool at `target` in base, the best first."""
+        """Return postures (n, nv) in rad, within limits, with the tool at the target, the best first.
+
+        target: pose of the tool in the frame of the base.
+        rest: (nv,) in rad, near which they are.
+        limits: (nv, 2) in rad, the ranges of the joints.
+        """
         self._arm.mount_tool(state.q, state.tool)
         return rank_arm_postures(self._arm, target, rest, limits)

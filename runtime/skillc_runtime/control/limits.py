@@ -36,7 +36,10 @@ COMMANDED rad, SPEED rad/s: positions and speeds commanded last; LEAST, MOST rad
 
 
 def range_margin(limits: Array) -> Array:
-    """Return the distances (nv,) from the ends of ranges (nv, 2), rad or m, within which joints are pushed back."""
+    """Return the distances (nv,) from the ends of ranges within which joints are pushed back.
+
+    limits (nv, 2): rad or m.
+    """
     return np.minimum(RANGE_MARGIN, RANGE_MARGIN_SHARE * (limits[:, 1] - limits[:, 0]))
 
 
@@ -110,8 +113,11 @@ class JointLimit:
 class SpeedLimit(JointLimit):
     """The same for a velocity-controlled arm: dq = dq_c + pull (q_expected - q), so that errors do not accumulate.
 
-    Joints q (nv,) in rad are expected to follow with a lag of `lag` s, lag dq_expected + q_expected = q_c, which is not
-    an error. No command exceeds the speed limit of a joint or leaves its range within a period. pull: 1/s.
+    Joints are expected to follow with a lag dq_expected + q_expected = q_c, which is not an error. No command exceeds
+    the speed limit of a joint or leaves its range within a period.
+    q: (nv,) in rad.
+    pull: 1/s.
+    lag: s.
     """
 
     def __init__(self, limits: ArmLimits, q: Array, pull: float, lag: float) -> None:
@@ -146,9 +152,14 @@ def _clamp(x: float, least: float, most: float) -> float:
 
 @compiled
 def limit_torque(tau_out: OutVector, rows: OutMatrix, tau: Vector, q: Vector, bias: Vector, longest: float) -> None:
-    """Let the ramp follow tau (nv,) by steps of at most `longest`; add the bias, and push joints back into range.
+    """Let the ramp follow tau by limited steps; add the bias, and push joints back into range.
 
-    tau_out, tau, bias (nv,), longest: N m; q (nv,): rad; rows: see `TorqueLimit`.
+    tau_out: (nv,) in N m; it is written.
+    rows: (5, nv) in N m and rad, see `TorqueLimit`.
+    tau: (nv,) in N m.
+    q: (nv,) in rad.
+    bias: (nv,) in N m.
+    longest: N m, the greatest step.
     """
     for j in range(tau_out.size):
         rows[RAMP, j] += _clamp(tau[j] - rows[RAMP, j], -longest, longest)
@@ -158,9 +169,13 @@ def limit_torque(tau_out: OutVector, rows: OutMatrix, tau: Vector, q: Vector, bi
 
 @compiled
 def limit_joints(rows: OutMatrix, q: Vector, measured: Vector, period: float) -> bool:
-    """Let the command follow q (nv,) in rad within limits, for the next `period` s; rows (9, nv): see `JointLimit`.
+    """Let the command follow q within limits.
 
-    Return False, and change nothing, if the joints `measured` (nv,) in rad are too far from the command.
+    Return False, and change nothing, if the joints are too far from the command.
+    rows: (9, nv) in rad and rad/s, see `JointLimit`.
+    q: (nv,) in rad.
+    measured: (nv,) in rad, the joints.
+    period: s.
     """
     square = 0.0
     for j in range(q.size):

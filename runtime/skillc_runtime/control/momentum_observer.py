@@ -54,7 +54,12 @@ class MomentumObserver:
         self._wrench = np.zeros(6)
 
     def add_command(self, tau: Array, bias: Array, period: float) -> None:
-        """Add the joint torques tau (nv,) in N m, bias included, of the next `period` s, and the bias (nv,)."""
+        """Add the joint torques of the next period.
+
+        tau: (nv,) in N m, bias included.
+        bias: (nv,) in N m.
+        period: s.
+        """
         add_impulse(self.memory.impulse, tau, bias, period)
 
     def step(self, state: ArmState, period: float) -> None:
@@ -74,14 +79,23 @@ class MomentumObserver:
 
 @compiled
 def add_impulse(impulse: OutVector, tau: Vector, bias: Vector, period: float) -> None:
-    """Add (tau - bias) period to the impulse (nv,) in N m s; tau, bias (nv,): N m, period: s."""
+    """Add (tau - bias) period to the impulse.
+
+    impulse: (nv,) in N m s.
+    tau: (nv,) in N m.
+    bias: (nv,) in N m.
+    period: s.
+    """
     for j in range(impulse.size):
         impulse[j] += (tau[j] - bias[j]) * period
 
 
 @inlined
 def observe_momentum(memory: ObserverMemory, state: ArmState, period: float) -> None:
-    """At the end of a window, let the external torque (nv,) in N m follow (M (dq_now - dq) - impulse) / elapsed."""
+    """At the end of a window, let the external torque (nv,) in N m follow (M (dq_now - dq) - impulse) / elapsed.
+
+    period: s.
+    """
     torque, impulse, dq, elapsed = memory.torque, memory.impulse, memory.dq, memory.elapsed
     elapsed[0] += period
     if elapsed[0] <= WINDOW_S - period / 2:
@@ -101,9 +115,12 @@ def observe_momentum(memory: ObserverMemory, state: ArmState, period: float) -> 
 
 @compiled
 def estimate_wrench(wrench: OutVector, torque: Vector, J: Matrix, damping: float) -> None:
-    """wrench (6,) = (J J^T + lam^2 I)^-1 J torque, N and N m, base axes.
+    """wrench = (J J^T + lam^2 I)^-1 J torque.
 
-    torque (nv,): N m; J (6, nv): [linear m; angular rad] per rad, base axes; damping: lam^2.
+    wrench: (6,) in N and N m, base axes; it is written.
+    torque: (nv,) in N m.
+    J: (6, nv), [linear m; angular rad] per rad, base axes.
+    damping: lam^2, in the units of J J^T, m^2 and rad^2.
     """
     gram, force = np.empty((6, 6)), np.empty(6)
     product(J, J.T, gram)

@@ -172,7 +172,7 @@ class MotionControl:
         self._task.tool.reference_generator.remove(handle, self._task.now)
 
     def inverse_kinematics(self, target: Pose, seed: Array) -> Array | None:
-        """Return joints (nv,) in rad, within limits, with the tool at a pose in the world; None if there are none.
+        """Return joints (nv,) in rad, within limits, with the tool at `target` in the world; None if there are none.
 
         The result is near `seed` (nv,).
         """

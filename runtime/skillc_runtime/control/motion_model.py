@@ -34,21 +34,22 @@ class ArmMotionModel(msgspec.Struct, frozen=True):
     tool_speed_m_s: float
 
     def inverse_kinematics(self, target: Pose, seed: Array) -> Array | None:
-        """Return joints (nv,) in rad, near `seed`, with the tool at a pose in the world; None if there are none."""
+        """Return joints (nv,) in rad, near `seed`, with the tool at `target` in the world; None if there are none."""
         in_base = self.base.inverse() @ target
         return self.kinematics.inverse_kinematics(in_base, seed, self.limits.range, self.state)
 
     def rank_postures(self, target: Pose, rest: Array) -> Array:
-        """Return postures (n, nv) in rad with the tool at a pose in the world, the best first: near `rest` (nv,)."""
+        """Return postures (n, nv) in rad with the tool at `target` in the world, the best first: near `rest` (nv,)."""
         in_base = self.base.inverse() @ target
         return self.kinematics.rank_postures(in_base, rest, self.limits.range, self.state)
 
     def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
-        """Return the motion of the joints from `start` through the postures `way`, each (nv,) in rad.
+        """Return the motion of the joints from `start` through postures.
 
-        share: of the greatest joint speeds, above 0 to 1; reduced if the tool would be too fast. blend: share, 0 to 1,
-        of the possible overlap at each intermediate posture; the motion stops there at 0. Infeasible if the tool would
-        leave its workspace.
+        Infeasible if the tool would leave its workspace.
+        way: postures, each (nv,) in rad.
+        share: above 0 to 1, the share of the greatest joint speeds; reduced if the tool would be too fast.
+        blend: share, 0 to 1, of the possible overlap at each intermediate posture; the motion stops there at 0.
         """
         postures, speed = (self.start, *way), self.tool_speed_m_s
         motion = self.kinematics.joint_path(postures, self.limits, share, speed, blend, self.state)

@@ -92,9 +92,12 @@ def begin_approach(push: Array) -> None:
 
 @inlined
 def advance_approach(push: Array, speed: float, force_n: float, period: float) -> float:
-    """Advance a push (n,) by `period` s: `speed` m/s to the surface, `force_n` N of the surroundings against the tool.
+    """Advance a push. Return an action: PRESS as soon as a condition is met, NO_CONTACT beyond the travel.
 
-    Return an action: PRESS as soon as a condition is met, NO_CONTACT beyond the travel.
+    push: (n,) in m, s and N, see `control.push_memory`.
+    speed: m/s, to the surface.
+    force_n: N, of the surroundings against the tool.
+    period: s.
     """
     wanted, steady = push[SPEED], 0.0
     if STEADY_SHARE[0] * wanted < speed < STEADY_SHARE[1] * wanted:
@@ -120,7 +123,12 @@ def advance_approach(push: Array, speed: float, force_n: float, period: float) -
 
 @inlined
 def advance_pressing(push: Array, speed: float, period: float) -> float:
-    """Advance a push (n,) by `period` s, `speed` m/s in its direction; return APPROACH if contact was lost."""
+    """Advance a push that presses; return APPROACH if contact was lost.
+
+    push: (n,) in m, s and N.
+    speed: m/s, in its direction.
+    period: s.
+    """
     push[FAST] = push[FAST] + period if speed > FALL_SHARE * push[SPEED] else 0.0
     push[LASTED] += period
     return APPROACH if push[FAST] >= FALL_S else GO_ON
@@ -192,9 +200,11 @@ def _advance_push(
 
 @inlined
 def advance_pushes(pushes: Array, contact: Array, safety: SafetyMemory, state: ArmState, period: float) -> bool:
-    """Advance all pushes, one a row, by `period` s; return whether one of them has an action.
+    """Advance all pushes; return whether one of them has an action.
 
-    contact (3,): N, the force of the surroundings on the tool, in base.
+    pushes: (n, m) in m, s and N, one a row.
+    contact: (3,) in N, the force of the surroundings on the tool, in base.
+    period: s.
     """
     acts, velocity, at = False, np.empty(3), state.tool.position
     for number in range(pushes.shape[0]):

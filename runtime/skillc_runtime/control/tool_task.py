@@ -24,7 +24,7 @@ RETURN_M_S, RETURN_M_S2 = 0.02, 0.05
 class ToolTask:
     """Reference and compliance of the tool; releases and restores change both.
 
-    Times are in s, directions (3,) unit vectors.
+    Times `now` are in s, directions (3,) unit vectors.
     """
 
     def __init__(self, gains: Gains, law: Controller, tool: Pose) -> None:
@@ -48,7 +48,12 @@ class ToolTask:
         return self._law.command(state, self.reference, self.compliance.applied, period)
 
     def restart_from(self, state: ArmState, joints: JointReference, tool: Pose, twist: Array, now: float) -> None:
-        """Come to rest from joints with the tool at `tool`, in base, and a twist (6,), m/s and rad/s."""
+        """Come to rest from joints with the tool at a pose and with a twist.
+
+        tool: pose in the base frame.
+        twist: (6,) in m/s and rad/s, base axes.
+        now: s.
+        """
         self._set_shift(NO_SHIFT)
         self._law.reset(state, joints.q, joints.dq)
         self.reference_generator.restart_from(tool, twist, now)
@@ -99,7 +104,12 @@ class ToolTask:
         self._set_shift(constant_shift(self._shift.at(now)[0] + released @ (released.T @ away)))
 
     def lift(self, way: Array, speed: float, now: float) -> None:
-        """Move the held tool beside its motion, by `way` (3,) in m in base, with a speed in m/s."""
+        """Move the held tool beside its motion.
+
+        way: (3,) in m, in base.
+        speed: m/s.
+        now: s.
+        """
         self._set_shift(self._shift.towards(self._shift.at(now)[0] + way, speed, self._acceleration_m_s2, now))
 
     def let_go_released(self, now: float) -> None:
@@ -130,7 +140,13 @@ class ToolTask:
         return reference, self._law.tool.position - reference.position
 
     def push(self, direction: Array, force_n: float, fastest_m_s: float, now: float) -> None:
-        """Push along a direction (3,) in base; ValueError if the force is not allowed or the direction not released."""
+        """Push along a direction; ValueError if the force is not allowed or the direction not released.
+
+        direction: (3,), a unit vector in base.
+        force_n: N.
+        fastest_m_s: m/s, of the tool along the direction.
+        now: s.
+        """
         if not 0 <= force_n <= self._force_limit:
             raise ValueError(f"{force_n:g} N is beyond the {self._force_limit:g} N that the arm may push with")
         self.compliance.push(self.in_tool(direction, now), force_n, fastest_m_s)

@@ -106,18 +106,20 @@ class MotionModel(Protocol):
         ...
 
     def rank_postures(self, target: Pose, rest: Array) -> Array:
-        """Return postures (n, nv) in rad with the tool at a pose in the world, the best first: near `rest` (nv,)."""
+        """Return postures (n, nv) in rad with the tool at `target` in the world, the best first: near `rest` (nv,)."""
         ...
 
     def inverse_kinematics(self, target: Pose, seed: Array) -> Array | None:
-        """Return joints (nv,) in rad, near `seed`, with the tool at a pose in the world; None if there are none."""
+        """Return joints (nv,) in rad, near `seed`, with the tool at `target` in the world; None if there are none."""
         ...
 
     def joint_motion(self, way: Sequence[Array], share: float, blend: float = 0.0) -> JointTrajectory:
-        """Return the motion of the joints from where they come to rest through the postures `way`, each (nv,) in rad.
+        """Return the motion of the joints from where they come to rest.
 
-        share: of the greatest joint speeds, above 0 to 1. blend: share, 0 to 1, of the possible overlap at each
-        intermediate posture; the motion stops there at 0. Infeasible if the tool would leave its workspace.
+        Infeasible if the tool would leave its workspace.
+        way: postures, each (nv,) in rad.
+        share: above 0 to 1, the share of the greatest joint speeds.
+        blend: share, 0 to 1, of the possible overlap at each intermediate posture; the motion stops there at 0.
         """
         ...
 
@@ -215,7 +217,7 @@ class MotionInterface(Protocol):
         ...
 
     def inverse_kinematics(self, target: Pose, seed: Array) -> Array | None:
-        """Return joints (nv,) in rad, near `seed`, with the tool at a pose in the world; None if there are none."""
+        """Return joints (nv,) in rad, near `seed`, with the tool at `target` in the world; None if there are none."""
         ...
 
 
@@ -253,7 +255,7 @@ class ComplianceInterface(Protocol):
         ...
 
     def release(self, axis: Array, stiffness: float = 0.0) -> None:
-        """Release a direction, with a remaining stiffness in N/m.
+        """Release a direction `axis` (3,), with a remaining stiffness in N/m.
 
         Raises ValueError for a nested release that is neither parallel nor perpendicular to the first.
         """
@@ -269,7 +271,7 @@ class ComplianceInterface(Protocol):
         ...
 
     def yields_along(self, axis: Array) -> bool:
-        """Tell whether a direction is released."""
+        """Tell whether a direction `axis` (3,) is released."""
         ...
 
     def release_rotation(self) -> None:
@@ -281,7 +283,12 @@ class ComplianceInterface(Protocol):
         ...
 
     def push(self, axis: Array, force_n: float, fastest_m_s: float = inf) -> None:
-        """Push opposite to a direction, which must be released; ValueError if it is not."""
+        """Push opposite to a direction, which must be released; ValueError if it is not.
+
+        axis: (3,), a unit vector in the world.
+        force_n: N.
+        fastest_m_s: m/s, of the tool in the direction of the push.
+        """
         ...
 
     def push_off(self) -> None:

@@ -113,7 +113,7 @@ class Backend(Protocol):
         ...
 
     def advance(self, seconds: float) -> None:
-        """Let time pass, in s. BackendBroken if the cell breaks or has broken; other errors of its controllers."""
+        """Let `seconds` pass, in s. BackendBroken if the cell breaks or has broken; other errors of its controllers."""
         ...
 
     def publish(self) -> None:

@@ -42,7 +42,7 @@ class MobileBase(Protocol):
             raise NotOffered("the speed of the base is chosen by its own navigation: lower it there")
 
     def drive_to(self, goal: Pose) -> None:
-        """Begin to drive to a pose: rotate towards it, drive straight, rotate to its heading; returns at once.
+        """Begin to drive to a `goal`: rotate towards it, drive straight, rotate to its heading; returns at once.
 
         A moving base brakes first.
         """

@@ -20,7 +20,7 @@ class WatchdogTimeout(Exception):
 
 
 class Watchdog(Protocol):
-    """Stops all devices if a client sends no heartbeats any more. Times are in s of the cell's clock."""
+    """Stops all devices if a client sends no heartbeats any more. Times `now` are in s of the cell's clock."""
 
     def beat(self, who: object, now: float) -> bool:
         """Receive a heartbeat; False if it is too late and devices have been stopped."""

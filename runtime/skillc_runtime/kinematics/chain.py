@@ -75,12 +75,12 @@ def read_chain(model: Any, end: str, payload_kg: float = 0.0) -> Chain:
 
 
 def pack(pose: Pose) -> Array:
-    """Return a pose as numbers (12,): position in m, rotation by rows."""
+    """Return a pose as numbers (12,), in its frame: position in m, rotation by rows."""
     return np.concatenate([pose.position, pose.rotation.ravel()])
 
 
 def unpack(numbers: Array) -> Pose:
-    """Return the pose that numbers (12,) are: position in m, rotation by rows."""
+    """Return the pose that numbers (12,) are, in their frame: position in m, rotation by rows."""
     return Pose(numbers[:3].copy(), numbers[3:].reshape(3, 3).copy())
 
 
@@ -92,7 +92,14 @@ def place_joints(chain: Chain, q: Vector, at: OutMatrix) -> None:
 
 @inlined
 def place(frames: Array, slides: Array, tool: Array, q: Array, at: Array) -> None:
-    """at (nv + 1, 12) = poses of joints and tool in base, as in `place_joints`."""
+    """Compute the poses of joints and tool in base, as in `place_joints`.
+
+    frames: (nv, 12) in m, of each joint in the one before it.
+    slides: (nv,), 1 for a joint that slides, else 0; no unit.
+    tool: (12,) in m, its pose in the last joint.
+    q: (nv,) in rad or m, the joints.
+    at: (nv + 1, 12) in m, in base; it is written.
+    """
     n = slides.size
     for i in range(n + 1):
         for r in range(3):
@@ -125,7 +132,12 @@ def place(frames: Array, slides: Array, tool: Array, q: Array, at: Array) -> Non
 
 @inlined
 def differentiate(slides: Array, at: Array, jacobian: Array) -> None:
-    """jacobian (6, nv) = of the tool, from poses at (nv + 1, 12) of joints and tool."""
+    """Compute the Jacobian of the tool from the poses of joints and tool.
+
+    slides: (nv,), 1 for a joint that slides, else 0; no unit.
+    at: (nv + 1, 12) in m, in base.
+    jacobian: (6, nv), [linear m; angular rad] per rad or m, base axes; it is written.
+    """
     n = slides.size
     for i in range(n):
         zx, zy, zz = at[i, 5], at[i, 8], at[i, 11]
@@ -140,7 +152,15 @@ def differentiate(slides: Array, at: Array, jacobian: Array) -> None:
 
 @inlined
 def add_weight(slides: Array, masses: Array, centres: Array, at: Array, gravity: Array, torques: Array) -> None:
-    """torques (nv,) = what the joints exert to bear masses (nv,) at centres (nv, 3), from poses at (nv + 1, 12)."""
+    """Compute what the joints exert to bear masses, from poses of joints and tool.
+
+    slides: (nv,), 1 for a joint that slides, else 0; no unit.
+    masses: (nv,) in kg, of each link.
+    centres: (nv, 3) in m, of each mass in the frame of its joint.
+    at: (nv + 1, 12) in m, in base.
+    gravity: (3,) in m/s^2, in base.
+    torques: (nv,) in N m or N; it is written.
+    """
     n = slides.size
     mass, mx, my, mz = 0.0, 0.0, 0.0, 0.0
     gx, gy, gz = gravity[0], gravity[1], gravity[2]

@@ -38,10 +38,13 @@ PULL = 0.05
 
 
 def find_postures(chain: Chain, target: Pose, limits: Array, rest: Array, seeds: int = SEEDS) -> Array:
-    """Return postures (n, nv) in rad or m, within limits (nv, 2), with the tool at `target` in base.
+    """Return postures (n, nv) in rad or m, within limits, with the tool at the target.
 
-    Those are found that are nearest to `rest` (nv,) on each branch, that nearest to it first; of a redundant arm also
-    others, from seeds all over the ranges. The same in each call.
+    Those are found that are nearest to `rest` on each branch, that nearest to it first; of a redundant arm also others,
+    from seeds all over the ranges. The same in each call.
+    target: pose of the tool in base.
+    limits: (nv, 2) in rad or m, the ranges of the joints.
+    rest: (nv,) in rad or m.
     """
     found = np.empty((seeds + 1, chain.joints))
     starts = np.concatenate([rest[None], spread_seeds(chain.slides, limits, rest, seeds)])
@@ -50,9 +53,11 @@ def find_postures(chain: Chain, target: Pose, limits: Array, rest: Array, seeds:
 
 
 def find_posture(chain: Chain, target: Pose, limits: Array, rest: Array, seeds: int = SEEDS) -> Array | None:
-    """Return joints (nv,) with the tool at `target` in base, found from `rest` (nv,) if possible, else nearest to it.
+    """Return joints (nv,) with the tool at the target, found from `rest` if possible, else nearest to it; None if none.
 
-    None if there are none.
+    target: pose of the tool in base.
+    limits: (nv, 2) in rad or m, the ranges of the joints.
+    rest: (nv,) in rad or m.
     """
     direct = find_postures(chain, target, limits, rest, 0)
     found = direct if len(direct) or not seeds else find_postures(chain, target, limits, rest, seeds)
@@ -60,10 +65,13 @@ def find_posture(chain: Chain, target: Pose, limits: Array, rest: Array, seeds: 
 
 
 def rank_postures(chain: Chain, target: Pose, limits: Array, rest: Array) -> Array:
-    """Return postures (n, nv) with the tool at `target` in base in the order in which they are to be tried.
+    """Return postures (n, nv) with the tool at the target in the order in which they are to be tried.
 
-    First the one that is found from `rest` (nv,) or nearest to it, then those with room to the ends of the ranges
-    (nv, 2), then the others, since a line from there may leave the range.
+    First the one that is found from `rest` or nearest to it, then those with room to the ends of the ranges, then the
+    others, since a line from there may leave the range.
+    target: pose of the tool in base.
+    limits: (nv, 2) in rad or m, the ranges of the joints.
+    rest: (nv,) in rad or m.
     """
     first = find_posture(chain, target, limits, rest, seeds=0)
     found = find_postures(chain, target, limits, rest)
@@ -77,9 +85,12 @@ def rank_postures(chain: Chain, target: Pose, limits: Array, rest: Array) -> Arr
 
 
 def spread_seeds(slides: Array, limits: Array, rest: Array, count: int) -> Array:
-    """Return postures (count, nv) all over the ranges (nv, 2), at most half a turn from `rest` (nv,).
+    """Return postures (count, nv) all over the ranges, at most half a turn from `rest`.
 
     Points of the additive recurrence with the generalised golden ratio (M. Roberts 2018), which leave no gaps.
+    slides: (nv,), 1 for a joint that slides, else 0; no unit.
+    limits: (nv, 2) in rad or m, the ranges of the joints.
+    rest: (nv,) in rad or m.
     """
     n = len(rest)
     turns = np.where(slides > 0.5, np.inf, pi)
@@ -92,7 +103,7 @@ def spread_seeds(slides: Array, limits: Array, rest: Array, count: int) -> Array
 
 
 def nearest_first(postures: Array, rest: Array) -> Array:
-    """Return postures (n, nv) in the order of their greatest difference from `rest` (nv,)."""
+    """Return postures (n, nv) in rad or m in the order of their greatest difference from `rest` (nv,)."""
     order = np.argsort(np.abs(postures - rest).max(axis=1), kind="stable")
     return np.asarray(postures[order])
 
@@ -101,9 +112,13 @@ def nearest_first(postures: Array, rest: Array) -> Array:
 def search_postures(
     chain: Chain, target: Vector, starts: Matrix, limits: Matrix, rest: Vector, found: OutMatrix
 ) -> int:
-    """Write postures into found (m, nv) that descents from starts (k, nv) reach; return how many differ.
+    """Write the postures that descents from starts reach; return how many differ.
 
-    target (12,): of the tool in base; limits (nv, 2); rest (nv,): where a redundant arm is pulled, and the turn.
+    target: (12,) in m, the pose of the tool in base.
+    starts: (k, nv) in rad or m.
+    limits: (nv, 2) in rad or m, the ranges of the joints.
+    rest: (nv,) in rad or m, where a redundant arm is pulled, and the turn.
+    found: (m, nv) in rad or m; it is written.
     """
     n, count = chain.slides.size, 0
     q = np.empty(n)
@@ -131,10 +146,17 @@ def search_postures(
 
 @inlined
 def descend(frames: Array, slides: Array, tool: Array, target: Array, limits: Array, rest: Array, q: Array) -> bool:
-    """Move q (nv,) by damped least squares within limits until the tool is at target (12,); return whether it is.
+    """Move the joints by damped least squares within limits until the tool is at the target; return whether it is.
 
     dq = J^T (J J^T + lam^2 I)^-1 (e - J p) + p with p the pull to rest, if the arm is redundant. Joints at the end of
     their range that would leave it do not take part.
+    frames: (nv, 12) in m, of each joint in the one before it.
+    slides: (nv,), 1 for a joint that slides, else 0; no unit.
+    tool: (12,) in m, its pose in the last joint.
+    target: (12,) in m, its pose in base.
+    limits: (nv, 2) in rad or m, the ranges of the joints.
+    rest: (nv,) in rad or m.
+    q: (nv,) in rad or m, where it starts; it is changed.
     """
     n = slides.size
     at, J, held = np.empty((n + 1, 12)), np.empty((6, n)), np.zeros(n)
@@ -173,7 +195,14 @@ def descend(frames: Array, slides: Array, tool: Array, target: Array, limits: Ar
 
 @inlined
 def find_error(at: Array, target: Array, here: Array, there: Array, error: Array) -> float:
-    """error (6,) = [m; rad] from the tool to its target in base; return its square."""
+    """Compute the error of the tool, and return its square.
+
+    at: (nv + 1, 12) in m, the poses of joints and tool in base.
+    target: (12,) in m, where the tool should be, in base.
+    here: (3, 3), the rotation (3, 3) of the tool; it is written.
+    there: (3, 3), the rotation (3, 3) of the target.
+    error: (6,) in m and rad, base axes; it is written.
+    """
     n = at.shape[0] - 1
     for r in range(3):
         for c in range(3):
@@ -191,7 +220,17 @@ def find_error(at: Array, target: Array, here: Array, there: Array, error: Array
 def damped_step(
     J: Array, error: Array, pull: Array, held: Array, damping: float, gram: Array, sides: Array, step: Array
 ) -> None:
-    """step (nv,) = J^T (J J^T + damping I)^-1 (error - J pull) + pull over the joints that are not held."""
+    """step = J^T (J J^T + damping I)^-1 (error - J pull) + pull over the joints that are not held.
+
+    J: (6, nv), [linear m; angular rad] per rad or m, base axes.
+    error: (6,) in m and rad, base axes.
+    pull: (nv,) in rad or m.
+    held: (nv,), 1 for a joint that is held, no unit.
+    damping: lam^2, in m^2 and rad^2.
+    gram: (6, 6), for use inside, in m^2 and rad^2.
+    sides: (2, 6), for use inside, in m and rad.
+    step: (nv,) in rad or m; it is written.
+    """
     n, right, left = held.size, sides[0], sides[1]
     for a in range(6):
         right[a] = error[a]
@@ -229,7 +268,13 @@ def _hold_at_ends(q: Array, step: Array, limits: Array, held: Array) -> bool:
 
 @inlined
 def unwind(slides: Array, limits: Array, rest: Array, q: Array) -> None:
-    """Change joints q (nv,) by whole turns so that they are nearest to rest (nv,), within their range."""
+    """Change joints by whole turns so that they are nearest to `rest`, within their range.
+
+    slides: (nv,), 1 for a joint that slides, else 0; no unit.
+    limits: (nv, 2) in rad or m, the ranges of the joints.
+    rest: (nv,) in rad or m.
+    q: (nv,) in rad or m; it is changed.
+    """
     for i in range(q.size):
         if slides[i] < 0.5:
             turned = q[i] - 2 * pi * round((q[i] - rest[i]) / (2 * pi))

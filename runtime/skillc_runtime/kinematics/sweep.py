@@ -65,16 +65,18 @@ class Sweep:
 
 
 def follow(chain: Chain, poses: Array, start: Array, load: JointLoad) -> Sweep:
-    """Return the sweep along poses (n, 12) of the tool in base, from joints start (nv,) at the first one."""
+    """Return the sweep along poses (n, 12) in m of the tool in base, from joints start (nv,) in rad at the first."""
     postures, measures = np.empty((len(poses), chain.joints)), np.empty((len(poses), 5))
     follow_poses(chain, load, poses, start, postures, measures)
     return Sweep(postures, measures)
 
 
 def sample_poses(corners: Sequence[Pose], step_m: float, offsets: Array | None = None) -> Array:
-    """Return poses (n, 12) on the straight lines between corners, `step_m` apart or 0.1 rad.
+    """Return poses (n, 12) on the straight lines between corners, a step apart or 0.1 rad.
 
-    offsets (m, 3): m, added to the positions in turn, as of the points of a circle around the path.
+    corners: poses of the tool in base.
+    step_m: m.
+    offsets: (m, 3) in m, added to the positions in turn, as of the points of a circle around the path.
     """
     found = [corners[0]]
     for one, other in pairwise(corners):
@@ -93,7 +95,13 @@ def sample_poses(corners: Sequence[Pose], step_m: float, offsets: Array | None =
 def follow_poses(
     chain: Chain, load: JointLoad, poses: Matrix, start: Vector, postures: OutMatrix, measures: OutMatrix
 ) -> None:
-    """postures (n, nv), measures (n, 5) = along poses (n, 12) from start (nv,), as in `Sweep`."""
+    """Follow poses from a posture, as in `Sweep`.
+
+    poses: (n, 12) in m, of the tool in base.
+    start: (nv,) in rad or m.
+    postures: (n, nv) in rad or m; it is written.
+    measures: (n, 5) in rad, m and shares, see `Sweep`; it is written.
+    """
     n = chain.slides.size
     at, J, held, pull = np.empty((n + 1, 12)), np.empty((6, n)), np.zeros(n), np.zeros(n)
     error, step, q, sides = np.empty(6), np.empty(n), np.empty(n), np.empty((2, 6))

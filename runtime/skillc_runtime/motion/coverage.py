@@ -52,10 +52,13 @@ class CoverageMap:
         return np.asarray((dose > 0) & (dose >= seconds))
 
     def add(self, position: Array, rotation: Array, tool: Array, seconds: float) -> None:
-        """Add `seconds` to the cells that a tool's working face reaches.
+        """Add a time to the cells that a tool's working face reaches.
 
-        position (3,) in m, rotation (3, 3): the centre of the undeformed face in the world, x and y along its edges; it
-        is below the surface when pressed, with one side above if tilted. tool (2,): its size in m.
+        It is below the surface when pressed, with one side above if tilted.
+        position: (3,) in m, the centre of the undeformed face in the world.
+        rotation: (3, 3), rotation (3, 3) in the world; x and y are along the edges of the face.
+        tool: (2,) in m, its size.
+        seconds: s.
         """
         add_dose(self.dose, self.x, self.y, self.world, position, rotation, tool, seconds)
 
@@ -70,10 +73,16 @@ def _centres(length: float) -> Array:
 def put_dose(
     dose: Array, x: Array, y: Array, world: Pose, position: Array, rotation: Array, tool: Array, seconds: float
 ) -> None:
-    """Add to the dose (rows, columns), in s, of a surface, with its cells at x (n,) and y (m,) in m, under a tool.
+    """Add to the dose of a surface under a tool.
 
-    world: of the world in the frame of the surface; position (3,) m and rotation (3, 3) of the tool in the world, its
-    size (2,) in m.
+    dose: (m, n) in s, a row for each y.
+    x: (n,) in m, of the cells in the frame of the surface.
+    y: (m,) in m, of the cells in the frame of the surface.
+    world: pose of the world in the frame of the surface.
+    position: (3,) in m, of the tool in the world.
+    rotation: (3, 3), rotation (3, 3) of the tool in the world.
+    tool: (2,) in m, its size.
+    seconds: s, to be added.
     """
     middle, axes = np.empty(3), np.empty((3, 3))
     times(world.rotation, position, middle)
@@ -94,16 +103,30 @@ def add_dose(
     tool: Vector,
     seconds: float,
 ) -> None:
-    """Add `seconds` to the dose (rows, columns) of cells in columns x (columns,) and rows y (rows,), m.
+    """Add a time to the dose of cells.
 
-    world: its pose in the surface; position (3,) m, rotation (3, 3) and tool as in `CoverageMap.add`.
+    dose: (m, n) in s, a row for each y.
+    x: (n,) in m, of the columns.
+    y: (m,) in m, of the rows.
+    world: pose of the world in the frame of the surface.
+    position: (3,) in m, of the tool in the world.
+    rotation: (3, 3), rotation (3, 3) of the tool in the world, as in `CoverageMap.add`.
+    tool: (2,) in m, its size.
+    seconds: s, to be added.
     """
     put_dose(dose, x, y, world, position, rotation, tool, seconds)
 
 
 @inlined
 def is_near(x: Array, y: Array, world: Pose, position: Array, reach_m: float) -> bool:
-    """Tell whether a point (3,) m of the world is near the surface's plane, within `reach_m` of its edge."""
+    """Tell whether a point is near the surface's plane and its edge.
+
+    x: (n,) in m, of the cells in the frame of the surface.
+    y: (m,) in m, of the cells in the frame of the surface.
+    world: pose of the world in the frame of the surface.
+    position: (3,) in m, the point in the world.
+    reach_m: m, how far outside of the edge it may be.
+    """
     point = np.empty(3)
     times(world.rotation, position, point)
     for i in range(3):

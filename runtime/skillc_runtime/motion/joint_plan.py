@@ -96,7 +96,7 @@ def sample_joint_plan(plan: JointPlan, now: float) -> None:
 def use_ahead(plan: JointPlan, now: float, period: float) -> int:
     """Return the first of the `rows` of the reference at `now` s, and count it.
 
-    The next control periods are sampled if it was not sampled before.
+    The next control periods, of `period` s, are sampled if it was not sampled before.
     """
     number = int(plan.used[0])
     if number == plan.times.size or abs(plan.times[number] - now) > SAME_TIME_S:

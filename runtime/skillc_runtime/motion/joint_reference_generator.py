@@ -23,9 +23,13 @@ from skillc_runtime.motion.time_scaling import RAMP_S, start_time
 class JointReferenceGenerator:
     """The reference of the joints of one arm.
 
-    q, dq (nv,): rad, rad/s. deceleration: of the fastest joint in a stop, rad/s^2. Times `now` in s, of any clock;
-    motions have the share `speed`, above 0 to 1, of the speed that they were made with. `plan` has it as numbers;
-    it is replaced with the table of a motion, and what was sampled ahead is forgotten when the motion changes.
+    Times are of any clock. `plan` has it as numbers; it is replaced with the table of a motion, and what was sampled
+    ahead is forgotten when the motion changes.
+    q: (nv,) in rad.
+    dq: (nv,) in rad/s.
+    deceleration: rad/s^2, of the fastest joint in a stop.
+    now: s.
+    speed: above 0 to 1, the share of the speed that motions were made with.
     """
 
     def __init__(self, q: Array, dq: Array, deceleration: float, now: float, speed: float = 1.0) -> None:

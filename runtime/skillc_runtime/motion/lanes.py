@@ -29,9 +29,12 @@ def plan_lanes(
 ) -> list[Pose]:
     """Return the two ends of each lane in the surface frame: origin in the centre, z the outward normal.
 
-    surface (2,), tool (2,): sizes in m, the first one of the tool along the lane. overlap: share of the tool's width
-    that neighbouring lanes have in common, 0 to 0.9. The tool's x points along the lane, its z into the surface; it
-    does not rotate between lanes. Raises ValueError if a size is not positive.
+    The tool's x points along the lane, its z into the surface; it does not rotate between lanes. Raises ValueError if a
+    size is not positive.
+    surface: (2,) in m, its size.
+    tool: (2,) in m, its size, the first one along the lane.
+    overlap: 0 to 0.9, the share of the tool's width that neighbouring lanes have in common.
+    overhang: m, beyond the ends of a lane, and beside the outer lanes.
     """
     if min(*surface[:2], *tool[:2]) <= 0 or not 0 <= overlap <= 0.9:
         raise ValueError(f"lanes need positive sizes and an overlap of 0 to 0.9: {surface}, {tool}, {overlap}")

@@ -22,9 +22,12 @@ CIRCLE, SINES, GIVEN, SPIRAL = 1.0, 2.0, 3.0, 4.0
 
 @compiled
 def circle_at(motion: OutMatrix, radius: float, rate: float, time: float) -> None:
-    """Compute offset, velocity and acceleration (3, 3) of a circle, along the axes of the overlay: m, m/s, m/s^2.
+    """Compute a circle, along the axes of the overlay.
 
-    radius: m; rate: turns per s; time: s.
+    motion: (3, 3) in m, m/s, m/s^2: offset, velocity and acceleration in the frame of the overlay; it is written.
+    radius: m.
+    rate: turns per s.
+    time: s.
     """
     w = 2 * pi * rate
     x, y = radius * cos(w * time), radius * sin(w * time)
@@ -35,9 +38,13 @@ def circle_at(motion: OutMatrix, radius: float, rate: float, time: float) -> Non
 
 @compiled
 def sines_at(motion: OutMatrix, amplitude: Vector, frequency: Vector, phase: Vector, time: float) -> None:
-    """Compute offset, velocity and acceleration (3, 3) of a sine along each of the axes of the overlay: m, m/s, m/s^2.
+    """Compute a sine along each of the axes of the overlay.
 
-    amplitude (3,): m; frequency (3,): Hz; phase (3,): rad; time: s.
+    motion: (3, 3) in m, m/s, m/s^2: offset, velocity and acceleration in the frame of the overlay; it is written.
+    amplitude: (3,) in m.
+    frequency: (3,) in Hz.
+    phase: (3,) in rad.
+    time: s.
     """
     for i in range(3):
         w = 2 * pi * frequency[i]
@@ -64,10 +71,14 @@ def _angle_at(length: float) -> float:
 
 @compiled
 def spiral_at(motion: OutMatrix, pitch: float, speed: float, radius: float, time: float) -> None:
-    """Compute offset, velocity and acceleration (3, 3) of a spiral, along the axes of the overlay: m, m/s, m/s^2.
+    """Compute a spiral, along the axes of the overlay.
 
     r = b theta in the x-y plane, b = pitch / 2 pi, at constant speed; from `radius` on it is a circle.
-    pitch: m between turns; speed: m/s; radius: m; time: s.
+    motion: (3, 3) in m, m/s, m/s^2: offset, velocity and acceleration in the frame of the overlay; it is written.
+    pitch: m between turns.
+    speed: m/s.
+    radius: m.
+    time: s.
     """
     b = pitch / (2 * pi)
     widest = radius / b
@@ -176,11 +187,14 @@ class FadedOverlay(msgspec.Struct, frozen=True):
         return self if self.end is not None else replace(self, end=time)
 
     def is_over(self, time: float) -> bool:
-        """Tell whether it has faded out."""
+        """Tell whether it has faded out at `time`."""
         return self.end is not None and time >= self.end + self.fade
 
     def at(self, time: float) -> Array:
-        """Return offset, velocity and acceleration (3, 3): m, m/s, m/s^2, by the product rule applied twice."""
+        """Return offset, velocity and acceleration (3, 3) at `time`: m, m/s, m/s^2.
+
+        By the product rule, applied twice.
+        """
         motion = np.array(self.overlay.at(time - self.start), dtype=float)
         faded_at(motion, self.start, self.fade, inf if self.end is None else self.end, time)
         return motion
@@ -199,9 +213,13 @@ def _rise(x: float, fade: float) -> tuple[float, float, float]:
 
 @compiled
 def faded_at(motion: OutMatrix, start: float, fade: float, end: float, time: float) -> None:
-    """Fade offset, velocity and acceleration (3, 3), m and s, along the axes of the overlay, by the product rule.
+    """Fade a motion in and out, by the product rule.
 
-    It fades in for `fade` s from `start` on, and out for as long from `end` on; time: s.
+    motion: (3, 3) in m, m/s, m/s^2: offset, velocity and acceleration in the frame of the overlay; it is changed.
+    start: s, from when it fades in.
+    fade: s, how long it fades in, and out.
+    end: s, from when it fades out.
+    time: s.
     """
     g, dg, ddg = _rise((time - start) / fade, fade)
     if end < inf:

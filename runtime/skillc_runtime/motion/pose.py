@@ -48,9 +48,12 @@ def rotation_from_quaternion(quaternion: Array) -> Array:
 
 
 def rotation_from_angles(roll: float, pitch: float, yaw: float) -> Array:
-    """Return the rotation (3, 3), from a frame to its parent, of angles in rad about the axes of the parent.
+    """Return the rotation (3, 3), from a frame to its parent, of angles about the axes of the parent.
 
     R = Rz(yaw) Ry(pitch) Rx(roll): first about x, then about y, then about z, as in URDF, SDF and ROS (REP 103).
+    roll: rad, about x.
+    pitch: rad, about y.
+    yaw: rad, about z.
     """
     a, b, c = roll / 2, pitch / 2, yaw / 2
     return rotation_from_quaternion(
@@ -92,7 +95,7 @@ def quaternion_from_rotation(rotation: Array) -> Array:
 
 
 def exp(rotation_vector: Array) -> Array:
-    """Return the rotation (3, 3) about a vector (3,) in rad, both in the same frame. Rodrigues' formula."""
+    """Return the rotation (3, 3) about `rotation_vector` (3,) in rad, both in the same frame. Rodrigues' formula."""
     x, y, z = rotation_vector.tolist()
     angle = sqrt(x * x + y * y + z * z)
     if angle < 1e-12:

@@ -26,7 +26,12 @@ class Reference(msgspec.Struct, frozen=True):
 
     @staticmethod
     def of(pose: Pose, twist: Array, acceleration: Array) -> Reference:
-        """Return the reference of a pose, a twist (6,) and an acceleration (6,), [linear; angular]."""
+        """Return the reference of a pose, a twist and an acceleration.
+
+        pose: of the tool centre point, in its parent frame.
+        twist: (6,) in m/s and rad/s, [linear; angular] in the same frame.
+        acceleration: (6,) in m/s^2 and rad/s^2, [linear; angular] in the same frame.
+        """
         rows = np.empty((8, 3))
         rows[POSITION], rows[ROTATION] = pose.position, pose.rotation
         rows[TWIST], rows[ACCELERATION] = twist.reshape(2, 3), acceleration.reshape(2, 3)

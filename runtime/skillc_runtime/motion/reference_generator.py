@@ -44,7 +44,12 @@ class ReferenceGenerator:
         self.restart_from(pose, np.zeros(6), 0.0)
 
     def restart_from(self, pose: Pose, twist: Array, now: float) -> None:
-        """Come to rest from a pose and a twist (6,), m/s and rad/s, whatever the motion was before."""
+        """Come to rest from a pose and a twist, whatever the motion was before.
+
+        pose: in the base frame.
+        twist: (6,) in m/s and rad/s, base axes.
+        now: s.
+        """
         speed = self.speed
         self._time, self._overlay_time = start_time(now, speed), self._overlay_time.towards(speed, now)
         self._way, self._turn = (
@@ -92,9 +97,12 @@ class ReferenceGenerator:
         self.restart_from(motion.pose, motion.twist, now)
 
     def jump_to(self, pose: Pose, along: Array, now: float) -> None:
-        """Jump to a pose and come to rest there; of the present motion only the part along the axes (3, n) continues.
+        """Jump to a pose and come to rest there; of the present motion only the part along some axes continues.
 
         For directions in which the tool does not follow its reference anyway. Overlays are not part of the pose.
+        pose: in the base frame.
+        along: (3, n), unit vectors in the base frame, one a column.
+        now: s.
         """
         twist = self._motion(now).twist.copy()
         twist[:3] = along @ (along.T @ twist[:3])
@@ -153,9 +161,11 @@ class ReferenceGenerator:
         return max(speed / self._deceleration, turning / TURN_DECELERATION)
 
     def add(self, overlay: Overlay, axes: Array, fade: float, now: float) -> int:
-        """Add an overlay along `axes` (3, 3), which fades in for `fade` s; return the handle to remove it with.
+        """Add an overlay; return the handle to remove it with. ValueError for too many at once.
 
-        ValueError for too many at once.
+        axes: (3, 3), axes (3, 3) of the overlay in the base frame.
+        fade: s, how long it fades in.
+        now: s.
         """
         if len(self._overlays) == plans.MOST_OVERLAYS:
             raise ValueError(f"a motion has at most {plans.MOST_OVERLAYS} overlays at once")

@@ -36,9 +36,12 @@ class Shift(msgspec.Struct, frozen=True):
         return self.done(now) and not self.end.any()
 
     def towards(self, end: Array, speed: float, acceleration: float, now: float) -> Shift:
-        """Return the shift from the present displacement to `end` (3,) in m, in the frame of the reference.
+        """Return the shift from the present displacement to another one, in the frame of the reference.
 
-        speed: m/s; acceleration: m/s^2.
+        end: (3,) in m.
+        speed: m/s.
+        acceleration: m/s^2.
+        now: s.
         """
         start = self.at(now)[0]
         length = float(np.linalg.norm(end - start))

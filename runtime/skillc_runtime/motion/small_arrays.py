@@ -62,7 +62,7 @@ empty = zeros
 
 
 def full(shape: int | tuple[int, ...], value: float) -> ndarray:
-    """Return an array of one number, in any unit."""
+    """Return an array of one number `value`, in any unit."""
     size = (shape,) if isinstance(shape, int) else tuple(shape)
     return ndarray([value] * math.prod(size), size)
 
@@ -86,7 +86,7 @@ def arange(start: int, stop: int | None = None) -> ndarray:
 
 
 def linspace(start: float, stop: float, count: int, endpoint: bool = True) -> ndarray:
-    """Return evenly spaced numbers (count,), in any unit."""
+    """Return evenly spaced numbers (count,) from `start` to `stop`, in any unit."""
     steps = count - 1 if endpoint else count
     found = [start + i * ((stop - start) / steps) if steps else start for i in range(count)]
     return array([float(each) for each in ([*found[:-1], stop] if endpoint and count > 1 else found)])

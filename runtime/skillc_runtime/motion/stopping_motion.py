@@ -33,7 +33,13 @@ class StoppingMotion(msgspec.Struct, frozen=True):
 
 @compiled
 def stop_at(motion: OutMatrix, velocity: Vector, duration: float, time: float) -> None:
-    """Compute displacement, velocity and acceleration (3, n) of a `StoppingMotion`, in its units and frame; time: s."""
+    """Compute displacement, velocity and acceleration of a `StoppingMotion`, in its units and frame.
+
+    motion: (3, n) in m or rad, and s; it is written.
+    velocity: (n,) in m/s or rad/s, at the start.
+    duration: s, of the stop.
+    time: s, since the start.
+    """
     left = 1 - time / duration if time < duration else 0.0
     for i in range(velocity.size):
         motion[0, i] = -(velocity[i] * (duration / 2)) * (left * left)

@@ -30,8 +30,11 @@ def plan_strokes(
 ) -> list[Stroke]:
     """Return lanes as of `plan_lanes` that stay clear of holes and half their margins, in the surface frame.
 
-    surface (2,), tool (2,): sizes in m; overlap: share of the tool's width. A stroke continues from lane to lane, each
-    time to the nearest one left, while the tool touches no hole on the way. ValueError as for `plan_lanes`.
+    A stroke continues from lane to lane, each time to the nearest one left, while the tool touches no hole on the way.
+    ValueError as for `plan_lanes`.
+    surface: (2,) in m, its size.
+    tool: (2,) in m, its size.
+    overlap: share of the tool's width.
     """
     ends = plan_lanes(surface, tool, overlap, OVERHANG_M, direction)
     kept = [hole.grow(hole.margin / 2) for hole in holes]
@@ -48,7 +51,9 @@ def plan_layout_strokes(
 ) -> list[Stroke]:
     """Return the strokes over all parts of a surface, in its frame, the nearest part first.
 
-    tool (2,): size in m; overlap: share of its width; start: in the surface frame.
+    tool: (2,) in m, its size.
+    overlap: share of the tool's width.
+    start: pose in the surface frame.
     """
     left = [
         [

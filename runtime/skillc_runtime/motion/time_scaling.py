@@ -33,7 +33,12 @@ class TimeScaling(msgspec.Struct, frozen=True):
         return self.since, self.time, self.rate, self.goal, self.ramp_s
 
     def towards(self, goal: float, now: float, ramp_s: float = RAMP_S) -> TimeScaling:
-        """Return the scaling whose rate changes to `goal` from now on."""
+        """Return the scaling whose rate changes to a goal from now on.
+
+        goal: 0 to 1, a factor of the time.
+        now: s.
+        ramp_s: s, between standstill and full speed.
+        """
         time, rate, _ = self.at(now)
         return TimeScaling(now, time, rate, goal, ramp_s)
 
@@ -47,7 +52,15 @@ def start_time(now: float, rate: float) -> TimeScaling:
 def scaled_time(
     since: float, time: float, rate: float, goal: float, ramp_s: float, now: float
 ) -> tuple[float, float, float]:
-    """Return motion time in s, its rate, and the change of the rate in 1/s, of a `TimeScaling` at `now` in s."""
+    """Return motion time in s, its rate, and the change of the rate in 1/s, of a `TimeScaling`.
+
+    since: s, when it begins.
+    time: s, the motion time then.
+    rate: 0 to 1, the factor of the time then.
+    goal: 0 to 1, the factor of the time in the end.
+    ramp_s: s, between standstill and full speed.
+    now: s.
+    """
     passed = now - since
     if rate == goal:
         return time + goal * passed, goal, 0.0

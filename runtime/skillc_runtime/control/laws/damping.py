@@ -18,10 +18,14 @@ LEAST_MOBILITY = 1e-3
 
 @inlined
 def tool_inertia(inertia: Array, mobility: Array, J: Array, mass_matrix: Array, rotation: Array, frame: Array) -> None:
-    """mobility (6, 6) = J_C M^-1 J_C^T + least mobility, in 1/kg and 1/(kg m^2); inertia (6, 6) is its inverse.
+    """mobility = J_C M^-1 J_C^T + least mobility; inertia is its inverse. The axes of C are rotation @ frame, in base.
 
-    The axes of C are rotation @ frame, both (3, 3), in base; J (6, nv): m and rad per rad, base axes; mass_matrix (nv,
-    nv): kg m^2.
+    inertia: (6, 6) in kg and kg m^2, along the axes of C; it is written.
+    mobility: (6, 6) in 1/kg and 1/(kg m^2), along the axes of C; it is written.
+    J: (6, nv), m and rad per rad, base axes.
+    mass_matrix: M (nv, nv) in kg m^2.
+    rotation: (3, 3), rotation (3, 3) from tool to base.
+    frame: (3, 3), axes (3, 3) of C in the tool.
     """
     joints = J.shape[1]
     axes, J_C, factor, column = np.empty((3, 3)), np.empty((6, joints)), mass_matrix.copy(), np.empty(joints)

@@ -157,8 +157,10 @@ def move_virtual_arm(
 ) -> bool:
     """Compute dq (nv,) in rad/s, all scaled down if a joint would be too fast, and the limited command.
 
-    measured (nv,): rad, the joints; felt (6,): N and N m, the wrench on the tool, base axes; period: s. Return False if
-    the arm does not follow.
+    Return False if the arm does not follow.
+    measured: (nv,) in rad, the joints.
+    felt: (6,) in N and N m, the wrench on the tool, base axes.
+    period: s.
     """
     dq, rows, axes, lag = memory.dq, memory.task.rows, memory.task.axes, memory.lag
     compute_task_error(memory.task, virtual.tool, reference, compliance, felt)
@@ -197,5 +199,10 @@ def virtual_motion(
     compliance: Compliance,
     period: float,
 ) -> bool:
-    """Compute dq (nv,) in rad/s and the limited command for `period` s; see `move_virtual_arm`."""
+    """Compute dq (nv,) in rad/s and the limited command; see `move_virtual_arm`.
+
+    measured: (nv,) in rad, the joints.
+    felt: (6,) in N and N m, the wrench on the tool, base axes.
+    period: s.
+    """
     return move_virtual_arm(memory, virtual, measured, felt, reference, compliance, period)

@@ -148,7 +148,10 @@ def impedance(
     compliance: AppliedCompliance,
     period: float,
 ) -> None:
-    """Update inertia and damping if due, which the damping follows, and compute the torques tau (nv,) in N m."""
+    """Update inertia and damping if due, which the damping follows, and compute the torques.
+
+    tau (nv,): N m, written. period: s.
+    """
     memory.age[0] += period
     if memory.age[0] >= INERTIA_PERIOD_S:
         damping = np.empty(6)

@@ -15,9 +15,12 @@ BANDWIDTH = 20.0
 
 @inlined
 def computed_torque(tau: Array, limits: Array, state: ArmState, reference: Array, longest: float) -> None:
-    """tau = M (ddq_d + 2 w (dq_d - dq) + w^2 (q_d - q)) + bias, N m, limited; reference (3, nv): q_d, dq_d, ddq_d.
+    """tau = M (ddq_d + 2 w (dq_d - dq) + w^2 (q_d - q)) + bias, limited.
 
-    Of the joints: limits (5, nv), see `TorqueLimit`; longest: N m, the greatest change of tau without bias.
+    tau: (nv,) in N m; it is written.
+    limits: (5, nv) in N m and rad, of the joints, see `TorqueLimit`.
+    reference: (3, nv), q_d, dq_d, ddq_d in rad, rad/s, rad/s^2.
+    longest: N m, the greatest change of tau without bias.
     """
     wanted, free = np.empty(tau.size), np.empty(tau.size)
     for j in range(tau.size):
@@ -29,8 +32,10 @@ def computed_torque(tau: Array, limits: Array, state: ArmState, reference: Array
 
 @inlined
 def move_servos(limits: Array, state: ArmState, reference: Array, period: float) -> bool:
-    """Command the positions of joints, in rad, of a reference (3, nv) as limits (9, nv) allow; False if blocked.
+    """Command the positions of joints of a reference as limits allow; False if blocked.
 
-    See `JointLimit`; period in s.
+    limits: (9, nv) in rad, of the joints, see `JointLimit`.
+    reference: (3, nv) in rad, rad/s, rad/s^2.
+    period: s.
     """
     return bool(limit_joints(limits, reference[0], state.q, period))

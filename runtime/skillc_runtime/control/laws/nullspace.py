@@ -33,10 +33,16 @@ def regularisation(manipulability: float) -> float:
 def posture_torque(
     tau: OutVector, q: Vector, dq: Vector, J: Matrix, rest: Vector, stiffness: float, manipulability: float
 ) -> float:
-    """Compute tau_null (nv,) in N m, damped as for unit inertia, from the manipulability of the period before.
+    """Compute tau_null, damped as for unit inertia. Return the manipulability now.
 
-    q, rest (nv,): rad; dq (nv,): rad/s; J (6, nv): base axes; stiffness: N m/rad. Return the manipulability now, the
-    product of the Cholesky factor's diagonal.
+    It is the product of the Cholesky factor's diagonal.
+    tau: (nv,) in N m; tau_null is written there.
+    q: (nv,) in rad.
+    dq: (nv,) in rad/s.
+    J: (6, nv), m and rad per rad, base axes.
+    rest: (nv,) in rad.
+    stiffness: N m/rad.
+    manipulability: no unit, that of the period before.
     """
     damping, lam_square = 2 * sqrt(stiffness), regularisation(manipulability)
     for j in range(tau.size):

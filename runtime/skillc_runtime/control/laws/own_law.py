@@ -62,7 +62,7 @@ class CheckedLaw:
         return self._law.contact_wrench
 
     def reset(self, state: ArmState, q: Array, dq: Array) -> None:
-        """Start from joint positions and speeds (nv,), rad and rad/s."""
+        """Start from joint positions and speeds. q (nv,): rad; dq (nv,): rad/s."""
         self._law.reset(state, q, dq)
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:

@@ -34,7 +34,10 @@ class RobotLaw:
         self._look(state)
 
     def command(self, state: ArmState, reference: Reference, compliance: Compliance, period: float) -> Command:
-        """Return the joints (nv,) in rad from which a motion of the joints continues; the robot is told the target."""
+        """Return the joints (nv,) in rad from which a motion of the joints continues; the robot is told the target.
+
+        period: s.
+        """
         self._look(state)
         return JointPosition(self._limit.q.copy())
 

@@ -193,9 +193,15 @@ def _move_body(chain: VirtualChain, body: int, motions: Array, rotations: Array,
 def compute_virtual(
     chain: VirtualChain, q: Array, dq: Array, position: Array, rotation: Array, J: Array, inertia: Array, bias: Array
 ) -> None:
-    """Compute the tool, position (3,) and rotation (3, 3), its Jacobian (6, nv), inertia (nv, nv) and bias (nv,).
+    """Compute the tool, its Jacobian, inertia and bias, all in base, for joints with speeds; see `VirtualState`.
 
-    All in base, for joints q (nv,) in rad with speeds dq (nv,) in rad/s; see `VirtualState`.
+    q: (nv,) in rad.
+    dq: (nv,) in rad/s.
+    position: (3,) in m; it is written, as are those below.
+    rotation: (3, 3), rotation (3, 3) from tool to base.
+    J: (6, nv), m and rad per rad, base axes.
+    inertia: (nv, nv) in kg m^2.
+    bias: (nv,) in N m.
     """
     count = chain.bodies.shape[0]
     motions, rotations = np.zeros((count, 4, 3)), np.zeros((count, 3, 3))

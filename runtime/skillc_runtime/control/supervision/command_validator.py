@@ -81,9 +81,14 @@ class CommandValidator:
 
 @compiled
 def update_holding(holding: OutVector, rest: Vector, q: Vector, dq: Vector, wrench: Vector, position: Vector) -> bool:
-    """Copy `rest` to `holding`, both (nv,), and return True if all other values are finite; else return False.
+    """Copy `rest` to `holding`, and return True if all other values are finite; else return False.
 
-    rest: N m or rad; q, dq (nv,): rad, rad/s; wrench (6,): N, N m, and position (3,): m, in the base frame.
+    holding: (nv,) in N m or rad.
+    rest: (nv,) in N m or rad.
+    q: (nv,) in rad.
+    dq: (nv,) in rad/s.
+    wrench: (6,) in N and N m, in the base frame.
+    position: (3,) in m, in the base frame.
     """
     finite = squared(q) + squared(dq) + squared(wrench) + squared(position) < np.inf
     if finite:

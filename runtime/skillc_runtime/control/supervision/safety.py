@@ -220,9 +220,12 @@ def tool_speed(J: Matrix, dq: Vector) -> float:
 
 @compiled
 def distance_outside(point: Vector, middle: Vector, axes: Matrix, size: Vector) -> float:
-    """Return the distance in m of a point (3,) from a box with centre (3,), axes (3, 3) and size (3,); 0 inside.
+    """Return the distance in m of a point from a box, 0 inside; all in the same frame.
 
-    All in m, in the same frame.
+    point: (3,) in m.
+    middle: (3,) in m, the centre of the box.
+    axes: (3, 3), axes (3, 3) of the box.
+    size: (3,) in m, along its axes.
     """
     away, along, square = np.empty(3), np.empty(3), 0.0
     for i in range(3):

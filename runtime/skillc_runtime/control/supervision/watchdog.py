@@ -15,7 +15,7 @@ HEARTBEAT_TIMEOUT_S = 0.25
 class HeartbeatWatchdog:
     """Implements `Watchdog`: a client that has sent a heartbeat must continue until it retires.
 
-    Times: s of the cell; due (1,): when the next heartbeat has to have arrived.
+    Times `now`: s of the cell; due (1,): when the next heartbeat has to have arrived.
     """
 
     def __init__(self, timeout_s: float = HEARTBEAT_TIMEOUT_S) -> None:

@@ -9,17 +9,32 @@ from skillc_runtime.motion.pose import Array, exp, rotation_from_quaternion
 
 
 def times(A: Array, x: Array, out: Array) -> None:
-    """out (m,) = A (m, n) x (n,), in any unit."""
+    """out = A x.
+
+    A: (m, n), any unit.
+    x: (n,), any unit.
+    out: (m,), any unit; it is written.
+    """
     np.dot(A, x, out=out)
 
 
 def transposed_times(A: Array, x: Array, out: Array) -> None:
-    """out (n,) = A^T x for A (m, n) and x (m,), in any unit."""
+    """out = A^T x.
+
+    A: (m, n), any unit.
+    x: (m,), any unit.
+    out: (n,), any unit; it is written.
+    """
     np.dot(x, A, out=out)
 
 
 def product(A: Array, B: Array, out: Array) -> None:
-    """out (m, n) = A (m, k) B (k, n), in any unit."""
+    """out = A B.
+
+    A: (m, k), any unit.
+    B: (k, n), any unit.
+    out: (m, n), any unit; it is written.
+    """
     np.dot(A, B, out=out)
 
 
@@ -39,7 +54,12 @@ def squared(x: Array) -> float:
 
 
 def cross(a: Array, b: Array, out: Array) -> None:
-    """out (3,) = a x b (3,), along the same axes and in any unit."""
+    """out = a x b, along the same axes.
+
+    a: (3,), any unit.
+    b: (3,), any unit.
+    out: (3,), any unit; it is written.
+    """
     mujoco.mju_cross(out, a, b)
 
 
@@ -49,7 +69,12 @@ def cholesky(A: Array) -> None:
 
 
 def cholesky_solve(L: Array, b: Array, out: Array) -> None:
-    """Solve L L^T out = b for L (n, n) and b (n,), in any unit."""
+    """Solve L L^T out = b.
+
+    L: (n, n), any unit.
+    b: (n,), any unit.
+    out: (n,), any unit; it is written.
+    """
     mujoco.mju_cholSolve(out, L, b)
 
 
@@ -64,7 +89,12 @@ def rotation_of(quaternion: Array, out: Array) -> None:
 
 
 def rotation_between(start: Array, end: Array, out: Array) -> None:
-    """out (3,) = log(end start^T): the rotation vector in rad between rotations (3, 3), in their parent frame."""
+    """out = log(end start^T): the rotation vector between rotations, in their parent frame.
+
+    start: (3, 3), a rotation (3, 3).
+    end: (3, 3), a rotation (3, 3).
+    out: (3,) in rad; it is written.
+    """
     quaternion = np.empty(4)
     mujoco.mju_mat2Quat(quaternion, np.dot(end, start.T).ravel())
     mujoco.mju_quat2Vel(out, quaternion, 1.0)
@@ -73,10 +103,16 @@ def rotation_between(start: Array, end: Array, out: Array) -> None:
 def add_under(
     grid: Array, x: Array, y: Array, middle: Array, axes: Array, size: Array, amount: float, near: float
 ) -> None:
-    """Add `amount` to the points of a grid (m, n), with rows y (m,) and columns x (n,), that are under a rectangle.
+    """Add to the points of a grid that are under a rectangle. The grid lies in the plane z = 0 of its frame.
 
-    Lengths in m. The grid lies in the plane z = 0. The rectangle has its centre `middle` (3,) and a size (2,) along the
-    first columns of axes (3, 3), all in the frame of the grid; points at most `near` below it count.
+    grid: (m, n), any unit.
+    x: (n,) in m, of the columns.
+    y: (m,) in m, of the rows.
+    middle: (3,) in m, the centre of the rectangle in the frame of the grid.
+    axes: (3, 3), axes (3, 3) of the rectangle in the frame of the grid; it is along the first two.
+    size: (2,) in m, of the rectangle.
+    amount: any unit, to be added.
+    near: m; points at most so far below the rectangle count.
     """
     reach = np.hypot(size[0], size[1]) / 2
     left, right = np.searchsorted(x, (middle[0] - reach, middle[0] + reach))

@@ -10,7 +10,12 @@ from skillc_runtime.motion.pose import Array
 
 @inlined
 def times(A: Array, x: Array, out: Array) -> None:
-    """out (m,) = A (m, n) x (n,), in any unit."""
+    """out = A x.
+
+    A: (m, n), any unit.
+    x: (n,), any unit.
+    out: (m,), any unit; it is written.
+    """
     for i in range(A.shape[0]):
         total = 0.0
         for j in range(A.shape[1]):
@@ -20,7 +25,12 @@ def times(A: Array, x: Array, out: Array) -> None:
 
 @inlined
 def transposed_times(A: Array, x: Array, out: Array) -> None:
-    """out (n,) = A^T x for A (m, n) and x (m,), in any unit."""
+    """out = A^T x.
+
+    A: (m, n), any unit.
+    x: (m,), any unit.
+    out: (n,), any unit; it is written.
+    """
     for j in range(A.shape[1]):
         total = 0.0
         for i in range(A.shape[0]):
@@ -30,7 +40,12 @@ def transposed_times(A: Array, x: Array, out: Array) -> None:
 
 @inlined
 def product(A: Array, B: Array, out: Array) -> None:
-    """out (m, n) = A (m, k) B (k, n), in any unit."""
+    """out = A B.
+
+    A: (m, k), any unit.
+    B: (k, n), any unit.
+    out: (m, n), any unit; it is written.
+    """
     for i in range(A.shape[0]):
         for j in range(B.shape[1]):
             total = 0.0
@@ -65,7 +80,12 @@ def squared(x: Array) -> float:
 
 @inlined
 def cross(a: Array, b: Array, out: Array) -> None:
-    """out (3,) = a x b (3,), along the same axes and in any unit."""
+    """out = a x b, along the same axes.
+
+    a: (3,), any unit.
+    b: (3,), any unit.
+    out: (3,), any unit; it is written.
+    """
     out[0] = a[1] * b[2] - a[2] * b[1]
     out[1] = a[2] * b[0] - a[0] * b[2]
     out[2] = a[0] * b[1] - a[1] * b[0]
@@ -88,7 +108,12 @@ def cholesky(A: Array) -> None:
 
 @inlined
 def cholesky_solve(L: Array, b: Array, out: Array) -> None:
-    """Solve L L^T out = b for L (n, n) and b (n,), in any unit."""
+    """Solve L L^T out = b.
+
+    L: (n, n), any unit.
+    b: (n,), any unit.
+    out: (n,), any unit; it is written.
+    """
     n = L.shape[0]
     for i in range(n):
         left = b[i]
@@ -127,9 +152,12 @@ def rotation_of(quaternion: Array, out: Array) -> None:
 
 @inlined
 def rotation_between(start: Array, end: Array, out: Array) -> None:
-    """out (3,) = log(end start^T) in rad, along the axes of the parent of both rotations (3, 3). See `motion.pose`.
+    """out = log(end start^T), along the axes of the parent frame of both rotations. See `motion.pose`.
 
     Shepperd's quaternion, its signs such that w >= 0.
+    start: (3, 3), a rotation (3, 3).
+    end: (3, 3), a rotation (3, 3).
+    out: (3,) in rad; it is written.
     """
     a, b, c = _row(end, start, 0)
     d, e, f = _row(end, start, 1)
@@ -165,10 +193,16 @@ def _row(end: Array, start: Array, i: int) -> tuple[float, float, float]:
 def add_under(
     grid: Array, x: Array, y: Array, middle: Array, axes: Array, size: Array, amount: float, near: float
 ) -> None:
-    """Add `amount` to the points of a grid (m, n), with rows y (m,) and columns x (n,), that are under a rectangle.
+    """Add to the points of a grid that are under a rectangle. The grid lies in the plane z = 0 of its frame.
 
-    Lengths in m. The grid lies in the plane z = 0. The rectangle has its centre `middle` (3,) and a size (2,) along the
-    first columns of axes (3, 3), all in the frame of the grid; points at most `near` below it count.
+    grid: (m, n), any unit.
+    x: (n,) in m, of the columns.
+    y: (m,) in m, of the rows.
+    middle: (3,) in m, the centre of the rectangle in the frame of the grid.
+    axes: (3, 3), axes (3, 3) of the rectangle in the frame of the grid; it is along the first two.
+    size: (2,) in m, of the rectangle.
+    amount: any unit, to be added.
+    near: m; points at most so far below the rectangle count.
     """
     reach = hypot(size[0], size[1]) / 2
     for row in range(y.size):

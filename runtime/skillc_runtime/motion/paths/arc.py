@@ -77,9 +77,12 @@ class Arc(msgspec.Struct, frozen=True):
 
 
 def arc_through(start: Pose, via: Array, end: Pose, limits: MotionLimits) -> Arc:
-    """Return the motion between two poses along the circle through a point `via` (3,) m, all in the same frame.
+    """Return the motion between two poses along the circle through a point, all in the same frame.
 
     Raises ValueError if the three points are collinear or coincide.
+    start: pose in any frame.
+    via: (3,) in m, in the same frame.
+    end: pose in the same frame.
     """
     one, other = via - start.position, end.position - start.position
     normal = np.cross(one, other)
@@ -93,10 +96,15 @@ def arc_through(start: Pose, via: Array, end: Pose, limits: MotionLimits) -> Arc
 
 
 def arc_around(start: Pose, centre: Array, normal: Array, angle: float, end: Pose, limits: MotionLimits) -> Arc:
-    """Return the motion around a centre (3,) m by `angle` > 0 rad about a unit normal (3,), all in the same frame.
+    """Return the motion around a centre by an angle about a normal, all in the same frame.
 
     Only the rotation of `end` is used. The speed is lowered where the centripetal acceleration would exceed the limit.
     Raises ValueError if the start is at the centre.
+    start: pose in any frame.
+    centre: (3,) in m, in the same frame.
+    normal: (3,), a unit vector in the same frame.
+    angle: rad, above 0.
+    end: pose in the same frame.
     """
     spoke = start.position - centre
     spoke = spoke - (spoke @ normal) * normal

@@ -84,9 +84,12 @@ class JointMotion(msgspec.Struct, frozen=True):
 
 
 def joint_motion(start: Array, goal: Array, speed: Array, acceleration: Array) -> JointMotion:
-    """Return the fastest synchronised motion between joint positions (nv,) in rad.
+    """Return the fastest synchronised motion between joint positions.
 
-    speed, acceleration (nv,): limits > 0 in rad/s and rad/s^2.
+    start: (nv,) in rad.
+    goal: (nv,) in rad.
+    speed: (nv,) in rad/s, limits above 0.
+    acceleration: (nv,) in rad/s^2, limits above 0.
     """
     change = goal - start
     if np.abs(change).max() < 1e-9:
@@ -97,7 +100,10 @@ def joint_motion(start: Array, goal: Array, speed: Array, acceleration: Array) -
 
 
 def segments_of(pieces: Sequence[JointMotion], starts: Sequence[float], joints: int) -> Array:
-    """Return the table (n, m), m = 6 + 2 nv, of segments of nv joints that start at times in s; see `STARTS_AT`."""
+    """Return the table (n, m), m = 6 + 2 nv, of segments of nv joints; see `STARTS_AT`.
+
+    starts: when each begins, in s.
+    """
     table = np.empty((len(pieces), JOINTS + 2 * joints))
     for row, piece, start in zip(table, pieces, starts, strict=True):
         profile = piece.profile
@@ -109,9 +115,12 @@ def segments_of(pieces: Sequence[JointMotion], starts: Sequence[float], joints: 
 
 @inlined
 def joints_at(rows: Array, table: Array, time: float) -> None:
-    """Compute q, dq, ddq (3, nv) of joints, rad, rad/s, rad/s^2, `time` s after the first segment of a table starts.
+    """Compute q, dq, ddq of joints from a table.
 
     As `JointPath.at`: the segment that started last, and the end of the one before it.
+    rows: (3, nv) in rad, rad/s, rad/s^2; it is written.
+    table: (n, m) in rad and s, see `segments_of`.
+    time: s, after the first segment starts.
     """
     joints, last = rows.shape[1], 0
     while last + 1 < table.shape[0] and table[last + 1, STARTS_AT] <= time:

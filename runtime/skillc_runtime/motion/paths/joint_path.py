@@ -56,10 +56,12 @@ class JointPath(msgspec.Struct, frozen=True):
 
 
 def joint_path(postures: Sequence[Array], speed: Array, acceleration: Array, blends: Sequence[float]) -> JointPath:
-    """Return the motion through at least two postures, joint positions (nv,) in rad.
+    """Return the motion through at least two postures.
 
-    speed, acceleration (nv,): limits in rad/s and rad/s^2. blends: for each intermediate posture the share, 0 to 1, of
-    the possible overlap that is used; the motion stops there at 0.
+    postures: each (nv,) in rad.
+    speed: (nv,) in rad/s, limits.
+    acceleration: (nv,) in rad/s^2, limits.
+    blends: for each intermediate posture the share, 0 to 1, of the possible overlap; the motion stops there at 0.
     """
     pieces = [joint_motion(one, other, speed, acceleration) for one, other in pairwise(postures)]
     corners = zip(pairwise(pieces), blends, strict=True)

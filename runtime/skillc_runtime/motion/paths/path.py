@@ -127,7 +127,12 @@ def _started_last(table: Array, time: float) -> int:
 
 @compiled
 def path_at(rows: OutMatrix, table: Matrix, time: float) -> None:
-    """Compute the rows (8, 3) of the reference at `time` s from the table of a `Path`, in the frame of its corners."""
+    """Compute the reference from the table of a `Path`, in the frame of its corners.
+
+    rows: (8, 3) in m, m/s, rad/s and so on, see `Reference`; it is written.
+    table: (n, m) in m, rad and s, of the path.
+    time: s, after the start.
+    """
     position, rotation = rows[0], rows[1:4]
     last, motion = _started_last(table, time), np.empty((3, 6))
     motion_at(motion, table[last, :COLUMNS], time - table[last, START])
@@ -158,7 +163,7 @@ def path_through(poses: Sequence[Pose], limits: MotionLimits, blend_m: float = 0
 def join_segments(
     corners: Sequence[Pose], pieces: Sequence[Segment | Arc], limits: MotionLimits, blend_m: float = 0.0
 ) -> Path:
-    """Return the path along segments, one from each corner to the next in one frame, blended within `blend_m`."""
+    """Return the path along segments, one from each of `corners` to the next in one frame, blended within `blend_m`."""
     starts, time = [], 0.0
     for i, piece in enumerate(pieces):
         starts.append(time)

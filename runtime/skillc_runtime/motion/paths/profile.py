@@ -58,7 +58,15 @@ class Profile(msgspec.Struct, frozen=True):
 def trapezoid_at(
     length: float, peak: float, acceleration: float, deceleration: float, rate: float, time: float
 ) -> tuple[float, float, float]:
-    """Return distance, speed and acceleration of a `Profile` at `time` s, in its units."""
+    """Return distance, speed and acceleration of a `Profile`, in its units: m or rad, and s.
+
+    length: m or rad.
+    peak: m/s or rad/s, the greatest speed.
+    acceleration: m/s^2 or rad/s^2.
+    deceleration: m/s^2 or rad/s^2.
+    rate: factor of the time, no unit, see `Profile`.
+    time: s.
+    """
     if time <= 0 or length <= 0:
         return 0.0, 0.0, 0.0
     k, a, d = rate, acceleration, deceleration
@@ -73,12 +81,13 @@ def trapezoid_at(
 
 
 def trapezoidal_profile(length: float, speed: float, acceleration: float, deceleration: float | None = None) -> Profile:
-    """Return the fastest profile over `length` >= 0 m or rad.
+    """Return the fastest profile over a length. It cruises at `speed`, or slower if the length is too short.
 
-    It cruises at `speed`, or slower if the length is too short.
-
-    speed: m/s or rad/s; acceleration, deceleration: > 0, in m/s^2 or rad/s^2, equal if only one is given. Raises
-    ValueError if one of them is not positive.
+    Raises ValueError if one of them is not positive.
+    length: >= 0 m or rad.
+    speed: m/s or rad/s.
+    acceleration: above 0, m/s^2 or rad/s^2.
+    deceleration: above 0, m/s^2 or rad/s^2; without it that of the acceleration.
     """
     if length < 0 or min(speed, acceleration, deceleration or acceleration) <= 0:
         raise ValueError(f"a profile needs length >= 0, speed and accelerations > 0: {length}, {speed}, {acceleration}")

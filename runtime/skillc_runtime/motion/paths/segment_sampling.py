@@ -43,9 +43,11 @@ def _arc_at(motion: Array, way: tuple[float, float, float], spoke: Array, across
 
 @compiled
 def motion_at(motion: OutMatrix, row: Vector, time: float) -> None:
-    """Compute displacement, twist and acceleration (3, 6), [linear; angular] in m and rad, in the frame of the path.
+    """Compute displacement, twist and acceleration of a segment, in the frame of the path.
 
-    row (21,): a segment, in m, rad and s; time: s after its start.
+    motion: (3, 6), [linear; angular] in m, m/s, m/s^2 and rad; it is written.
+    row: (21,) in m, rad and s, a segment.
+    time: s, after its start.
     """
     way, turn = _profile_at(row, WAY, time), _profile_at(row, TURN, time)
     spoke, across = row[SPOKE : SPOKE + 3], row[ACROSS : ACROSS + 3]
@@ -59,7 +61,10 @@ def motion_at(motion: OutMatrix, row: Vector, time: float) -> None:
 
 
 def sample_segment(row: Array, time: float) -> Array:
-    """Return what `motion_at` computes, (3, 6), for the row (21,) of a segment, in m, rad, s and the path's frame."""
+    """Return what `motion_at` computes, (3, 6), for the `row` (21,) of a segment, in m, rad, s and the path's frame.
+
+    time: s, after its start.
+    """
     motion = np.empty((3, 6))
     motion_at(motion, row, time)
     return motion

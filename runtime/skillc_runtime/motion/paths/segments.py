@@ -85,7 +85,10 @@ class Segment(msgspec.Struct, frozen=True):
 
 
 def segment_between(start: Pose, end: Pose, limits: MotionLimits) -> Segment:
-    """Return the straight motion between two poses of one frame; translation and rotation take equally long."""
+    """Return the straight motion between two poses of one frame; translation and rotation take equally long.
+
+    start, end: the poses.
+    """
     direction, length = _unit(end.position - start.position)
     axis, angle = _unit(log(end.rotation @ start.rotation.T))
     way = trapezoidal_profile(length, limits.speed, limits.acceleration)

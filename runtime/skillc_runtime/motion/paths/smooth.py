@@ -75,9 +75,15 @@ def _area(speed: float, rise: float, fall: float, length: float, end: float, tim
 def smooth_at(
     length: float, peak: float, acceleration: float, deceleration: float, rate: float, window: float, time: float
 ) -> tuple[float, float, float]:
-    """Return distance, speed and acceleration of a `SmoothProfile` at `time` s.
+    """Return distance, speed and acceleration of a `SmoothProfile`. With a window of 0 s those of the profile.
 
-    With a window of 0 s those of the profile.
+    length: m or rad.
+    peak: m/s or rad/s, the greatest speed.
+    acceleration: m/s^2 or rad/s^2.
+    deceleration: m/s^2 or rad/s^2.
+    rate: factor of the time, no unit, see `Profile`.
+    window: s.
+    time: s.
     """
     now = trapezoid_at(length, peak, acceleration, deceleration, rate, time)
     if window == 0.0 or length <= 0.0:
@@ -97,7 +103,10 @@ def smooth_profile(profile: Profile, window: float) -> Profile | SmoothProfile:
 
 
 def window_for(acceleration: float, jerk: float) -> float:
-    """Return the window in s that keeps the jerk below a limit > 0, in m/s^3 for m/s^2; ValueError for another one."""
+    """Return the window in s that keeps the jerk below a limit > 0; ValueError for another one.
+
+    acceleration: m/s^2; jerk: m/s^3; or both of angles in rad.
+    """
     if jerk <= 0:
         raise ValueError(f"a jerk must be above 0, not {jerk:g}")
     return 0.0 if isinf(jerk) else 2 * acceleration / jerk

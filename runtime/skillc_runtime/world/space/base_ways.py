@@ -69,7 +69,10 @@ class BlockedWay:
 
 
 def find_base_way(plan: FloorPlan, start: Pose, goal: Pose) -> BaseWay | BlockedWay:
-    """Return how a base drives from one pose on the floor to another without touching anything, or what blocks it."""
+    """Return how a base drives on the floor without touching anything, or what blocks it.
+
+    start, goal: poses of the base in the world.
+    """
     straight = find_straight_way(plan, start, goal)
     if straight is not None:
         return straight
@@ -109,7 +112,10 @@ def describe_blocked(way: BlockedWay, state: WorldState, robot: str, to: str) ->
 
 
 def find_straight_way(plan: FloorPlan, start: Pose, goal: Pose) -> BaseWay | None:
-    """Return the straight way of a base from one pose on the floor to another; None if something is in it."""
+    """Return the straight way of a base on the floor; None if something is in it.
+
+    start, goal: poses of the base in the world.
+    """
     places = _places_between(place_of(start), place_of(goal))
     return BaseWay((goal,)) if not len(places) or plan.is_free(places) else None
 

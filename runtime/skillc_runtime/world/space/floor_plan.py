@@ -35,7 +35,7 @@ class FloorPlan:
     """
 
     def __init__(self, state: WorldState, robot: str, start: Pose) -> None:
-        """Read who stands where; FrameError as for `pose`."""
+        """Read who stands where; FrameError as for `pose`. start: pose of the base in the world."""
         state = _standing(state, robot, start)
         occupants = read_occupants(state)
         riding = [each for each in occupants if _rides(state, each, robot)]
@@ -105,7 +105,10 @@ class FloorPlan:
 
 
 def place_of(at: Pose) -> Array:
-    """Return where a pose in the world is on the floor (3,): x and y in m, and the direction of its x axis in rad."""
+    """Return where a pose is on the floor (3,): x and y in m, and the direction of its x axis in rad.
+
+    at: pose in the world.
+    """
     return np.array([*at.position[:2], atan2(at.rotation[1, 0], at.rotation[0, 0])])
 
 

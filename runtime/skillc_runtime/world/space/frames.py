@@ -88,7 +88,7 @@ def _opening_at(state: WorldState, drawer: str, travel_m: float, at: Pose, frame
 
 
 def move_changes(state: WorldState, thing: str, at: Pose, viewer: str) -> list[Change]:
-    """Return the changes that move an object to a pose in the frame of another, the viewer; its carrier stays the same.
+    """Return the changes that move an object to the pose `at` in the frame of the viewer; its carrier stays the same.
 
     An object without a known pose is placed in the world frame. FrameError when the viewer's pose is not known or the
     viewer moves with the object.
@@ -100,7 +100,7 @@ def move_changes(state: WorldState, thing: str, at: Pose, viewer: str) -> list[C
 
 
 def place_changes(state: WorldState, thing: str, goal: Pose) -> list[Change]:
-    """Return the changes that move an object to a pose in the world; its carrier stays the same.
+    """Return the changes that move an object to the pose `goal` in the world; its carrier stays the same.
 
     An object without a known pose is placed in the world frame. FrameError when its frames are contradictory.
     """

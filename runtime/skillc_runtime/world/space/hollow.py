@@ -31,7 +31,7 @@ def gap_below(state: WorldState, upper: str, lower: str) -> float | None:
 
 
 def reach_along(state: WorldState, individual: str, direction: Array) -> float:
-    """Return how far an object reaches along a unit vector (3,) in the world, in m from the origin of the world."""
+    """Return how far an object reaches along `direction`, a unit vector (3,), in m from the origin of the world."""
     body = _shaped(state, individual)
     if body is None:
         return float((bounding_box(state, individual).corners @ direction).max())

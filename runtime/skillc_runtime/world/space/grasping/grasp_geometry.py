@@ -71,7 +71,10 @@ class GraspScene(msgspec.Struct, frozen=True, eq=False):
         return self.hand.widest_m - LEAST_CLEARANCE_M
 
     def with_room(self, tool: Pose, width_m: float) -> GraspCandidate | Occupant:
-        """Return a grasp whose fingers open as far as they have room for, or what is in the way of the hand."""
+        """Return a grasp whose fingers open as far as they have room for, or what is in the way of the hand.
+
+        tool: pose in the world; width_m: m, of the body between the fingers.
+        """
         blocker: Occupant | None = None
         for clearance_m in OPENING_CLEARANCES_M:
             opening_m = min(width_m + clearance_m, self.hand.widest_m)
@@ -99,7 +102,7 @@ def too_wide(thing: str, gripper: str, widths: Iterable[float], widest: float) -
 
 
 def span(body: RigidBody, direction: Array, solids: tuple[Solid, ...] | None = None) -> tuple[float, float]:
-    """Return where a body, or some of its solids, begins and ends along a unit vector (3,) in the world.
+    """Return where a body, or some of its solids, begins and ends along `direction`, a unit vector (3,) in the world.
 
     In m from the origin of the world.
     """
@@ -109,9 +112,11 @@ def span(body: RigidBody, direction: Array, solids: tuple[Solid, ...] | None = N
 
 
 def solids_between(body: RigidBody, direction: Array, low: float, high: float) -> tuple[Solid, ...]:
-    """Return the solids of a body that reach between two planes across a unit vector (3,) in the world.
+    """Return the solids of a body that reach between two planes across a direction.
 
-    low, high: their distances in m from the origin of the world.
+    direction: (3,), a unit vector in the world.
+    low: m, the distance of the first plane from the origin of the world.
+    high: m, the distance of the second one.
     """
     return tuple(
         each
@@ -127,7 +132,7 @@ def is_round(body: RigidBody) -> bool:
 
 
 def is_sideways(tool: Pose) -> bool:
-    """Whether a hand at a pose in the world counts as horizontal."""
+    """Whether a hand with the pose `tool` in the world counts as horizontal."""
     return abs(float(tool.rotation[2, 2])) < SIDEWAYS
 
 
@@ -141,7 +146,10 @@ def away_from_arm(state: WorldState, gripper: str, point: Array) -> Array:
 
 
 def horizontal_axes(body: RigidBody, away: Array) -> tuple[Array, Array]:
-    """Return the two horizontal directions (3,) in the world along and across a body, as seen from above."""
+    """Return the two horizontal directions (3,) in the world along and across a body, as seen from above.
+
+    away (3,): the unit vector in the world from the arm to the body.
+    """
     axes = body.pose.rotation
     if is_round(body):
         along = away

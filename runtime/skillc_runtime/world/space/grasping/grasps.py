@@ -112,9 +112,9 @@ def leaves_room(state: WorldState, gripper: str, thing: str, other: str) -> bool
 
 
 def width_between(state: WorldState, gripper: str, thing: str, tool: Pose) -> float | None:
-    """Return how wide a thing is between the fingers of a hand in the world, in m; None if nothing says so.
+    """Return how wide a thing is between the fingers of a hand, in m; None if nothing says so.
 
-    Two fingers that are apart meet a round thing beside its middle.
+    Two fingers that are apart meet a round thing beside its middle. tool: pose of the hand in the world.
     """
     stated = state.value(thing, GRASP_WIDTH)
     if isinstance(stated, float):

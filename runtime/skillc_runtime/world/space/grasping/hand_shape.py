@@ -59,9 +59,12 @@ class HandShape(msgspec.Struct, frozen=True):
         return max(self.finger_width_m, self.palm_thickness_m) / 2
 
     def boxes(self, tool: Pose, opening_m: float, before_m: float) -> Iterator[OrientedBox]:
-        """Yield the room of palm and open fingers that come to a pose in the world from `before_m` before it.
+        """Yield the room of palm and open fingers that come to a pose.
 
         Of the fingers it is wider by what things may overlap: beside them nothing is known to touch.
+        tool: pose in the world.
+        opening_m: m, between the fingers.
+        before_m: m, how far before the pose they come from.
         """
         palm, finger = np.array([self.palm_thickness_m, self.palm_width_m]) / 2, self.finger_width_m / 2 + SLACK_M
         yield _box(tool, (-palm[0], -palm[1], -self.depth_m - before_m), (palm[0], palm[1], -self.depth_m))
@@ -72,7 +75,12 @@ class HandShape(msgspec.Struct, frozen=True):
     def find_in_the_way(
         self, tool: Pose, opening_m: float, before_m: float, others: Iterable[Occupant]
     ) -> Occupant | None:
-        """Return the first of others that the hand overlaps on its way to a pose in the world; None without one."""
+        """Return the first of others that the hand overlaps on its way to a pose; None without one.
+
+        tool: pose in the world.
+        opening_m: m, between the fingers.
+        before_m: m, how far before the pose it comes from.
+        """
         parts = self.boxes(tool, opening_m, before_m)
         boxes = [(box, box.corners.min(axis=0), box.corners.max(axis=0)) for box in parts]
         for other in others:

@@ -71,9 +71,9 @@ def chosen_place(thing: str, to: str) -> str:
 
 
 def reservation_changes(state: WorldState, thing: str, to: str, support: str, at: Pose) -> list[Change]:
-    """Return the changes that reserve a place for a thing, with its pose as a tool there in the frame of a support.
+    """Return the changes that reserve a place for a thing, with its pose as a tool there.
 
-    There are none if `support` is the place that is reserved for it already.
+    There are none if `support` is the place that is reserved for it already. at: pose in the frame of the support.
     """
     chosen = chosen_place(thing, to)
     if support == chosen:

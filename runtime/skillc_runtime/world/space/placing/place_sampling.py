@@ -37,7 +37,7 @@ def choose_pitch_m(half: Array) -> float:
 
 
 def spread_out(hands: Iterable[Pose], half: Array) -> Iterator[Pose]:
-    """Yield the first of some hand poses in the world, and a part of the others, in their order, that are apart.
+    """Yield the first of some poses of `hands` in the world, and a part of the others, in their order, that are apart.
 
     half (2,): half the sides in m of the support on which they are.
     """

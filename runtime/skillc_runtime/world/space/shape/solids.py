@@ -65,9 +65,9 @@ class Solid(msgspec.Struct, frozen=True, eq=False):
         return self.hull
 
     def reach(self, direction: Array, frame: Pose) -> float:
-        """Return how far the solid reaches along a unit vector (3,), in m from the origin, its owner being at a frame.
+        """Return how far the solid reaches along a unit vector `direction` (3,), in m from the origin.
 
-        The greatest d . x of all points x of the solid: its support function.
+        The greatest d . x of all points x of the solid: its support function. frame: pose of its owner.
         """
         place = frame @ self.place
         along, (x, _, z) = place.rotation.T @ direction, self.half
