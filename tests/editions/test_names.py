@@ -9,12 +9,16 @@ import pytest
 from projects.folders import call, checked, names, write_project
 from skillc.services.library.files import find_library
 from skillc.services.library.libraries import compile_library
+from skillc_compiler.pipeline import compile
 from skillc_compiler.program.name_notes import find_later_names
 from skillc_compiler.resolve.files import read_sources
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.editions import EDITIONS
+from skillc_dsl.source import Source
 from skillc_model.skills import SkillLibrary
-from skillc_rdf.vocabulary.types import ClassType
+from skillc_ontology import catalogue
+from skillc_rdf.vocabulary.load import load
+from skillc_rdf.vocabulary.types import ClassType, Vocabulary
 
 OWN = """\
 use skiros, skillc
@@ -116,3 +120,31 @@ def test_what_came_later_is_of_an_edition_that_exists() -> None:
     later = {name: since for unit in files for name, since in find_later_names(unit).items()}
     assert {"Locate", "Weigh", "carried", "grasp_pose"} <= later.keys()
     assert set(later.values()) <= set(EDITIONS[1:])
+
+
+def test_a_term_that_a_row_gives_a_later_edition_gives_way_before(tmp_path: Path) -> None:
+    row = "<https://example.org/later> skillc:edition 2 ; skillc:adds skiros:Container ."
+    prefixes = """\
+@prefix skillc: <https://w3id.org/skillc/core#> .
+@prefix skiros: <http://rvmi.aau.dk/ontologies/skiros.owl#> .
+"""
+    texts = [Source(path, text) for path, text in catalogue.vocabulary_files()]
+    vocabulary = load([*texts, Source("rows.ttl", f"{prefixes}{row}\n")]).value
+    found = [
+        compile([Source("a.skill", "use skiros\nclass Container < Product\n", edition=edition)], vocabulary, {}, "mine")
+        for edition in EDITIONS
+    ]
+    own = "https://w3id.org/skillc/library/mine#Container"
+    assert [own in each.value.vocabulary.classes for each in found] == [True, False]
+    assert ["redeclared-term" in {problem.name for problem in each.diagnostics} for each in found] == [False, True]
+
+
+def test_a_skill_that_a_row_gives_a_later_edition_gives_way_before() -> None:
+    skill = "skill Shake {{  {0}\n    noplan\n}}\n"
+    user = 'import "shaking.skill"\n' + skill.format("")
+    shipped = {"shaking.skill": Source("std/shaking.skill", skill.format("# since edition 2"))}
+    found = [
+        compile([Source("a.skill", user, edition=edition)], Vocabulary(), shipped, "mine").diagnostics
+        for edition in EDITIONS
+    ]
+    assert ["duplicate-declaration" in {problem.name for problem in each} for each in found] == [False, True]
