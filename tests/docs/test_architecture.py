@@ -74,6 +74,14 @@ def test_every_package_is_listed_above_those_that_import_it() -> None:
     assert parts == layers("skillc_runtime")
 
 
+@pytest.mark.parametrize(
+    ("table", "folder"), [("part of `skillc` |", "app/skillc"), ("room of `services`", "app/skillc/services")]
+)
+def test_every_room_of_the_program_is_listed(table: str, folder: str) -> None:
+    listed = re.findall(r"^\| `(\w+)` \| ", PAGE.partition(table)[2].partition("\n\n")[0], re.M)
+    assert sorted(listed) == sorted(each.parent.name for each in (ROOT / folder).glob("*/__init__.py"))
+
+
 @pytest.mark.parametrize("path", sorted(set(re.findall(r"`((?:compiler|runtime|tests|ontology)/[\w./]+)`", PAGE))))
 def test_paths_exist(path: str) -> None:
     assert (ROOT / path).exists()

@@ -7,13 +7,14 @@ from pathlib import Path
 import pytest
 
 from projects.folders import call, checked, names, write_project
+from skillc.lsp.libraries import Libraries
 from skillc.services.library.files import find_library
 from skillc.services.library.libraries import compile_library
 from skillc_compiler.pipeline import compile
 from skillc_compiler.program.name_notes import find_later_names
 from skillc_compiler.resolve.files import read_sources
 from skillc_dsl.diagnostics import Outcome
-from skillc_dsl.editions import EDITIONS
+from skillc_dsl.editions import EDITIONS, NEWEST
 from skillc_dsl.source import Source
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
@@ -148,3 +149,15 @@ def test_a_skill_that_a_row_gives_a_later_edition_gives_way_before() -> None:
         for edition in EDITIONS
     ]
     assert ["duplicate-declaration" in {problem.name for problem in each} for each in found] == [False, True]
+
+
+def test_the_editor_reads_a_library_in_its_edition(tmp_path: Path) -> None:
+    text = f"use skiros, rparts, skillc\n{OWN.partition(chr(10))[2]}relation start(Camera, Camera)\n"
+    for edition in EDITIONS:
+        file = write_project(tmp_path / str(edition), f'name = "mine"\nedition = {edition}\n', text) / "tasks.skill"
+        libraries = Libraries((file.parent,))
+        libraries.write(file.as_uri(), file.read_text("utf-8"))
+        told = {each.name for each in libraries.view(file.as_uri()).analysis.problems}
+        assert ("duplicate-declaration" in told) == (edition == NEWEST)
+        libraries.write(file.as_uri(), text.replace("duration 1 s", "duration 2 s"))
+        assert {each.name for each in libraries.view(file.as_uri()).analysis.problems} == told

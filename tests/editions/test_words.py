@@ -51,7 +51,8 @@ def test_a_word_that_a_row_gives_a_later_edition_is_a_name_before(monkeypatch: p
     assert _errors(text, 1) == []
     assert set(_errors(text, 2)) == {"reserved-word"}
     assert _errors("skill Wait {\n    scoped\n}\n", 2) == []
-    assert _errors("skill Wait {\n    scoped\n}\n", 1) != []
+    (problem,) = parse(Source("a.skill", "skill Wait {\n    scoped\n}\n", edition=1)).diagnostics
+    assert problem.span.line == 2 and "from edition 2 on" in problem.help
 
 
 @pytest.mark.parametrize("edition", EDITIONS)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
 from msgspec import structs
 
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, ForeignForm, Outcome
+from skillc_dsl.editions import NEWEST, list_later_words
 from skillc_dsl.encoding import report_not_text, report_too_large, report_wrong_bytes
 from skillc_dsl.parsing.braces import close_braces, region_lines
 from skillc_dsl.parsing.building.declarations import FileBuilder
@@ -27,7 +29,8 @@ MOST_PROBLEMS = 200
 def parse(source: Source) -> Outcome[s.File]:
     """Return the syntax tree of all parts of `source` that can be parsed, with the problems in source order.
 
-    If some bytes are not UTF-8, nothing else is reported; a file that is not text has no declarations.
+    If some bytes are not UTF-8, nothing else is reported; a file that is not text has no declarations. Of a text that
+    is without problems in the newest edition only, the first problem is reported, with its edition.
     """
     refused = report_not_text(source) or report_too_large(source)
     if refused is not None:
@@ -35,7 +38,19 @@ def parse(source: Source) -> Outcome[s.File]:
     lexed = tokenize(source)
     wrong = report_wrong_bytes(source)
     file = build_directly(lexed.value, source) if not lexed.diagnostics and wrong is None else None
-    return Outcome(file) if file is not None else parse_with_problems(source, lexed, wrong)
+    if file is not None:
+        return Outcome(file)
+    found = parse_with_problems(source, lexed, wrong)
+    return _name_edition(found, source) if list_later_words(source.edition) else found
+
+
+def _name_edition(found: Outcome[s.File], source: Source) -> Outcome[s.File]:
+    """Return the problems of a text of an older edition, or that it is written in the newest one."""
+    if parse(source._replace(edition=NEWEST)).diagnostics:
+        return found
+    change = f"write `edition = {NEWEST}` in skillc.toml, or run `skillc fix --edition`"
+    help_ = f"it is right from edition {NEWEST} on: {change}"
+    return Outcome(found.value, (replace(found.diagnostics[0], help=help_, fix=None),))
 
 
 def parse_with_problems(source: Source, lexed: Outcome[tuple[Token, ...]], wrong: Diagnostic | None) -> Outcome[s.File]:

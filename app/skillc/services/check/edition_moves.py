@@ -42,6 +42,7 @@ class EditionMove(msgspec.Struct, frozen=True):
 def find_edition_move(path: Path) -> EditionMove:
     """Return what moves the project at a path to the newest edition; nothing is written.
 
+    One that has errors in its own edition, and none in the newest one, is moved as it is.
     RequestError for a path in no project.
     """
     project = find_project(path)
@@ -51,14 +52,14 @@ def find_edition_move(path: Path) -> EditionMove:
     library, edition = find_library(project.root), project.manifest.edition
     if edition == NEWEST:
         return EditionMove(edition)
-    if wrong := _errors(library):
-        return EditionMove(edition, problems=wrong, failed=edition, texts=_texts(library))
-    edits = _edits(library)
+    wrong = _errors(library)
+    edits = () if wrong else _edits(library)
     moved = library._replace(
         sources=tuple(_move(each, edits) for each in library.sources), project=_move_manifest(project)
     )
-    if wrong := _errors(moved):
-        return EditionMove(edition, problems=wrong, texts=_texts(moved))
+    if then := _errors(moved):
+        in_own = EditionMove(edition, problems=wrong, failed=edition, texts=_texts(library))
+        return in_own if wrong else EditionMove(edition, problems=then, texts=_texts(moved))
     shown = (each._replace(span=each.span._replace(path=library.display_path(each.span.path))) for each in edits)
     return EditionMove(edition, tuple(shown), tuple(_changes(library, moved)))
 

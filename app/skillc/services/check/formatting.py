@@ -8,7 +8,8 @@ from pathlib import Path
 
 from skillc.errors import RequestError
 from skillc.services.check.fixing import unified_diff
-from skillc.services.library.files import find_library
+from skillc.services.library.files import edition_of, find_library
+from skillc.services.project.loading import find_project
 from skillc.services.reporting.files import inspect_path, rewrite_file
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import decode
@@ -59,8 +60,9 @@ def format_files(paths: Iterable[Path]) -> Iterator[FormattedFile]:
 
 
 def format_text(name: Path, content: bytes) -> FormattedFile:
-    """Format a text that is called `name` in messages."""
-    return _format(decode(str(name), content), None)
+    """Format a text that is called `name` in messages; it is of the library there."""
+    edition = edition_of(name.parent, find_project(name.parent))
+    return _format(decode(str(name), content)._replace(edition=edition), None)
 
 
 def _format(source: Source, path: Path | None) -> FormattedFile:
