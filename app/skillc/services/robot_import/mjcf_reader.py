@@ -34,10 +34,10 @@ def read_mjcf(path: Path, options: ReadOptions) -> Reading:
     RequestError if there is no such arm, or MuJoCo refuses the file.
     """
     spec, notes = _load(path)
-    full = compile_model(path, spec)
     chain = choose_chain(path, spec, "body", options.base, options.tip)
     for body in chain.moved:
         _check_joints(path, body)
+    full = compile_model(path, spec)
     armatures = {float(full.joint(name).armature[0]) for name in chain.joints}
     if len(armatures) > 1:
         notes.append(f"the armature of joints differs; the largest, {max(armatures):g} kg m^2, is taken for all")
