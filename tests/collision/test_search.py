@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ START, GOAL = np.array([-2.0, 0.0]), np.array([2.0, 0.0])
 
 
 def length(points: list[Array]) -> float:
-    return float(sum(np.linalg.norm(after - before) for before, after in itertools.pairwise(points)))
+    return float(sum(np.linalg.norm(after - before) for before, after in pairwise(points)))
 
 
 class Discs:
@@ -39,7 +39,7 @@ def test_a_path_around_a_disc_is_nearly_the_shortest_one(seed: int) -> None:
     reach = Discs((0.0, 0.0, 1.0))
     found = sample_path(reach, START, GOAL, BOUNDS, 500, seed)
     assert found is not None and found[0] is START and found[-1] is GOAL
-    assert all(reach(one, other) == 1.0 for one, other in itertools.pairwise(found))
+    assert all(reach(one, other) == 1.0 for one, other in pairwise(found))
     shortest = 2 * np.sqrt(3.0) + np.pi / 3
     assert shortest <= length(found) < 1.3 * shortest
     again = sample_path(reach, START, GOAL, BOUNDS, 500, seed)
