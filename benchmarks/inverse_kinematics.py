@@ -58,12 +58,10 @@ def measure_wipe(arm: str) -> str:
     for _ in range(2):
         began = process_time()
         starts = find_postures(chain, unpack(poses[0]), limits, limits.mean(axis=1))
-        shares = [follow(chain, poses, start, load).reached.mean() for start in starts]
+        shares = [float(follow(chain, poses, q, load).reached.mean()) for q in starts]
         seconds = process_time() - began
-    share = max(shares, default=0.0)
-    return (
-        f"{arm}: {len(poses)} poses of lanes from {len(starts)} postures in {1e3 * seconds:.0f} ms, {share:.0%} reached"
-    )
+    best, ms = max(shares), 1e3 * seconds
+    return f"{arm}: {len(poses)} poses of lanes from {len(starts)} postures in {ms:.0f} ms, {best:.0%} reached"
 
 
 def _forward_s(model: mujoco.MjModel) -> float:

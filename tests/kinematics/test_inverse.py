@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from skillc_ontology import catalogue
-from skillc_runtime.kinematics.chain import add_weight, differentiate, place, read_chain
+from skillc_runtime.kinematics.chain import add_weight, differentiate, place_joints, read_chain
 from skillc_runtime.kinematics.inverse import find_posture, find_postures
 from skillc_runtime.motion.pose import Pose, log
 
@@ -48,15 +48,17 @@ def find_gravity_torques(chain, q, gravity, torques):
 def test_pose_jacobian_and_weight_agree_with_mujoco(arm):
     model, draw = load(arm), np.random.default_rng(2)
     chain, data = read_chain(model, "flange"), mujoco.MjData(model)
-    J, tool, torques, expected = np.empty((6, model.nv)), np.empty(12), np.empty(model.nv), np.empty((6, model.nv))
+    J, torques, expected = np.empty((6, model.nv)), np.empty(model.nv), np.empty((6, model.nv))
+    at = np.empty((model.nv + 1, 12))
     for _ in range(10):
         data.qpos[:] = q = draw.uniform(*model.jnt_range.T)
         mujoco.mj_forward(model, data)
         site = data.site("flange")
         mujoco.mj_jacSite(model, data, expected[:3], expected[3:], site.id)
-        find_jacobian(chain, q, tool, J)
-        find_gravity_torques(chain, q, model.opt.gravity, torques)
-        assert np.allclose(tool, [*site.xpos, *site.xmat], atol=1e-12)
+        place_joints(chain, q, at)
+        differentiate(chain.slides, at, J)
+        add_weight(chain.slides, chain.masses, chain.centres, at, model.opt.gravity, torques)
+        assert np.allclose(at[-1], [*site.xpos, *site.xmat], atol=1e-12)
         assert np.allclose(J, expected, atol=1e-12)
         assert np.allclose(torques, data.qfrc_bias, atol=1e-9)
 

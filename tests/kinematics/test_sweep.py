@@ -31,7 +31,7 @@ def test_lanes_with_circles_are_followed_and_loads_are_those_of_mujoco(name):
     model, chain, bearing = arm(name)
     poses, data = sample_poses(lanes(0.1, 0.4), 0.01, CIRCLE), mujoco.MjData(model)
     starts = find_postures(chain, unpack(poses[0]), bearing.limits, bearing.limits.mean(axis=1))
-    best = max((follow(chain, poses, start, bearing) for start in starts), key=lambda each: each.reached.mean())
+    best = max((follow(chain, poses, q, bearing) for q in starts), key=lambda each: each.reached.mean())
     assert len(poses) > 100
     assert best.reached.all()
     J = np.empty((3, model.nv))

@@ -74,7 +74,7 @@ def check_overlay_feasible(arm: VirtualArm, overlay: Overlay, axes: Array, limit
 
 
 def _check(arm: VirtualArm, target: Pose, q: Array, measures: Array, limits: ArmLimits) -> None:
-    """Raise Infeasible if joints q (nv,) do not bring the tool to a pose in base; measures (5,): as of `Sweep`."""
+    """Raise Infeasible if joints q (nv,) do not bring the tool to a pose in base; measures (4,): as of `Sweep`."""
     if measures[ERROR_M] > FAR_M or measures[ERROR_RAD] > FAR_RAD:
         away, turned = 1000 * measures[ERROR_M], np.degrees(measures[ERROR_RAD])
         raise Infeasible(

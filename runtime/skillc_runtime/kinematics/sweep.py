@@ -17,7 +17,6 @@ from skillc_runtime.kinematics.chain import Chain, add_weight, differentiate, pa
 from skillc_runtime.kinematics.inverse import LEAST_DAMPING, PULL, damped_step, find_error
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
-from skillc_runtime.motion.numerics.linear import cholesky
 from skillc_runtime.motion.pose import Array, Pose, exp, log
 
 STEPS, MOST_STEPS = 3, 12
@@ -28,7 +27,7 @@ DAMPING = 1e-2
 FAR_M, FAR_RAD = 0.003, 0.03
 """With a greater error of the tool a pose is not reached."""
 
-MARGIN, ERROR_M, ERROR_RAD, MANIPULABILITY, TORQUE = range(5)
+MARGIN, ERROR_M, ERROR_RAD, TORQUE = range(4)
 """Columns of `Sweep.measures`."""
 
 
@@ -47,10 +46,10 @@ class JointLoad:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sweep:
-    """The postures (n, nv) along a path, in rad or m, and measures (n, 5) at each of its poses.
+    """The postures (n, nv) along a path, in rad or m, and measures (n, 4) at each of its poses.
 
     MARGIN: of the joint that is nearest to the end of its range, rad or m, below 0 outside; ERROR_M, ERROR_RAD: of the
-    tool; MANIPULABILITY: sqrt(det J J^T), T. Yoshikawa 1985; TORQUE: share of its effort of the most loaded joint.
+    tool; TORQUE: share of its effort of the most loaded joint.
     """
 
     postures: Array
@@ -66,7 +65,7 @@ class Sweep:
 
 def follow(chain: Chain, poses: Array, start: Array, load: JointLoad) -> Sweep:
     """Return the sweep along poses (n, 12) in m of the tool in base, from joints start (nv,) in rad at the first."""
-    postures, measures = np.empty((len(poses), chain.joints)), np.empty((len(poses), 5))
+    postures, measures = np.empty((len(poses), chain.joints)), np.empty((len(poses), 4))
     follow_poses(chain, load, poses, start, postures, measures)
     return Sweep(postures, measures)
 
@@ -100,7 +99,7 @@ def follow_poses(
     poses: (n, 12) in m, of the tool in base.
     start: (nv,) in rad or m.
     postures: (n, nv) in rad or m; it is written.
-    measures: (n, 5) in rad, m and shares, see `Sweep`; it is written.
+    measures: (n, 4) in rad, m and shares, see `Sweep`; it is written.
     """
     n = chain.slides.size
     at, J, held, pull = np.empty((n + 1, 12)), np.empty((6, n)), np.zeros(n), np.zeros(n)
@@ -131,8 +130,7 @@ def follow_poses(
         measures[k, 0] = _margin(q, load.limits)
         measures[k, 1] = sqrt(error[0] * error[0] + error[1] * error[1] + error[2] * error[2])
         measures[k, 2] = sqrt(error[3] * error[3] + error[4] * error[4] + error[5] * error[5])
-        measures[k, 3] = _manipulability(J, gram)
-        measures[k, 4] = _torque_share(J, torques, load.force, load.effort)
+        measures[k, 3] = _torque_share(J, torques, load.force, load.effort)
         for i in range(n):
             postures[k, i] = q[i]
 
@@ -154,19 +152,3 @@ def _torque_share(J: Array, weight: Array, force: Array, effort: Array) -> float
         torque = weight[i] + J[0, i] * force[0] + J[1, i] * force[1] + J[2, i] * force[2]
         worst = max(worst, abs(torque) / effort[i])
     return worst
-
-
-@inlined
-def _manipulability(J: Array, gram: Array) -> float:
-    """sqrt(det J J^T) of J (6, nv), by its Cholesky factor in gram (6, 6)."""
-    volume = 1.0
-    for a in range(6):
-        for b in range(a + 1):
-            total = 0.0
-            for i in range(J.shape[1]):
-                total += J[a, i] * J[b, i]
-            gram[a, b] = total
-    cholesky(gram)
-    for a in range(6):
-        volume *= gram[a, a]
-    return volume

@@ -14,7 +14,7 @@ import numpy as np
 from skillc.errors import RequestError
 from skillc.services.project.manifest import NAME
 from skillc.services.project.project import Project
-from skillc.services.robot_import.comparison import POSTURES, Differences, prove_same
+from skillc.services.robot_import.comparison import POSTURES, Kinetics, prove_same
 from skillc.services.robot_import.mjcf_writer import ControlKind, format_numbers, write_mjcf
 from skillc.services.robot_import.options import read_efforts, read_home, read_settings
 from skillc.services.robot_import.reader import read_robot
@@ -85,7 +85,7 @@ def add_robot(project: Project, request: RobotRequest) -> AddedRobot:
     with TemporaryDirectory() as folder:
         path = Path(folder, f"{name}.xml")
         path.write_text(mjcf, "utf-8")
-        differences = prove_same(reading, path)
+        differences = prove_same(reading.model, reading.source, path)
         modelled, home = _modelled(path, reading, request)
     values, source = _values(modelled, stated, like, control, request.file.name)
     facts = SheetFacts(
@@ -154,7 +154,7 @@ def _report(
     facts: SheetFacts,
     files: tuple[Path, ...],
     reading: Reading,
-    differences: Differences,
+    differences: Kinetics,
     request: RobotRequest,
     efforts: Sequence[float],
 ) -> AddedRobot:
@@ -175,7 +175,7 @@ def _report(
         ),
         proof=(
             f"the file in MuJoCo and the model in pinocchio agree in {POSTURES} postures: poses of "
-            f"all links, Jacobians, mass matrices and weights; the largest difference is {differences.largest:.1e} "
+            f"all links, Jacobians, mass matrices and weights; the largest difference is {max(differences):.1e} "
             f"({differences.worst})"
         ),
         home=f"{facts.home} {unit}, {where}" if facts.home else "no posture with the flange pointing down was found",

@@ -11,8 +11,7 @@ import numpy as np
 
 from skillc.errors import RequestError
 from skillc.services.robot_import.chain import Chain, list_some
-from skillc.services.robot_import.comparison import compare
-from skillc.services.robot_import.mechanism import MujocoMechanism
+from skillc.services.robot_import.comparison import MujocoMechanism, compare
 from skillc.services.robot_import.possible_inertia import correct_inertia, restate_inertia
 from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.robot_model import Base, Inertia, Joint, RobotLink, RobotModel, Shape
@@ -71,7 +70,7 @@ class ArmReader:
             before = MujocoMechanism(restate_inertia(self.model, self._stated), self.joints, flange, self._base)
             notes.append(
                 f"no body has the moments of inertia of {list_some(list(self._stated))}: the smaller ones are raised, "
-                f"which changes the mass matrix by at most {100 * compare(model, before, source).mass_matrix:.2g} %"
+                f"which changes the mass matrix by at most {100 * compare(model, before, source).mass_matrices:.2g} %"
             )
         return Reading(model, source, tuple(notes))
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from skillc.services.robot_import.mechanism import Mechanism
+from skillc.services.robot_import.comparison import Mechanism
 from skillc.services.robot_import.robot_model import RobotModel
 from skillc_runtime.motion.pose import Array, rotation_from_angles
 
