@@ -10,10 +10,8 @@ from bodies.test_trays import FOLDER, PART, library
 from random_cells.spoiling import draw_case
 from random_cells.writing import TASK, write_cell
 from skillc.services.cell_checks.checks import check_cell
-from skillc.services.cell_checks.postures import read_hand_reaches
 from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.tasks.loading import load_task
-from skillc_runtime.motion.pose import Pose
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.scene.violation import SceneViolation
@@ -63,15 +61,6 @@ def test_a_bin_into_which_no_posture_brings_a_hand_is_out_of_reach(height: float
     bin_ = thing("Bin", at(0.0, 0.4, height + 0.05), size=(0.15, 0.15, 0.1), cls=CONTAINER)
     reported = found(cell(*stand(0.0, 0.4, height), *bin_))
     assert [each.individual for each in reported] == ([] if reached else [lab("Bin")])
-
-
-@pytest.mark.slow
-def test_the_answer_is_the_same_each_time() -> None:
-    (hand,) = read_hand_reaches(cell())
-    down = Pose.of((0.4, 0.0, 0.9), (0.0, 1.0, 0.0, 0.0))
-    first, again = hand.postures(down), hand.postures(down)
-    assert first
-    assert all((one == other).all() for one, other in zip(first, again, strict=True))
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""The postures in which the hand of an arm is at a pose: inverse kinematics from start postures of a fixed seed."""
+"""Whether an arm has a posture in which its hand is at a pose."""
 
 from __future__ import annotations
 
@@ -14,9 +14,6 @@ from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.terms import HAS_GRIPPER
 from skillc_runtime.world.state.world_state import WorldState
-
-STARTS = 12
-"""From how many start postures others are searched: more than `MoveTo` tries."""
 
 ROUND = 6
 """Decimals to which poses are compared with those that were solved before."""
@@ -34,17 +31,10 @@ class HandReach:
 
     def reaches(self, hand: Pose) -> bool:
         """Whether some posture puts the hand at a pose in the world; the same answer in each call."""
-        return bool(self._solve(hand, 1))
-
-    def postures(self, hand: Pose) -> tuple[Array, ...]:
-        """Return postures (nv,) in rad that put the hand at a pose in the world; the same in each call."""
-        return self._solve(hand, STARTS)
-
-    def _solve(self, hand: Pose, starts: int) -> tuple[Array, ...]:
         there = self.base.inverse() @ hand
         place = tuple(np.round(there.position, ROUND).tolist())
         turn = tuple(np.round(there.rotation, ROUND).ravel().tolist())
-        return _postures(self.models, self.home, place, turn, starts)
+        return _reaches(self.models, self.home, place, turn)
 
 
 def read_hand_reaches(state: WorldState) -> list[HandReach]:
@@ -65,19 +55,12 @@ def _read(state: WorldState, arm: str, gripper: str) -> HandReach:
 
 
 @lru_cache(maxsize=1000)
-def _postures(
-    models: tuple[str, str], home: tuple[float, ...], place: tuple[float, ...], turn: tuple[float, ...], starts: int
-) -> tuple[Array, ...]:
-    """Return the postures (nv,) found from home and from random starts, `starts` in all; none if home finds none."""
+def _reaches(
+    models: tuple[str, str], home: tuple[float, ...], place: tuple[float, ...], turn: tuple[float, ...]
+) -> bool:
     arm, limits = _arm_with_hand(models, home)
-    target, rest = Pose(np.array(place), np.array(turn).reshape(3, 3)), np.array(home)
-    nearest = solve_inverse_kinematics(arm, target, rest, limits)
-    if nearest is None:
-        return ()
-    draw = np.random.default_rng(0)
-    low, high = np.maximum(limits[:, 0], rest - np.pi), np.minimum(limits[:, 1], rest + np.pi)
-    others = (solve_inverse_kinematics(arm, target, draw.uniform(low, high), limits) for _ in range(starts - 1))
-    return (nearest, *(each for each in others if each is not None))
+    target = Pose(np.array(place), np.array(turn).reshape(3, 3))
+    return solve_inverse_kinematics(arm, target, np.array(home), limits) is not None
 
 
 @lru_cache(maxsize=8)
