@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import degrees, pi, radians
 from pathlib import Path
+from typing import Literal
+from xml.etree import ElementTree
 
 from skillc.errors import RequestError
 from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.robot_model import Joint
-from skillc.services.robot_import.xml_file import read_xml
+
+LARGEST_BYTES = 20_000_000
+"""Larger files are not read; models without their meshes have some 10 kB."""
 
 FARTHEST_RAD, FARTHEST_M = 4 * pi, 100.0
 """No joint turns or slides farther than this from 0; the language warns of angles above two turns, too."""
@@ -21,7 +25,7 @@ ASKEW = 0.99
 
 def read_robot(path: Path, options: ReadOptions | None = None) -> Reading:
     """Return the arm in a URDF or MJCF file; RequestError if there is no arm that can be used."""
-    form, root = read_xml(path)
+    form, root = _read_xml(path)
     if form == "urdf":
         from skillc.services.robot_import.urdf_reader import read_urdf
 
@@ -68,3 +72,45 @@ def _flange_notes(reading: Reading) -> tuple[str, ...]:
         f"the z axis of `{model.tip}` is not along the axis of the last joint, and should point out of the flange: "
         "turn it with --tip-turn ROLL PITCH YAW, in degrees, if it does not",
     )
+
+
+def _read_xml(path: Path) -> tuple[Literal["urdf", "mjcf"], ElementTree.Element]:
+    """Return the format of a robot's model and its root element. RequestError if it is not URDF or MJCF."""
+    root = _parse(path)
+    tag = _local_tag(root)
+    if path.suffix == ".xacro" or any("xacro" in each.tag for each in root.iter() if isinstance(each.tag, str)):
+        raise RequestError(
+            f"{path} has xacro macros, which have to be expanded first: `pip install xacro`, then "
+            f"`xacro {path.name} > {path.name.split('.')[0]}_expanded.urdf`, with the arguments of the file as "
+            "NAME:=VALUE"
+        )
+    if tag == "robot":
+        return "urdf", root
+    if tag == "mujoco":
+        return "mjcf", root
+    hint = "; SDF can be converted with `gz sdf`, or export URDF" if tag == "sdf" else ""
+    raise RequestError(f"{path} is neither URDF (`<robot>`) nor MJCF (`<mujoco>`): it begins with `<{tag}>`{hint}")
+
+
+def _local_tag(element: ElementTree.Element) -> str:
+    """Return the tag of an element without its namespace."""
+    return str(element.tag).rpartition("}")[2]
+
+
+def _parse(path: Path) -> ElementTree.Element:
+    try:
+        if path.is_dir():
+            raise RequestError(f"{path} is a folder; name the URDF or MJCF file in it")
+        if path.stat().st_size > LARGEST_BYTES:
+            raise RequestError(
+                f"{path} has more than {LARGEST_BYTES // 1_000_000} MB; a model has its meshes in other files"
+            )
+        return ElementTree.fromstring(path.read_bytes())
+    except OSError as error:
+        raise RequestError(f"{path} cannot be read: {error.strerror}") from error
+    except ElementTree.ParseError as error:
+        line, column = error.position
+        what = str(error).partition(":")[0]
+        raise RequestError(f"{path}:{line}:{column + 1}: this is not XML: {what}") from error
+    except (ValueError, LookupError) as error:
+        raise RequestError(f"{path} is not XML: {error}") from error

@@ -1,16 +1,25 @@
-"""Turns what a link of a URDF looks like into simple shapes: its collision elements, else its visual ones."""
+"""Turns what a link of a URDF looks like into simple shapes: its collision elements, else its visual ones.
+
+Meshes are found where ROS finds them, and read by Coal, which comes with pinocchio.
+"""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
+from urllib.parse import unquote, urlsplit
 from xml.etree import ElementTree
 
-from skillc.services.robot_import.mesh_files import find_mesh, read_vertices
+import numpy as np
+
 from skillc.services.robot_import.robot_model import Shape
 from skillc.services.robot_import.shape_fitting import fit_shape
 from skillc.services.robot_import.urdf_tree import numbers, origin
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.pose import Array, Pose
+
+PACKAGE_PATHS = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH")
+"""Environment variables that list folders with ROS packages, or folders with `share`."""
 
 
 def read_shapes(path: Path, link: ElementTree.Element, missing: list[str]) -> tuple[Shape, ...]:
@@ -56,11 +65,49 @@ def _primitive(path: Path, element: ElementTree.Element, pose: Pose) -> Shape | 
 
 def _mesh(path: Path, element: ElementTree.Element, pose: Pose, missing: list[str]) -> Shape | None:
     uri = element.get("filename") or ""
-    file = find_mesh(uri, path)
+    file = _find_mesh(uri, path)
     scale = numbers(path, element, "scale", (1.0, 1.0, 1.0))
-    vertices = None if file is None else read_vertices(file, scale)
+    vertices = None if file is None else _read_vertices(file, scale)
     if vertices is None:
         missing.append(uri)
         return None
     fitted = fit_shape(vertices)
     return Shape(fitted.kind, pose @ fitted.pose, fitted.size)
+
+
+def _find_mesh(uri: str, urdf: Path) -> Path | None:
+    """Return the file that a URDF names as `package://`, `file://` or a path relative to it; None if it is missing."""
+    parts = urlsplit(uri)
+    if parts.scheme in ("package", "model"):
+        found = _in_package(parts.netloc, unquote(parts.path).lstrip("/"), urdf)
+    elif parts.scheme == "file":
+        found = Path(unquote(parts.path))
+    else:
+        found = urdf.parent / uri
+    return found if found is not None and found.is_file() else None
+
+
+def _read_vertices(mesh: Path, scale: Array) -> Array | None:
+    """Return the vertices (n, 3) in m of a mesh; None if it cannot be read."""
+    import coal
+
+    try:
+        vertices = np.array(coal.MeshLoader().load(str(mesh), scale).vertices(), dtype=float)
+    except (ValueError, RuntimeError):
+        return None
+    return vertices if vertices.size and np.isfinite(vertices).all() else None
+
+
+def _in_package(package: str, inner: str, urdf: Path) -> Path | None:
+    """Return the file in a package: a folder of that name above the URDF, beside these, or in the environment."""
+    return next((found for folder in _folders(package, urdf) if (found := folder / inner).is_file()), None)
+
+
+def _folders(package: str, urdf: Path) -> Iterator[Path]:
+    for folder in urdf.resolve().parents:
+        if folder.name == package:
+            yield folder
+        yield folder / package
+    for name in PACKAGE_PATHS:
+        for listed in filter(None, os.environ.get(name, "").split(os.pathsep)):
+            yield from (Path(listed) / package, Path(listed) / "share" / package)
