@@ -201,6 +201,21 @@ def test_inertia_of_no_real_body_is_refused_with_its_link(tmp_path: Path) -> Non
     assert moments[0] + moments[1] == pytest.approx(moments[2], rel=1e-5)
 
 
+@pytest.mark.parametrize("moments", ['fullinertia="0.02 0.025 0.1 0.001 0 -0.002"', 'diaginertia="0.02 0.03 0.1"'])
+def test_moments_of_an_mjcf_are_raised_so_that_a_body_can_have_them(moments: str, tmp_path: Path) -> None:
+    path = written(tmp_path, read(tmp_path, six()))
+    text = path.read_text("utf-8")
+    whole = text[text.index('fullinertia="') :].split('"')[1]
+    path.write_text(text.replace(f'fullinertia="{whole}"', moments, 1), "utf-8")
+    with pytest.raises(RequestError, match=r"link_1.*no real body has such moments of inertia"):
+        read_robot(path)
+    corrected = read_robot(path, ReadOptions(correct_inertia=True))
+    assert any("moments of inertia of link_1:" in note and "by at most" in note for note in corrected.notes)
+    raised = np.linalg.eigvalsh(corrected.model.links[0].inertia.matrix)
+    assert raised[0] + raised[1] == pytest.approx(raised[2], rel=1e-5) and raised[2] == pytest.approx(0.1, rel=1e-3)
+    assert max(proved(tmp_path, corrected)) < TOLERANCE
+
+
 @pytest.mark.parametrize(
     ("old", "new", "options", "note"),
     [

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -12,7 +12,7 @@ import numpy as np
 from skillc.errors import RequestError
 from skillc.services.robot_import.chain import Chain, list_some
 from skillc.services.robot_import.comparison import MujocoMechanism, compare
-from skillc.services.robot_import.possible_inertia import correct_inertia, restate_inertia
+from skillc.services.robot_import.possible_inertia import restate_inertia
 from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.robot_model import Base, Inertia, Joint, RobotLink, RobotModel, Shape
 from skillc_runtime.motion.pose import Array, Pose
@@ -40,11 +40,13 @@ def compile_model(path: Path, spec: Any) -> Any:
 
 
 class ArmReader:
-    """The arm in its zero posture; link 0 is the base, the others are those that the joints move."""
+    """The arm in its zero posture; link 0 is the base, the others are those that the joints move.
 
-    def __init__(self, path: Path, spec: Any, chain: Chain, options: ReadOptions) -> None:
-        self._chain, self._options = chain, options
-        self._stated = correct_inertia(spec) if options.correct_inertia else {}
+    stated: moments of inertia in the file that were corrected, (3,) in kg m^2 by body.
+    """
+
+    def __init__(self, path: Path, spec: Any, chain: Chain, options: ReadOptions, stated: Mapping[str, Array]) -> None:
+        self._chain, self._options, self._stated = chain, options, stated
         self.model: Any = compile_model(path, spec)
         self.model.dof_armature[:] = 0.0
         self._data = mujoco.MjData(self.model)

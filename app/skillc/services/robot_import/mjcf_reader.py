@@ -13,6 +13,7 @@ import numpy as np
 from skillc.errors import RequestError
 from skillc.services.robot_import.arm_reader import ArmReader, compile_model
 from skillc.services.robot_import.chain import choose_chain, cut_to_chain
+from skillc.services.robot_import.possible_inertia import correct_inertia
 from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.robot_model import WHOLE_TURN, Joint, Shape, ShapeKind
 from skillc.services.robot_import.shape_fitting import fit_shape
@@ -37,12 +38,13 @@ def read_mjcf(path: Path, options: ReadOptions) -> Reading:
     chain = choose_chain(path, spec, "body", options.base, options.tip)
     for body in chain.moved:
         _check_joints(path, body)
+    stated = correct_inertia(spec) if options.correct_inertia else {}
     full = compile_model(path, spec)
     armatures = {float(full.joint(name).armature[0]) for name in chain.joints}
     if len(armatures) > 1:
         notes.append(f"the armature of joints differs; the largest, {max(armatures):g} kg m^2, is taken for all")
     notes += cut_to_chain(spec, chain, "their zero position")
-    arm = ArmReader(path, spec, chain, options)
+    arm = ArmReader(path, spec, chain, options, stated)
     joints = [_joint(arm.model, full, joint) for joint in arm.joints]
     return arm.read(joints, partial(_find_shapes, arm.model), max(armatures) or None, notes)
 

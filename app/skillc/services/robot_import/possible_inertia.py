@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from skillc_runtime.motion.pose import Array, quaternion_from_rotation, rotation_from_quaternion
+from skillc_runtime.motion.pose import Array
 
 MARGIN = 1e-6
 """Share of the largest moment by which the sum of the others exceeds it at least."""
@@ -17,27 +17,30 @@ MARGIN = 1e-6
 def correct_inertia(spec: Any) -> dict[str, Array]:
     """Raise the moments that no body can have in a specification of MuJoCo.
 
-    Return the inertia (3, 3) in kg m^2 that was stated, along the axes of each such body, by its name.
+    Return the moments (3,) in kg m^2 that were stated, the least first, of each such body, by its name.
     """
     stated = {}
     for body in spec.bodies:
         xx, yy, zz, xy, xz, yz = body.fullinertia.tolist()
-        full = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-        if body.explicitinertial and np.isfinite(full).all() and full.any() and not is_possible(full):
-            turn = rotation_from_quaternion(body.iquat)
-            stated[body.name] = turn @ full @ turn.T
-            body.fullinertia = nearest_possible(full)[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+        is_full = bool(np.isfinite(body.fullinertia).all())
+        inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) if is_full else np.diag(body.inertia)
+        if not body.explicitinertial or not inertia.any() or is_possible(inertia):
+            continue
+        stated[body.name] = np.linalg.eigvalsh(inertia)
+        mended = nearest_possible(inertia)
+        if is_full:
+            body.fullinertia = mended[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+        else:
+            body.inertia = np.diag(mended)
     return stated
 
 
 def restate_inertia(model: Any, stated: Mapping[str, Array]) -> Any:
-    """Return a copy of a compiled model with the inertia (3, 3) that was stated of some bodies."""
+    """Return a copy of a compiled model with the moments (3,) that were stated of some bodies, the least first."""
     before = copy(model)
-    for name, full in stated.items():
-        moments, axes = np.linalg.eigh(full)
+    for name, moments in stated.items():
         body = model.body(name).id
-        before.body_inertia[body] = moments
-        before.body_iquat[body] = quaternion_from_rotation(axes * [1.0, 1.0, np.sign(np.linalg.det(axes))])
+        before.body_inertia[body, np.argsort(model.body_inertia[body])] = moments
     return before
 
 

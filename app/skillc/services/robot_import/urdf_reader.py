@@ -13,6 +13,7 @@ import numpy as np
 from skillc.errors import RequestError
 from skillc.services.robot_import.arm_reader import ArmReader
 from skillc.services.robot_import.chain import Chain, choose_chain, cut_to_chain, fixed_to, list_some, other_joints
+from skillc.services.robot_import.possible_inertia import correct_inertia
 from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.robot_model import WHOLE_TURN, Joint, Shape
 from skillc.services.robot_import.urdf_shapes import read_shapes
@@ -38,7 +39,7 @@ def read_urdf(path: Path, robot: ElementTree.Element, options: ReadOptions) -> R
         _move_to_range(other)
     notes = [*cut_to_chain(spec, chain, "0, or as near as their range allows"), *_notes(path, moving)]
     missing: list[str] = []
-    arm = ArmReader(path, spec, chain, options)
+    arm = ArmReader(path, spec, chain, options, correct_inertia(spec) if options.correct_inertia else {})
 
     def find_shapes(bodies: Sequence[int]) -> Iterator[tuple[int, Shape]]:
         for body in bodies:
