@@ -176,7 +176,7 @@ def test_orders_that_ended_are_forgotten_in_time(desk: Desk) -> None:
 
 
 def test_a_state_without_orders_gets_them(tmp_path: Path) -> None:
-    later = ("TABLE orders", "TABLE trial_series", "TABLE trials", "TABLE sessions")
+    later = ("TABLE orders", "TABLE jobs", "TABLE job_events", "TABLE sessions")
     tables = re.sub(r",\s*agent +INTEGER[^\n]*", "", SCHEMA.tables).split(";\n")
     older = Schema(1, ";\n".join(each for each in tables if not any(map(each.__contains__, later))))
     open_for_writing(tmp_path / DATABASE, older).close()

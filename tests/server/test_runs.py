@@ -12,12 +12,12 @@ from running_cells.test_reality import TABLE, make_settings
 from server.running import RunningServer, wait_until
 from server.test_recordings import CARRY
 from skillc.cells.host import open_cell
-from skillc.contract.jobs import JobRefused
+from skillc.contract.diagnosis import WorkRefused
 from skillc.contract.operation import OperationRequest
-from skillc.contract.runs.run_jobs import CompareRuns, ReadSignals, RunFiles
+from skillc.contract.runs.run_questions import CompareRuns, ReadSignals, RunFiles
 from skillc.contract.runs.signals import SignalRows
 from skillc.services.reporting.reporter import SilentReporter
-from skillc.workers.run_reading import MAX_ROWS, MAX_VALUES, answer_run_job
+from skillc.workers.run_reading import MAX_ROWS, MAX_VALUES, answer_run_question
 
 
 def test_a_tree_is_shown_while_its_operation_waits_for_approval_and_its_events_have_its_numbers(
@@ -121,9 +121,9 @@ def test_signals_are_read_while_they_are_recorded(tmp_path: Path) -> None:
     recording = Path(settings.folder) / "recordings" / "first.mcap"
     run = RunFiles("first", str(settings.journal), str(recording))
     with open_cell(settings, SilentReporter()) as host:
-        assert isinstance(answer_run_job((ReadSignals(run, (), -1.0, 1e9, 0.0), b"")), JobRefused)
-        refused = answer_run_job((CompareRuns(run, run), b""))
-        assert isinstance(refused, JobRefused) and "first has no events of a task: it has not begun" in str(refused)
+        assert isinstance(answer_run_question((ReadSignals(run, (), -1.0, 1e9, 0.0), b"")), WorkRefused)
+        refused = answer_run_question((CompareRuns(run, run), b""))
+        assert isinstance(refused, WorkRefused) and "first has no events of a task: it has not begun" in str(refused)
         host.submit("first", OperationRequest(task=TABLE[1]))
         (ended,) = run_all(host)
         assert ended.state == "succeeded"
@@ -138,7 +138,7 @@ def test_signals_are_read_while_they_are_recorded(tmp_path: Path) -> None:
 
 
 def read(job: ReadSignals) -> SignalRows:
-    answer = answer_run_job((job, b""))
+    answer = answer_run_question((job, b""))
     assert isinstance(answer, bytes), answer
     return msgspec.json.decode(answer, type=SignalRows)
 

@@ -5,23 +5,26 @@ from __future__ import annotations
 import asyncio
 import os
 from collections.abc import Callable, Coroutine
+from functools import partial
 from typing import Any
 
 import pytest
 
 from running_cells.yard import write_yard
 from skillc.cells.snapshot import CellSnapshot, encode_snapshot
-from skillc.contract.jobs import QueryWorld
 from skillc.contract.world import QueryRows
 from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.scene.stores import StoreChoice
 from skillc.services.views.scenes import open_scene
 from skillc.workers import pool
-from skillc.workers.pool import JobTimedOut, TooManyJobs, Workers
+from skillc.workers.pool import TooMuchWork, Workers, WorkTimedOut
+from skillc.workers.questions import query_world
 from skillc_runtime.execution.worker_process import WorkerProcess
 
-ENDLESS = QueryWorld(f"SELECT * {{ {' . '.join(f'?a{n} ?b{n} ?c{n}' for n in range(9))} . FILTER(?c0 = ?c1 + 1) }}")
-QUICK = QueryWorld("ASK { ?s ?p ?o }")
+ENDLESS = partial(
+    query_world, f"SELECT * {{ {' . '.join(f'?a{n} ?b{n} ?c{n}' for n in range(9))} . FILTER(?c0 = ?c1 + 1) }}"
+)
+QUICK = partial(query_world, "ASK { ?s ?p ?o }")
 LIMIT_S = 600.0
 
 
@@ -72,7 +75,7 @@ def test_a_server_that_ends_leaves_no_process(snapshot: bytes, started: list[Wor
         endless = busy(workers, snapshot)
         await asyncio.sleep(0.5)
         workers.close()
-        with pytest.raises(JobTimedOut):
+        with pytest.raises(WorkTimedOut):
             await endless
         await ended(started)
 
@@ -89,9 +92,9 @@ def test_who_waits_too_long_for_a_process_is_refused(
         await asyncio.sleep(0.02)
         waiting = busy(workers, snapshot)
         await asyncio.sleep(0.02)
-        with pytest.raises(TooManyJobs, match="1 requests wait"):
+        with pytest.raises(TooMuchWork, match="1 requests wait"):
             await busy(workers, snapshot)
-        with pytest.raises(TooManyJobs, match=r"no process was free for 0.3 s"):
+        with pytest.raises(TooMuchWork, match=r"no process was free for 0.3 s"):
             await waiting
         workers.close()
         await asyncio.wait(endless)
@@ -132,7 +135,7 @@ def test_a_process_that_cannot_be_started_is_said(snapshot: bytes, monkeypatch: 
     monkeypatch.setattr(pool, "WorkerProcess", refuse)
 
     async def ask(workers: Workers) -> None:
-        with pytest.raises(TooManyJobs, match=r"no process can be started \(Resource temporarily unavailable\)"):
+        with pytest.raises(TooMuchWork, match=r"no process can be started \(Resource temporarily unavailable\)"):
             await workers.answer(QUICK, snapshot, QueryRows, LIMIT_S)
 
     use(ask)

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import msgspec
 import pytest
 
 from skillc.cells.snapshot import CellSnapshot, encode_snapshot
-from skillc.contract.jobs import ListFacts, QueryWorld, WriteWorld
-from skillc.contract.world import QueryRows
+from skillc.contract.world import DocumentForm, FactPage, QueryRows
 from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import SHIPPED, find_library
-from skillc.workers.answering import answer_job
+from skillc.workers.answering import answer_work
+from skillc.workers.questions import list_facts, query_world, write_world
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.scene.load import load_scene
@@ -43,7 +43,7 @@ def snapshot(name: str) -> bytes:
 
 def ask(sparql: str, name: str = "wiping") -> list[tuple[object, ...]]:
     """Return the answer of a worker to a query about the cell."""
-    answer = answer_job((QueryWorld(sparql), snapshot(name)))
+    answer = answer_work((partial(query_world, sparql), snapshot(name)))
     assert isinstance(answer, bytes), answer
     return list(msgspec.json.decode(answer, type=QueryRows).rows)
 
@@ -68,8 +68,8 @@ def test_with_another_library_its_skills_are_there_and_no_others() -> None:
 
 def test_they_are_no_facts_of_the_scene() -> None:
     ask(ABLE)
-    facts = answer_job((ListFacts(None, None, None, 0, 1000), snapshot("wiping")))
-    turtle = answer_job((WriteWorld("cell", "turtle", True), snapshot("wiping")))
+    facts = answer_work((partial(list_facts, FactPage(limit=1000)), snapshot("wiping")))
+    turtle = answer_work((partial(write_world, "cell", DocumentForm("turtle", True)), snapshot("wiping")))
     for answer in (facts, turtle):
         assert isinstance(answer, bytes) and b"Heron-1" in answer
         assert b"hasSkill" not in answer and b"library/wiping" not in answer

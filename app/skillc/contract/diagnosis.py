@@ -19,3 +19,10 @@ class Diagnosis(msgspec.Struct, frozen=True):
 
 
 NO_DIAGNOSIS = Diagnosis()
+
+
+class WorkRefused(msgspec.Struct, frozen=True):
+    """Why a worker cannot do something; `why` is empty if a `diagnosis` says more."""
+
+    why: str = ""
+    diagnosis: Diagnosis = NO_DIAGNOSIS

@@ -7,25 +7,25 @@ from collections.abc import Coroutine
 from http import HTTPStatus
 from typing import TypeVar
 
-from skillc.contract.jobs import Job
 from skillc.contract.messages import TakeSnapshot
-from skillc.contract.runs.run_jobs import RunJob
+from skillc.contract.runs.run_questions import RunQuestion
 from skillc.server.http.api_call import ApiCall
 from skillc.server.http.outcome import raise_refused
 from skillc.server.problems import ApiRefusal
-from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs, Work
+from skillc.workers.pool import TooMuchWork, WorkFailed, WorkTimedOut
+from skillc.workers.questions import Work
 
 T = TypeVar("T")
 
 KNOWN_FACTS = TakeSnapshot()
 
 
-async def ask_about(call: ApiCall, job: Job, kind: type[T], seconds: float, wanted: TakeSnapshot = KNOWN_FACTS) -> T:
-    """Let a worker do a job for what is `wanted` of the cell now; ApiRefusal if there is no answer.
+async def ask_about(call: ApiCall, work: Work, kind: type[T], seconds: float, wanted: TakeSnapshot = KNOWN_FACTS) -> T:
+    """Let a worker do something with what is `wanted` of the cell now; ApiRefusal if there is no answer.
 
     The worker is killed if the client goes.
     """
-    return await ask_with(call, job, await take_snapshot(call, call.path["cell"], wanted), kind, seconds)
+    return await ask_with(call, work, await take_snapshot(call, call.path["cell"], wanted), kind, seconds)
 
 
 async def take_snapshot(call: ApiCall, cell: str, wanted: TakeSnapshot = KNOWN_FACTS) -> bytes:
@@ -33,25 +33,25 @@ async def take_snapshot(call: ApiCall, cell: str, wanted: TakeSnapshot = KNOWN_F
     return raise_refused(await call.server.find_cell(cell).request(wanted))
 
 
-async def ask_with(call: ApiCall, job: Job | Work, snapshot: bytes, kind: type[T], seconds: float) -> T:
-    """Let a worker do a job for a snapshot of a cell, or other work; ApiRefusal if there is no answer."""
-    return await _wait(call, call.server.workers.answer(job, snapshot, kind, seconds))
+async def ask_with(call: ApiCall, work: Work, snapshot: bytes, kind: type[T], seconds: float) -> T:
+    """Let a worker do something with a snapshot of a cell; ApiRefusal if there is no answer."""
+    return await _wait(call, call.server.workers.answer(work, snapshot, kind, seconds))
 
 
-async def ask_about_run(call: ApiCall, job: RunJob, kind: type[T], seconds: float) -> T:
-    """Let a worker do a job about runs, of which the cell notices nothing; ApiRefusal if there is no answer.
+async def ask_about_run(call: ApiCall, question: RunQuestion, kind: type[T], seconds: float) -> T:
+    """Let a worker answer a question about runs, of which the cell notices nothing; ApiRefusal if there is no answer.
 
     The worker is killed if the client goes.
     """
-    return await _wait(call, call.server.run_readers.answer(job, b"", kind, seconds))
+    return await _wait(call, call.server.run_readers.answer(question, b"", kind, seconds))
 
 
 async def _wait(call: ApiCall, answer: Coroutine[None, None, T]) -> T:
     try:
         return await _unless_gone(call, answer)
-    except JobFailed as error:
+    except WorkFailed as error:
         raise ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error), diagnosis=error.diagnosis) from error
-    except (JobTimedOut, TooManyJobs) as error:
+    except (WorkTimedOut, TooMuchWork) as error:
         raise ApiRefusal(HTTPStatus.SERVICE_UNAVAILABLE, str(error)) from error
 
 

@@ -11,10 +11,10 @@ import numpy as np
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.journal.reading import JournalReader
-from skillc.contract.jobs import JobRefused
+from skillc.contract.diagnosis import WorkRefused
 from skillc.contract.runs.explanation import ChainedFailure, ExplainedCall, RunExplanation
 from skillc.contract.runs.run_diff import RunDiff
-from skillc.contract.runs.run_jobs import CompareRuns, ExplainRun, ReadSignals, RunFiles, RunJob, ShowTree
+from skillc.contract.runs.run_questions import CompareRuns, ExplainRun, ReadSignals, RunFiles, RunQuestion, ShowTree
 from skillc.contract.runs.run_tree import OperationTree
 from skillc.contract.runs.signals import SignalRows
 from skillc.errors import ServiceError
@@ -40,19 +40,19 @@ MAX_VALUES = 200_000
 RunAnswer: TypeAlias = OperationTree | RunExplanation | SignalRows | RunDiff
 
 
-def answer_run_job(request: tuple[RunJob, bytes] | None) -> bytes | JobRefused:
+def answer_run_question(request: tuple[RunQuestion, bytes] | None) -> bytes | WorkRefused:
     """Return the answer to a job as JSON, or why there is none; None asks if it is ready. A snapshot is not needed."""
     if request is None:
         return b""
     try:
         return msgspec.json.encode(_answer(request[0]))
     except (ServiceError, DatabaseError) as error:
-        return JobRefused(str(error))
+        return WorkRefused(str(error))
     except MemoryError:
-        return JobRefused("it needs too much memory; ask for less")
+        return WorkRefused("it needs too much memory; ask for less")
 
 
-def _answer(job: RunJob) -> RunAnswer:
+def _answer(job: RunQuestion) -> RunAnswer:
     match job:
         case ShowTree(run):
             return build_tree(_read_events(run), _read_library(run))

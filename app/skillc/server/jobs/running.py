@@ -19,7 +19,8 @@ from skillc.contract.job import FILE_TYPES, ONGOING, Job, JobChanged, JobOutcome
 from skillc.server.jobs.store import JobStore
 from skillc.server.log import log
 from skillc.server.problems import ApiRefusal
-from skillc.workers.pool import JobFailed, JobTimedOut, TooManyJobs, Work, Workers
+from skillc.workers.pool import TooMuchWork, Workers, WorkFailed, WorkTimedOut
+from skillc.workers.questions import Work
 
 LaneName: TypeAlias = Literal["plans", "simulations", "trials"]
 T = TypeVar("T")
@@ -138,7 +139,7 @@ class Jobs:
                 self.note(structs.replace(job, state="running"), "running")
                 outcome = await run(RunningJob(self, lane.workers, job, snapshot))
             self._end(job.id, outcome)
-        except (JobFailed, JobTimedOut, TooManyJobs) as error:
+        except (WorkFailed, WorkTimedOut, TooMuchWork) as error:
             self._fail(job.id, error)
         except sqlite3.Error as error:
             log("job", job=job.id, problem=f"it cannot be kept: {error}")
@@ -156,8 +157,8 @@ class Jobs:
         ended = structs.replace(job, state="ended", files=files, done=job.wanted)
         self.note(ended, "ended", outcome=outcome)
 
-    def _fail(self, name: str, error: JobFailed | JobTimedOut | TooManyJobs) -> None:
-        diagnosis = error.diagnosis if isinstance(error, JobFailed) else NO_DIAGNOSIS
+    def _fail(self, name: str, error: WorkFailed | WorkTimedOut | TooMuchWork) -> None:
+        diagnosis = error.diagnosis if isinstance(error, WorkFailed) else NO_DIAGNOSIS
         problem = ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error), diagnosis=diagnosis).problem
         failed = structs.replace(self.find(name), state="failed", reason=str(error), problem=problem)
         self.note(failed, f"failed: {error}")

@@ -5,11 +5,11 @@ from __future__ import annotations
 import msgspec
 
 from skillc.contract.geometry import CellModel, Coverage, Poses
-from skillc.contract.jobs import ListPoses
 from skillc.contract.messages import TakeCoverage, TakeGeometry
 from skillc.server.asking import ask_about
 from skillc.server.http.api_call import ApiCall
 from skillc.server.http.outcome import raise_refused
+from skillc.workers import questions
 
 POSES_S = 10.0
 """How long the computation of all poses may take."""
@@ -21,7 +21,7 @@ async def show_model(call: ApiCall) -> CellModel:
 
 
 async def list_poses(call: ApiCall) -> Poses:
-    return await ask_about(call, ListPoses(), Poses, POSES_S)
+    return await ask_about(call, questions.list_poses, Poses, POSES_S)
 
 
 async def show_coverage(call: ApiCall) -> Coverage:

@@ -6,12 +6,12 @@ from importlib.metadata import version
 
 from skillc.contract.api.version import VersionInfo
 from skillc.contract.device import Device, DeviceStatus
-from skillc.contract.jobs import ListDevices
 from skillc.contract.library import LibraryDescription, LibraryStatus
 from skillc.server.asking import ask_about
 from skillc.server.http.api_call import ApiCall
 from skillc.server.http.openapi import VERSION
 from skillc.server.routes.world import QUERY_S
+from skillc.workers.questions import list_devices
 
 
 async def show_version(call: ApiCall) -> VersionInfo:
@@ -36,7 +36,7 @@ async def show_library(call: ApiCall) -> LibraryDescription:
 
 
 async def list_robots(call: ApiCall) -> tuple[DeviceStatus, ...]:
-    devices = await ask_about(call, ListDevices(), tuple[Device, ...], QUERY_S)
+    devices = await ask_about(call, list_devices, tuple[Device, ...], QUERY_S)
     cell = call.server.find_cell(call.path["cell"])
     held = {each.id: each.devices for each in cell.operations.values() if each.devices != ()}
     return tuple(DeviceStatus(each, _find_holder(each.iri, held), cell.alive.arms.get(each.iri)) for each in devices)

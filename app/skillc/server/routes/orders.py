@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime, timedelta
+from functools import partial
 from http import HTTPStatus
 
 from msgspec import structs
 
 from skillc.cells.database import transaction
-from skillc.contract.jobs import CheckOperation
 from skillc.contract.order import Order, OrderRequest
 from skillc.server.asking import ask_about
 from skillc.server.http.api_call import ApiCall
@@ -18,6 +18,7 @@ from skillc.server.orders.due import LATE_S
 from skillc.server.orders.store import TooManyOrders
 from skillc.server.problems import KEY_REUSED, ApiRefusal
 from skillc.server.routes.world import QUERY_S
+from skillc.workers.questions import check_operation
 from skillc_runtime.recording.envelope import make_run_id
 
 LAST = datetime(2200, 1, 1, tzinfo=UTC)
@@ -30,8 +31,7 @@ async def add_order(call: ApiCall) -> Order:
     name = make_run_id(wanted.request.task or "order")
     _check(wanted, call.server.clock())
     request = wanted.request
-    possible = CheckOperation(request.task, request.goal, request.call, request.arguments, request.breakpoints)
-    await ask_about(call, possible, type(None), QUERY_S)
+    await ask_about(call, partial(check_operation, request, request.breakpoints), type(None), QUERY_S)
     try:
         with transaction(call.server.state.database):
             if call.key is not None and (first := _claim(call, cell, call.key, name)) != name:

@@ -7,7 +7,7 @@ from pathlib import Path
 from skillc.cells.operations.recording_files import recording_file
 from skillc.contract.runs.explanation import RunExplanation
 from skillc.contract.runs.run_diff import RunDiff
-from skillc.contract.runs.run_jobs import CompareRuns, ExplainRun, ReadSignals, RunFiles, ShowTree
+from skillc.contract.runs.run_questions import CompareRuns, ExplainRun, ReadSignals, RunFiles, ShowTree
 from skillc.contract.runs.run_tree import OperationTree
 from skillc.contract.runs.signals import SignalPage, SignalRows
 from skillc.server.asking import ask_about_run

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from skillc.contract.jobs import ListFacts, ListTerms, ListThings, ListWrites, QueryWorld, WriteWorld
+from functools import partial
+
 from skillc.contract.messages import Edit, Place
 from skillc.contract.world import (
     MAX_NUMBER,
@@ -22,6 +23,7 @@ from skillc.contract.world import (
 from skillc.server.asking import ask_about
 from skillc.server.http.api_call import ApiCall
 from skillc.server.http.outcome import command_cell
+from skillc.workers import questions
 
 QUERY_S = 10.0
 """How long the answer to a query may take."""
@@ -29,27 +31,26 @@ QUERY_S = 10.0
 
 async def list_facts(call: ApiCall) -> WorldFacts:
     page: FactPage = call.query
-    job = ListFacts(page.subject, page.type, page.search, page.offset, page.limit)
-    return await ask_about(call, job, WorldFacts, QUERY_S)
+    return await ask_about(call, partial(questions.list_facts, page), WorldFacts, QUERY_S)
 
 
 async def write_world(call: ApiCall) -> WorldText:
     wanted: DocumentForm = call.query
     cell = call.server.find_cell(call.path["cell"]).settings.name
-    return await ask_about(call, WriteWorld(cell, wanted.format, wanted.everything), WorldText, QUERY_S)
+    return await ask_about(call, partial(questions.write_world, cell, wanted), WorldText, QUERY_S)
 
 
 async def list_terms(call: ApiCall) -> StatableFacts:
     wanted: TermSubject = call.query
-    return await ask_about(call, ListTerms(wanted.subject), StatableFacts, QUERY_S)
+    return await ask_about(call, partial(questions.list_terms, wanted.subject), StatableFacts, QUERY_S)
 
 
 async def list_things(call: ApiCall) -> tuple[PlacedThing, ...]:
-    return await ask_about(call, ListThings(), tuple[PlacedThing, ...], QUERY_S)
+    return await ask_about(call, questions.list_things, tuple[PlacedThing, ...], QUERY_S)
 
 
 async def query_world(call: ApiCall) -> QueryRows:
-    return await ask_about(call, QueryWorld(call.body.sparql), QueryRows, QUERY_S)
+    return await ask_about(call, partial(questions.query_world, call.body.sparql), QueryRows, QUERY_S)
 
 
 async def edit_world(call: ApiCall) -> None:
@@ -67,6 +68,8 @@ async def place_thing(call: ApiCall) -> None:
 
 async def list_writes(call: ApiCall) -> tuple[WorldWrite, ...]:
     page: WritePage = call.query
-    journal = str(call.server.find_cell(call.path["cell"]).settings.journal)
-    job = ListWrites(journal, MAX_NUMBER if page.before is None else page.before, page.limit)
-    return await ask_about(call, job, tuple[WorldWrite, ...], QUERY_S)
+    journal = call.server.find_cell(call.path["cell"]).settings.journal
+    before = MAX_NUMBER if page.before is None else page.before
+    return await ask_about(
+        call, partial(questions.list_writes, journal, before, page.limit), tuple[WorldWrite, ...], QUERY_S
+    )

@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from skillc.contract.job import RunResult
-from skillc.contract.jobs import CheckOperation
 from skillc.contract.messages import TakeSnapshot
 from skillc.contract.rehearsal import RehearsalRequest
 from skillc.server.asking import ask_with, take_snapshot
 from skillc.server.http.api_call import ApiCall
 from skillc.server.jobs.kind import CHECK_S, JobKind, PreparedJob
 from skillc.server.jobs.running import SIMULATION_S, RunningJob
+from skillc.workers.questions import check_operation
 from skillc_runtime.evaluation.report.result import TaskResult
 
 if TYPE_CHECKING:
@@ -30,8 +30,7 @@ if TYPE_CHECKING:
 async def _prepare(call: ApiCall, request: RehearsalRequest) -> PreparedJob:
     cell = call.server.find_cell(request.cell).settings.name
     twin = await take_snapshot(call, cell, TakeSnapshot(beside="devices"))
-    possible = CheckOperation(request.task, request.goal, request.call, request.arguments, ())
-    await ask_with(call, possible, twin, type(None), CHECK_S)
+    await ask_with(call, partial(check_operation, request, ()), twin, type(None), CHECK_S)
 
     async def run(job: RunningJob) -> RunResult:
         return RunResult(await job.answer(partial(rehearse, request, job.folder), TaskResult, SIMULATION_S))

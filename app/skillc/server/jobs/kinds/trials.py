@@ -18,7 +18,7 @@ from skillc.server.asking import ask_with, take_snapshot
 from skillc.server.http.api_call import ApiCall
 from skillc.server.jobs.kind import CHECK_S, JobKind, PreparedJob
 from skillc.server.jobs.running import RunningJob
-from skillc.workers.pool import JobCrashed, JobTimedOut
+from skillc.workers.pool import WorkCrashed, WorkTimedOut
 from skillc_runtime.evaluation.trials.judging import judge_series
 from skillc_runtime.evaluation.trials.trial import Trial
 from skillc_runtime.evaluation.trials.verdict import find_unmet_criteria
@@ -53,9 +53,9 @@ async def _run(request: TrialsRequest, scene: str, job: RunningJob) -> None:
             prepared = True
         try:
             trial = await job.answer(partial(run_trial, request, scene, seed), Trial, request.deadline_s)
-        except JobCrashed as error:
+        except WorkCrashed as error:
             trial, prepared = Trial(seed=seed, status="crashed", reason=str(error)), False
-        except JobTimedOut:
+        except WorkTimedOut:
             why = f"it took longer than {request.deadline_s:g} s"
             trial, prepared = Trial(seed=seed, status="crashed", reason=why), False
         why_not = find_unmet_criteria(trial, request.disturb)

@@ -45,4 +45,4 @@ class CompareRuns(msgspec.Struct, frozen=True, tag="compare"):
     second: RunFiles
 
 
-RunJob: TypeAlias = ShowTree | ExplainRun | ReadSignals | CompareRuns
+RunQuestion: TypeAlias = ShowTree | ExplainRun | ReadSignals | CompareRuns
