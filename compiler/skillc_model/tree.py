@@ -10,6 +10,7 @@ import msgspec
 
 from skillc_dsl.position import Position
 from skillc_model.conditions import Condition, Expression
+from skillc_rdf.vocabulary.types import ValueType
 
 
 class Sequence(msgspec.Struct, frozen=True, tag="seq"):
@@ -137,6 +138,22 @@ class Check(msgspec.Struct, frozen=True, tag="check"):
     source: Position
 
 
+class NamedValue(msgspec.Struct, frozen=True):
+    """A value in a text, by its name; `type` is None if it is not known."""
+
+    name: str
+    value: Expression
+    type: ValueType | None
+
+
+class Fail(msgspec.Struct, frozen=True, tag="fail"):
+    """Fails; the reason is `text`, which has the values in it as `{name}`, and braces twice."""
+
+    text: str
+    values: tuple[NamedValue, ...]
+    source: Position
+
+
 class Apply(msgspec.Struct, frozen=True, tag="apply"):
     """Applies the labelled postconditions of the enclosing skill to the world model."""
 
@@ -166,7 +183,20 @@ Decorator: TypeAlias = Retry | Repeat | Timeout | Try | Invert | Once
 """A node that changes the result of its child, or how often or how long it runs; its tag is its word."""
 
 Node: TypeAlias = (
-    Sequence | Selector | Parallel | Decorator | Wait | WaitUntil | If | While | ForEach | Check | Apply | Call | With
+    Sequence
+    | Selector
+    | Parallel
+    | Decorator
+    | Wait
+    | WaitUntil
+    | If
+    | While
+    | ForEach
+    | Check
+    | Fail
+    | Apply
+    | Call
+    | With
 )
 
 

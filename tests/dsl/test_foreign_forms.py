@@ -146,6 +146,8 @@ EXAMPLES = (
     ("step", "else {\n            Go()\n        }", None),
     ("step", "with Hold() as h { Go() }", "with Hold() { Go() }"),
     ("step", 'throw Error("x")', None),
+    ("step", 'raise "too hot"', 'fail "too hot"'),
+    ("step", 'fail("too hot")', 'fail "too hot"'),
     ("step", "assert(a.x == B)", "check(a.x == B)"),
     ("step", 'print("x")', ""),
     ("step", "sleep(1)", "wait 1 s"),

@@ -31,7 +31,7 @@ def load(arm):
 def find_jacobian(chain, q, tool, jacobian):
     """Fill in the pose of the tool (12,) and the Jacobian (6, nv) in base."""
     at = np.empty((chain.slides.size + 1, 12))
-    place(chain.frames, chain.slides, chain.tool, q, at)
+    place_joints(chain.frames, chain.slides, chain.tool, q, at)
     differentiate(chain.slides, at, jacobian)
     for k in range(12):
         tool[k] = at[chain.slides.size, k]
@@ -40,7 +40,7 @@ def find_jacobian(chain, q, tool, jacobian):
 def find_gravity_torques(chain, q, gravity, torques):
     """Fill in what the joints exert (nv,) to bear the arm."""
     at = np.empty((chain.slides.size + 1, 12))
-    place(chain.frames, chain.slides, chain.tool, q, at)
+    place_joints(chain.frames, chain.slides, chain.tool, q, at)
     add_weight(chain.slides, chain.masses, chain.centres, at, gravity, torques)
 
 

@@ -35,7 +35,7 @@ def run(node: tree.Node, model: Model, scope: Scope) -> Life:
             return call(node, model, scope, run)
         case tree.If():
             return _if(node, model, scope)
-        case tree.Wait() | tree.WaitUntil() | tree.Check():
+        case tree.Wait() | tree.WaitUntil() | tree.Check() | tree.Fail():
             return _leaf(node, model, scope)
     raise NotImplementedError(node)
 
@@ -172,7 +172,7 @@ def _if(node: tree.If, model: Model, scope: Scope) -> Life:
     return Result(still=lambda: true(node.condition, model, scope) == truth and result.still())
 
 
-def _leaf(node: tree.Wait | tree.WaitUntil | tree.Check, model: Model, scope: Scope) -> Life:
+def _leaf(node: tree.Wait | tree.WaitUntil | tree.Check | tree.Fail, model: Model, scope: Scope) -> Life:
     match node:
         case tree.Wait(seconds=Constant(value=seconds)):
             until = model.now + float(seconds) - 1e-4
@@ -186,6 +186,8 @@ def _leaf(node: tree.Wait | tree.WaitUntil | tree.Check, model: Model, scope: Sc
         case tree.Check(condition=condition):
             truth = true(condition, model, scope)
             return Result("" if truth else "body", still=lambda: true(condition, model, scope))
+        case tree.Fail():
+            return Result("body")
     raise NotImplementedError(node)
 
 

@@ -90,7 +90,9 @@ class _Writer:
         return call(skill, name=self.name(), **more)
 
     def condition_leaf(self) -> tree.Node:
-        kind = self.draw(st.sampled_from(("check", "check", "until", "wait")))
+        kind = self.draw(st.sampled_from(("check", "check", "until", "wait", "fail")))
+        if kind == "fail":
+            return tree.Fail(text="no", values=(), source=here())
         if kind == "wait":
             return tree.Wait(seconds=Literal(self.draw(st.integers(0, 3)) * PERIOD_S), source=here())
         condition = self.condition()

@@ -23,7 +23,7 @@ HERE = Path(__file__).parent / "every_node.skill"
 FILES = read_sources([Source("every_node.skill", HERE.read_text(encoding="utf-8"))], {}, "users").value
 WORDS = {
     *("reactive seq", "reactive sel", "sel", "par any", "par all", "par race", "par lead", "try", "invert", "once"),
-    *("retry 3", "repeat 2", "timeout", "if", "then", "else", "while", "for", "wait", "wait until", "check"),
+    *("retry 3", "repeat 2", "timeout", "if", "then", "else", "while", "for", "wait", "wait until", "check", "fail"),
     *("TakePosture[joints]", "with Compliance", "skill Everything", "impl all_of_it of Everything"),
 }
 TEXT = "{http://www.w3.org/2000/svg}text"

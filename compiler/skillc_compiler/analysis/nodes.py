@@ -78,7 +78,7 @@ def _explore_kind(run: Exploration, node: TypedNode, states: StatePaths, context
             return explore_decorator(run, node, written, states, context)
         case s.While() | s.For():
             return loops.explore_loop(run, node, written, states, context)
-        case s.Wait() | s.WaitUntil() | s.CheckNode():
+        case s.Wait() | s.WaitUntil() | s.CheckNode() | s.Fail():
             return _explore_leaf(run, node, states, context)
         case s.If():
             return _explore_if(run, node, written, states, context)
@@ -149,6 +149,9 @@ def _explore_leaf(run: Exploration, node: TypedNode, states: StatePaths, context
                             havoc_concurrent(run, known, context),
                             extend_if_new(state, known, path, span, text, holds),
                         )
+            case s.Fail(message=message, span=span):
+                event = f"it fails: {message.text}"
+                add_state(ends.failure, havoc_concurrent(run, state, context), extend_path(path, span, event))
             case s.WaitUntil():
                 run.check_holds(state, path)
                 add_state(

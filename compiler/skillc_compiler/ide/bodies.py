@@ -40,8 +40,9 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
             case s.Decorator(slots=slots, children=children):
                 yield from (each for slot in slots for each in self.value(known, slot))
                 yield from self.nodes(home, known, children)
-            case s.Wait(time=time):
-                yield from self.value(known, time)
+            case s.Wait() | s.Fail():
+                values = (written.time,) if isinstance(written, s.Wait) else written.message.names
+                yield from (each for value in values for each in self.value(known, value))
             case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
                 yield from self.condition(known, condition)
             case s.If(condition=condition, then=then, orelse=orelse):

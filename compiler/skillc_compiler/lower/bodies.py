@@ -7,6 +7,7 @@ from typing import assert_never
 
 from skillc_compiler.logic.rounds import count_rounds
 from skillc_compiler.program.typed import TypedNode
+from skillc_compiler.program.types import declared_as
 from skillc_dsl import syntax as s
 from skillc_model import tree as t
 from skillc_model.conditions import Condition, Expression
@@ -31,16 +32,29 @@ def lower_node(node: TypedNode) -> t.Node:
         case s.If(text=text, orelse=orelse):
             otherwise = None if orelse is None else _lower_as_one(node.orelse, node)
             return t.If(_condition(node), text, _lower_as_one(node.children, node), otherwise, source)
+        case s.Wait() | s.WaitUntil() | s.CheckNode() | s.Fail() | s.ApplyPosts():
+            return _lower_leaf(node, written)
+        case s.CallSkill():
+            return _lower_call(node)
+        case _:
+            assert_never(written)
+
+
+def _lower_leaf(node: TypedNode, written: s.Wait | s.WaitUntil | s.CheckNode | s.Fail | s.ApplyPosts) -> t.Node:
+    source = written.span.start
+    match written:
         case s.Wait():
             return t.Wait(_value(node), source)
         case s.WaitUntil(text=text):
             return t.WaitUntil(_condition(node), text, source)
         case s.CheckNode(text=text):
             return t.Check(_condition(node), text, source)
+        case s.Fail(message=message):
+            values = {name.name.text: value for name, value in zip(message.names, node.values, strict=True)}
+            named = (t.NamedValue(name, fold(v.meaning), declared_as(v.type)) for name, v in values.items())
+            return t.Fail(message.text, tuple(named), source)
         case s.ApplyPosts(labels=labels):
             return t.Apply(tuple(label.text for label in labels), source)
-        case s.CallSkill():
-            return _lower_call(node)
         case _:
             assert_never(written)
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 import msgspec
 
 from skillc_dsl.units import DIMENSIONS, NUMBER, Dimension
 from skillc_rdf.vocabulary.types import (
+    THING,
     ClassType,
     DirectionType,
     ListType,
@@ -49,7 +50,7 @@ class Direction(msgspec.Struct, frozen=True):
 class Plain(msgspec.Struct, frozen=True):
     """`Bool`, `Int`, `Text` or `Pose`."""
 
-    name: str
+    name: Literal["Bool", "Int", "Text", "Pose"]
 
 
 class ListOf(msgspec.Struct, frozen=True):
@@ -60,7 +61,7 @@ class ListOf(msgspec.Struct, frozen=True):
 
 Type: TypeAlias = UnknownType | Thing | Measure | Vector | Direction | Plain | ListOf
 UNKNOWN = UnknownType()
-BOOL, INT, TEXT = (Plain(name) for name in ("Bool", "Int", "Text"))
+BOOL, INT, TEXT = Plain("Bool"), Plain("Int"), Plain("Text")
 
 
 def type_of(declared: ValueType) -> Type:
@@ -78,6 +79,25 @@ def type_of(declared: ValueType) -> Type:
             return Plain(name)
         case ListType(element=element):
             return ListOf(type_of(element))
+
+
+def declared_as(kind: Type) -> ValueType | None:
+    """Return the declared type of a type; None for UNKNOWN, and for a dimension without a name."""
+    match kind:
+        case Thing(cls=cls):
+            return ClassType(cls or THING)
+        case Measure(dimension=dimension) | Vector(dimension=dimension):
+            of = NumberType if isinstance(kind, Measure) else VectorType
+            return next((of(name) for name, each in DIMENSIONS.items() if each == dimension), None)
+        case Direction():
+            return DirectionType()
+        case Plain(name=name):
+            return PlainType(name)
+        case ListOf(element=element):
+            inner = declared_as(element)
+            return inner and ListType(inner)
+        case _:
+            return None
 
 
 def fits(vocabulary: Vocabulary, given: Type, wanted: Type) -> bool:

@@ -34,7 +34,7 @@ def calls_of(declaration: s.Declaration) -> Iterator[s.CallSkill]:
                 todo += [*then, *(orelse or ())]
             case s.Block() | s.Decorator() | s.While() | s.For() as node:
                 todo += node.children
-            case s.Wait() | s.WaitUntil() | s.CheckNode() | s.ApplyPosts():
+            case s.Wait() | s.WaitUntil() | s.CheckNode() | s.Fail() | s.ApplyPosts():
                 pass
 
 

@@ -33,6 +33,8 @@ def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[T
             return TypedNode(written, (resolve_value(context, scope, time, SECONDS),)), scope
         case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
             return TypedNode(written, conditions=(resolve_condition(context, scope, condition),)), scope
+        case s.Fail(message=message):
+            return TypedNode(written, tuple(resolve_value(context, scope, name) for name in message.names)), scope
         case s.If():
             return _if(context, scope, written)
         case s.While(condition=condition, children=children):

@@ -68,6 +68,13 @@ NODES = (
     Node(
         "check", words("check"), "check(C)", "success if the condition holds now, else failure", Picture("guard", "✓")
     ),
+    Node(
+        "fail",
+        words("fail", since=2),
+        'fail "REASON"',
+        "fails for this [reason](#texts-with-values)",
+        Picture("guard", "✗"),
+    ),
     Node("apply", reserved("apply"), "apply LABEL, ..", "writes these postconditions now", Picture("guard", "✎")),
     Node(
         "call",

@@ -8,7 +8,7 @@ from skillc_dsl.formatting import documents as d
 from skillc_dsl.formatting.inline import InlineFormatter, index_of, is_token
 from skillc_dsl.parsing.tokens import Branch, Token, Tree
 
-_SHORT = ("call", "wait", "wait_until", "check", "apply_posts")
+_SHORT = ("call", "wait", "wait_until", "check", "fail", "apply_posts")
 
 
 class StepFormatter(InlineFormatter):

@@ -56,6 +56,7 @@ from skillc_dsl.syntax.nodes import Block as Block
 from skillc_dsl.syntax.nodes import CallSkill as CallSkill
 from skillc_dsl.syntax.nodes import CheckNode as CheckNode
 from skillc_dsl.syntax.nodes import Decorator as Decorator
+from skillc_dsl.syntax.nodes import Fail as Fail
 from skillc_dsl.syntax.nodes import For as For
 from skillc_dsl.syntax.nodes import If as If
 from skillc_dsl.syntax.nodes import Node as Node
@@ -68,6 +69,7 @@ from skillc_dsl.syntax.values import Boolean as Boolean
 from skillc_dsl.syntax.values import Invoke as Invoke
 from skillc_dsl.syntax.values import ListOf as ListOf
 from skillc_dsl.syntax.values import Member as Member
+from skillc_dsl.syntax.values import Message as Message
 from skillc_dsl.syntax.values import Name as Name
 from skillc_dsl.syntax.values import NameReference as NameReference
 from skillc_dsl.syntax.values import Number as Number

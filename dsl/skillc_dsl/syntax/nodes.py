@@ -12,7 +12,7 @@ from skillc_dsl.descriptions.rows import Decorator as DecoratorRow
 from skillc_dsl.descriptions.rows import Slot
 from skillc_dsl.source import Span
 from skillc_dsl.syntax.conditions import Condition
-from skillc_dsl.syntax.values import Name, Number, Value
+from skillc_dsl.syntax.values import Message, Name, Number, Value
 
 
 class Block(msgspec.Struct, frozen=True):
@@ -103,6 +103,13 @@ class CheckNode(msgspec.Struct, frozen=True):
     span: Span
 
 
+class Fail(msgspec.Struct, frozen=True):
+    """`fail "reason"`"""
+
+    message: Message
+    span: Span
+
+
 class ApplyPosts(msgspec.Struct, frozen=True):
     """`apply label, ..`"""
 
@@ -136,4 +143,6 @@ class With(msgspec.Struct, frozen=True):
     span: Span
 
 
-Node: TypeAlias = Block | Decorator | Wait | WaitUntil | If | While | For | CheckNode | ApplyPosts | CallSkill | With
+Node: TypeAlias = (
+    Block | Decorator | Wait | WaitUntil | If | While | For | CheckNode | Fail | ApplyPosts | CallSkill | With
+)

@@ -57,6 +57,19 @@ class Text(msgspec.Struct, frozen=True):
     span: Span
 
 
+class Message(msgspec.Struct, frozen=True):
+    """A string literal with values, `"{force} is too much"`, by its parts: text, and names in braces."""
+
+    text: str
+    parts: tuple[str | NameReference, ...]
+    span: Span
+
+    @property
+    def names(self) -> tuple[NameReference, ...]:
+        """The names in it."""
+        return tuple(part for part in self.parts if not isinstance(part, str))
+
+
 class Boolean(msgspec.Struct, frozen=True):
     """`true` or `false`."""
 

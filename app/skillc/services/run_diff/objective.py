@@ -16,6 +16,7 @@ from skillc_model.tree import (
     Apply,
     Call,
     Check,
+    Fail,
     ForEach,
     If,
     Node,
@@ -87,6 +88,8 @@ def _describe_node(node: Node) -> str:
             return f"while {text} max {limit}"
         case WaitUntil(text=text) | If(text=text) | Check(text=text):
             return f"{_kind(node)} {text}"
+        case Fail(text=text):
+            return f'fail "{text}"'
         case Apply(labels=labels):
             return f"apply {', '.join(labels)}"
         case With():

@@ -35,6 +35,7 @@ from skillc_model.tree import (
     Call,
     Check,
     Decorator,
+    Fail,
     ForEach,
     If,
     Node,
@@ -73,6 +74,8 @@ class NodeWriter(TreeWriter):
             case Wait(seconds=seconds):
                 before: list[Element] = []
                 return run_after(before, Element("Sleep", msec=self._milliseconds(seconds, 0, before)))
+            case Fail(text=text, source=source):
+                return Element("AlwaysFailure", _description=f"{source}: {text}")
             case Once(child=child):
                 return self._once(child)
             case WaitUntil() | If() | While() | ForEach() | Check() | Apply() | Call() | With():

@@ -30,6 +30,8 @@ class NodeDrawer(msgspec.Struct, frozen=True):
                 return _box("wait until", text)
             case s.CheckNode(text=text):
                 return _box("check", text)
+            case s.Fail(message=message):
+                return _box("fail", message.text)
             case s.ApplyPosts(labels=labels):
                 return _box("apply", ", ".join(label.text for label in labels))
             case _:

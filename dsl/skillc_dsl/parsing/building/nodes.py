@@ -71,6 +71,10 @@ class NodeBuilder(ConditionBuilder):
         condition = self.condition(children[2])
         return s.CheckNode(condition, self.written(condition.span), self.over(children))
 
+    def fail(self, children: list[Child]) -> s.Fail:
+        """`fail "reason"`"""
+        return s.Fail(self.message(children[1]), self.over(children))
+
     def apply_posts(self, children: list[Child]) -> s.ApplyPosts:
         """`apply LABEL, ..`"""
         return s.ApplyPosts(children_of_type(children, s.Name), self.over(children))

@@ -12,6 +12,8 @@ from skillc_dsl.parsing.building.places import Child, TreeBuilder
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
 
+_PART = re.compile(r"(?P<brace>\{\{|\}\})|\{(?P<name>[^\W\d]\w*)\}|(?P<text>[^{}]+)|(?P<other>\{[^{}]*\}?|\})")
+"""The parts of a text with values."""
 _QUANTITY = re.compile(r"([\d.]+(?:[eE][+-]?\d+)?)\s*(\S+)")
 
 
@@ -78,6 +80,26 @@ class ValueBuilder(TreeBuilder):
     def string(self, token: Child) -> s.Text:
         """Return a string without its quotes."""
         return s.Text(token.value[1:-1] if isinstance(token, Token) else "", self.place(token))
+
+    def message(self, token: Child) -> s.Message:
+        """Return a string by its parts; a brace that begins no name is reported."""
+        text, span = self.string(token).value, self.place(token)
+        parts: list[str | s.NameReference] = []
+        for found in _PART.finditer(text):
+            column = span.column + 1 + found.start()
+            place = Span(span.path, span.line, column, span.line, column + len(found.group()))
+            match found.lastgroup:
+                case "name":
+                    inner = Span(span.path, span.line, column + 1, span.line, place.end_column - 1)
+                    parts.append(s.NameReference(s.Name(found["name"], inner), inner))
+                case "brace":
+                    parts.append(found.group()[0])
+                case "text":
+                    parts.append(found.group())
+                case _:
+                    help_ = f"write a name in braces, such as `{{force}}`, or `{found.group()[0] * 2}` for a brace"
+                    self.complain(place, f"`{found.group()}` stands for no value", help_)
+        return s.Message(text, tuple(parts), span)
 
     def boolean(self, children: list[Token]) -> s.Boolean:
         """`true`, `false`"""

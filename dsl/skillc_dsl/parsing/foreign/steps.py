@@ -83,7 +83,8 @@ FORMS = (
         r"return\b.*", "", "delete it: a step succeeds or fails by itself; a value is given out by `Skill(..) -> name`"
     ),
     leading(r"pass\b", ""),
-    leading(r"(?:fail|abort|throw|raise)\b.*", None, "write `check(C)`, which fails if the condition does not hold"),
+    leading(r"(?:fail|abort|throw|raise)\s*\(?\s*(?P<a>\"[^\"]*\")\s*\)?", r"fail \g<a>"),
+    leading(r"(?:fail|abort|throw|raise)\b.*", None, 'write `fail "REASON"`, or `check(C)` to fail if C does not hold'),
     leading(
         r"(?:break|continue)\b",
         None,

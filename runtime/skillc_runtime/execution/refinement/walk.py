@@ -87,7 +87,7 @@ class Walk:
                 for child in children:
                     self.stuck_in = None
                     yield from self.go(child, here, scope)
-            case tree.Wait() | tree.WaitUntil() | tree.Check() | tree.Apply():
+            case tree.Wait() | tree.WaitUntil() | tree.Check() | tree.Fail() | tree.Apply():
                 yield here
             case tree.If():
                 yield from self._branch(node, here, scope)

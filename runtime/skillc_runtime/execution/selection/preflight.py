@@ -71,7 +71,7 @@ class _Preflight:
                 return self._check_functions("check", node.condition, node, scope)
             case tree.Wait():
                 return self._check_functions("wait", node.seconds, node, scope)
-            case tree.Apply():
+            case tree.Fail() | tree.Apply():
                 return ()
             case tree.Call():
                 return self._check_call(node, scope)

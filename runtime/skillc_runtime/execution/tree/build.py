@@ -13,7 +13,7 @@ from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.node import Node
 from skillc_runtime.execution.tree.nodes.decorators import DECORATORS
 from skillc_runtime.execution.tree.nodes.if_node import IfNode
-from skillc_runtime.execution.tree.nodes.leaf_nodes import ApplyNode, CheckNode, WaitNode, WaitUntilNode
+from skillc_runtime.execution.tree.nodes.leaf_nodes import ApplyNode, CheckNode, FailNode, WaitNode, WaitUntilNode
 from skillc_runtime.execution.tree.nodes.loop_nodes import ForEachNode, WhileNode
 from skillc_runtime.execution.tree.nodes.parallel import (
     ParallelAll,
@@ -52,6 +52,8 @@ def build_node(node: tree.Node, context: TreeContext, scope: LexicalScope) -> No
             return WaitUntilNode(context, node, scope)
         case tree.Check():
             return CheckNode(context, node, scope)
+        case tree.Fail():
+            return FailNode(context, node, scope)
         case tree.Apply():
             return ApplyNode(context, node, scope)
         case tree.If(then=then, orelse=orelse):

@@ -18,6 +18,8 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.effects import changes_of
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.state.labels.labelled_text import format_value
+from skillc_runtime.world.state.labels.labelling import label_value
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 
@@ -117,6 +119,34 @@ class CheckNode(Node):
 
     def would_fail_again(self) -> bool:
         return not self.remains_satisfied()
+
+
+class FailNode(Node):
+    """Fails for a reason with values in it, which are recorded beside it."""
+
+    kind: ClassVar[str] = "fail"
+    __slots__ = ("frame", "node")
+
+    def __init__(self, context: TreeContext, node: tree.Fail, scope: LexicalScope) -> None:
+        super().__init__(context, node.source)
+        self.node = node
+        self.frame = scope.frame
+
+    def foresee(self, freed: Holders) -> Status:
+        return FAILURE
+
+    def on_start(self) -> Status:
+        state, vocabulary = self.context.state, self.context.library.vocabulary
+        values = {
+            each.name: label_value(value_of(each.value, state, self.frame), each.type, vocabulary)
+            for each in self.node.values
+        }
+        shown = {name: each if isinstance(each, str) else format_value(each) for name, each in values.items()}
+        message = self.node.text.format_map(shown)
+        return self.fail(Failure(kind="body", message=message, source=self.source, values=values))
+
+    def would_fail_again(self) -> bool:
+        return True
 
 
 class ApplyNode(Node):
