@@ -70,7 +70,7 @@ NODES = (
     ),
     Node(
         "fail",
-        words("fail", since=2),
+        words("fail"),
         'fail "REASON"',
         "fails for this [reason](#texts-with-values)",
         Picture("guard", "✗"),
