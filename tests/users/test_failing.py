@@ -52,9 +52,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def run(folder: Path, reason: str, *command: str, expected: str = "") -> Result:
+def run(folder: Path, reason: str, *command: str, expected: str = "", more: str = "") -> Result:
     text = LIBRARY.replace("REASON", reason).replace("EXPECTED", expected)
-    (folder / "own.skill").write_text(text, "utf-8")
+    (folder / "own.skill").write_text(text + more, "utf-8")
     return CliRunner().invoke(skillc, [*command, "."], catch_exceptions=False)
 
 
@@ -98,3 +98,10 @@ def test_what_follows_is_never_reached(folder: Path) -> None:
 def test_it_is_a_name_elsewhere() -> None:
     text = 'impl put of Stay {\n    do seq { fail(fail: fail) -> fail fail "no" }\n}\n'
     assert not format_source(Source("own.skill", text)).diagnostics
+
+
+def test_a_value_in_a_text_that_is_passed_as_it_is_warns(folder: Path) -> None:
+    more = '\nskill Say { in text: Text noplan }\nimpl own of Say { run python "skillc.primitives:StandIn" }\n'
+    done = run(folder, 'Say(text: "{{arm}} {force} {other}")', "check", "--json", more=more)
+    found = {each["name"]: (each["line"], each["column"]) for each in json.loads(done.stdout)}
+    assert found.get("unread-value") == (16, 28), found
