@@ -34,6 +34,9 @@ HOVERS = [
     ("slowly", 2, ("impl slowly of Press",)),
     ("Move(arm", 2, ("skill Move", "pause anywhere keep 250 ms")),
     ("target: above", 2, ("in target: Pose", "parameter of `Move`")),
+    ("seq {", 1, ("seq { .. }", "runs its children in order until one fails")),
+    ("post  done", 1, ("post", "a postcondition: true afterwards")),
+    ("infer at", 3, ("infer NAME: CLASS", "the world model, through the preconditions")),
 ]
 DEFINITIONS = [
     ("Move(arm", "motion.skill", 3),

@@ -12,6 +12,7 @@ from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.calls import find_open_call
 from skillc_compiler.ide.cursor import Cursor, InCode, InComment, InText, locate_cursor
 from skillc_compiler.ide.cursor_context import CursorContext, find_context
+from skillc_compiler.ide.descriptions import describe_keyword
 from skillc_compiler.ide.expectation import find_expected_type, find_ranges
 from skillc_compiler.ide.offers import Offer
 from skillc_compiler.ide.term_pages import format_bare_type
@@ -89,7 +90,7 @@ def offer_keywords(cursor: InCode) -> Iterator[Offer]:
         text = fixed_texts().get(terminal, "")
         after = shift(cursor.states, terminal) if text.isalpha() and text not in beginning | _VALUES else None
         if after is not None and (as_name is None or list_fitting_terminals(after) != after_name):
-            yield Offer(text, "keyword", rank=5)
+            yield Offer(text, "keyword", documentation=describe_keyword(text), rank=5)
 
 
 def _names(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:

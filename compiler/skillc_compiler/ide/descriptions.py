@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import assert_never
 
 import msgspec
@@ -29,8 +30,13 @@ from skillc_compiler.ide.symbols import (
 from skillc_compiler.ide.term_pages import format_page
 from skillc_compiler.program.typed import Parameter, Requirement, Skill, Task, Test
 from skillc_compiler.program.types import describe_type
+from skillc_dsl.descriptions.constructs import find_constructs
 from skillc_dsl.source import Span
+from skillc_dsl.token_table import scan_tokens
 from skillc_rdf.vocabulary.types import local_name
+
+_LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
+"""A link of Markdown, which leads nowhere in an editor."""
 
 
 def describe_symbol(analysis: Analysis, symbol: Symbol) -> str:
@@ -150,11 +156,31 @@ class Hover(msgspec.Struct, frozen=True):
 
 
 def find_hover(analysis: Analysis, path: str, line: int, column: int) -> Hover | None:
-    """Return the description of the name at a place; for a shorthand argument of both parameter and local name."""
+    """Return the description of the name at a place, or of the keyword that stands there.
+
+    A shorthand argument has those of the parameter and of the local name.
+    """
     there = analysis.index.at(path, line, column)
     if not there:
-        return None
+        return _keyword(analysis, path, line, column)
     span = there[0].span
     texts = [describe_symbol(analysis, occurrence.symbol) for occurrence in there if occurrence.span == span]
     distinct = list(dict.fromkeys(text for text in texts if text))
     return Hover(span, "\n\n---\n\n".join(distinct)) if distinct else None
+
+
+def _keyword(analysis: Analysis, path: str, line: int, column: int) -> Hover | None:
+    text = analysis.texts.get(path, "").split("\n")[line - 1 : line]
+    for kind, start, word in scan_tokens(text[0] if text else ""):
+        if kind == "name" and start < column <= start + len(word):
+            told = describe_keyword(word)
+            return Hover(Span(path, line, start + 1, line, start + 1 + len(word)), told) if told else None
+    return None
+
+
+def describe_keyword(word: str) -> str:
+    """Return the forms and meanings of what has a keyword, in Markdown; empty for other words."""
+    return "\n\n---\n\n".join(
+        format_page(each.written or each.words[0].text, _LINK.sub(r"\1", each.meaning))
+        for each in find_constructs(word)
+    )

@@ -54,6 +54,15 @@ def all_words() -> Iterator[Word]:
     return (word for each in CONSTRUCTS for word in each.words)
 
 
+def find_constructs(word: str) -> tuple[Construct, ...]:
+    """Return the constructs with this keyword whose meaning is described."""
+    return tuple(
+        each
+        for each in CONSTRUCTS
+        if each.meaning and (word == first_word(each.written) or any(word == own.text for own in each.words))
+    )
+
+
 def list_forms() -> dict[str, str]:
     """Return the forms of what begins with each word, as far as there is help with it."""
     forms: dict[str, list[str]] = {}
