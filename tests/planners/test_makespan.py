@@ -131,6 +131,7 @@ def test_a_wrong_schedule_is_rejected_and_reported() -> None:
 
 
 @needs_cp_sat
+@pytest.mark.slow
 def test_what_effects_replace_need_not_be_named() -> None:
     jump = skill(
         "Jump", (parameter("robot", "Robot"), parameter("to", "Location")), (), (post(holds("robot", "at", "to")),), 1.0
@@ -193,6 +194,7 @@ def search(world: WorldState, goal: Condition) -> Schedule:
 
 
 @needs_cp_sat
+@pytest.mark.slow
 def test_cp_sat_finds_what_two_robots_can_do_at_once() -> None:
     answer = search(WORLD, BOTH)
     assert simulate_schedule(answer, LIBRARY, WORLD, BOTH)
@@ -200,6 +202,7 @@ def test_cp_sat_finds_what_two_robots_can_do_at_once() -> None:
 
 
 @needs_cp_sat
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "text", ["lab:a contain lab:crate or lab:c contain lab:crate", "exists p: Location (p contain lab:crate)"]
 )
@@ -210,6 +213,7 @@ def test_cp_sat_takes_goals_of_every_kind(text: str) -> None:
 
 
 @needs_cp_sat
+@pytest.mark.slow
 @pytest.mark.skipif(fast_downward.find_fast_downward() is None, reason="the planner is an extra")
 def test_several_may_ask_at_the_same_time() -> None:
     programs = fast_downward.find_fast_downward()
@@ -224,6 +228,7 @@ def test_several_may_ask_at_the_same_time() -> None:
 
 
 @needs_cp_sat
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(1, 1 + int(os.environ.get("SKILLC_SCHEDULES", "1"))))
 def test_no_schedule_is_worse_than_the_cheapest_plan_or_better_than_the_bounds(seed: int) -> None:
     random = Random(seed)
@@ -231,7 +236,7 @@ def test_no_schedule_is_worse_than_the_cheapest_plan_or_better_than_the_bounds(s
     crates = {name: random.choice("abcd") for name in ("crate", "box")}
     world = depot.world(robots, crates)
     goal = depot.goal(" and ".join(f"lab:{random.choice('abcd')} contain lab:{name}" for name in crates), world)
-    answer = minimise_makespan(LIBRARY, world, goal, find_planners(), CancelToken(6.0))
+    answer = minimise_makespan(LIBRARY, world, goal, find_planners(), CancelToken(20.0))
     cheapest = solve(LIBRARY, world, goal)
     assert isinstance(answer, Scheduled) and isinstance(cheapest, Solved)
     assert simulate_schedule(answer.schedule, LIBRARY, world, goal) and validate(answer.plan, LIBRARY, world, goal)

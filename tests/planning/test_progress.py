@@ -45,6 +45,7 @@ def test_a_part_of_a_scene_is_called_so() -> None:
     assert all("part of the scene" in describe_progress(each) for each in reports if each.narrowed and each.individuals)
 
 
+@pytest.mark.slow
 def test_a_scheduler_reports_the_makespan_that_it_has_found() -> None:
     reports = list[PlanningProgress]()
     if COMMAND is None:

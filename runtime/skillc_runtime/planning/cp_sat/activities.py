@@ -22,6 +22,7 @@ from skillc_model.pddl.formulas import (
 )
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.planning.cp_sat.groups import find_groups
 from skillc_runtime.planning.cp_sat.task import Activity, AllOf, AnyOf, Need, ScheduleTask, list_literals
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.plan_text import read_step
@@ -40,6 +41,7 @@ class Activities(msgspec.Struct, frozen=True):
     steps: tuple[Step, ...]
     true: tuple[int, ...]
     goal: Need
+    groups: tuple[tuple[int, ...], ...]
     scale: Fraction
 
     @property
@@ -68,7 +70,7 @@ class Activities(msgspec.Struct, frozen=True):
         ends = (start + self.activities[number].units for number, start in starts)
         total = sum(each.units * each.copies for each in activities)
         horizon = max(ends, default=total)
-        return ScheduleTask(activities, self.true, self.goal, horizon, starts, False, seconds, workers)
+        return ScheduleTask(activities, self.true, self.goal, self.groups, horizon, starts, False, seconds, workers)
 
     def _find_starts(self, schedule: Schedule | None) -> tuple[tuple[int, int], ...]:
         """Return a schedule as activities with starts; nothing if the problem does not have one of its steps."""
@@ -149,7 +151,8 @@ def list_activities(problem: Problem, cancel: CancelToken) -> Activities:
     steps = tuple(read_step(problem, each.words) for each in actions)
     assert all(step is not None for step in steps), "only the goal action is no step"
     true = tuple(sorted(facts[each] for each in grounding.init))
-    return Activities(found, tuple(filter(None, steps)), true, _need(grounding.goal(), facts), problem.domain.scale)
+    goal, groups = _need(grounding.goal(), facts), find_groups(facts, found, true)
+    return Activities(found, tuple(filter(None, steps)), true, goal, groups, problem.domain.scale)
 
 
 def _make_activity(

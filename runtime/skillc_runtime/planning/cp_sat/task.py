@@ -44,6 +44,8 @@ class Activity(msgspec.Struct, frozen=True):
 class ScheduleTask(msgspec.Struct, frozen=True):
     """Activities that lead from the facts that are `true` to `goal` within `horizon` units.
 
+    Of each of the `groups` of facts exactly one holds; an activity that changes a group needs the one that it ends.
+
     The search goes on from the schedule `first`: activities (by index) with their starts. Of a `relaxed` task only a
     lower bound of the makespan is asked for: with no effect ever undone. `seconds` and `workers` limit the search.
     """
@@ -51,6 +53,7 @@ class ScheduleTask(msgspec.Struct, frozen=True):
     activities: tuple[Activity, ...]
     true: tuple[int, ...]
     goal: Need
+    groups: tuple[tuple[int, ...], ...]
     horizon: int
     first: tuple[tuple[int, int], ...]
     relaxed: bool
@@ -74,3 +77,14 @@ def list_literals(need: Need) -> tuple[int, ...]:
     if isinstance(need, int):
         return (need,)
     return tuple(literal for part in need.parts for literal in list_literals(part))
+
+
+def list_conjuncts(need: Need) -> tuple[int, ...]:
+    """Return the literals that a need asks for in any case."""
+    match need:
+        case int():
+            return (need,)
+        case AllOf(parts):
+            return tuple(literal for part in parts for literal in list_conjuncts(part))
+        case _:
+            return ()

@@ -9,8 +9,10 @@ them is as in Vidal and Geffner, "Branching and pruning", 2006.
 from __future__ import annotations
 
 from collections import defaultdict
+from itertools import product
 from pathlib import Path
 from threading import Lock
+from typing import NamedTuple
 
 import msgspec
 from ortools.sat.python import cp_model
@@ -24,6 +26,7 @@ from skillc_runtime.planning.cp_sat.task import (
     Need,
     ScheduleAnswer,
     ScheduleTask,
+    list_conjuncts,
     list_literals,
 )
 
@@ -43,38 +46,48 @@ class Instance:
         self.interval = model.new_optional_fixed_size_interval_var(self.start, activity.units, self.present, "")
 
 
-class _Timeline:
-    """A fact with the instances that change it; `until` is when what an instance made is changed next."""
+class _Writer(NamedTuple):
+    """An instance that changes a timeline: from a value, None for any, to another one."""
 
-    def __init__(
-        self, model: cp_model.CpModel, writers: list[tuple[Instance, bool]], initial: bool, horizon: int
-    ) -> None:
-        self.writers, self.initial = writers, initial
+    instance: Instance
+    needed: int | None
+    made: int
+
+
+class _Timeline:
+    """What has one value after the other: a fact (0 or 1), or a group of facts of which one holds (its number).
+
+    `writers` change it, each `until` a time from which the next one does; the first is for the value at the beginning.
+    """
+
+    def __init__(self, model: cp_model.CpModel, initial: int, writers: list[_Writer], horizon: int) -> None:
+        self.initial, self.writers = initial, writers
         self.until = [model.new_int_var(0, horizon + 1, "") for _ in range(len(writers) + 1)]
         arcs = [(0, 0, _none_of(model, writers))]
-        for index, (writer, _) in enumerate(writers, 1):
-            arcs += [(index, index, writer.present.negated())]
-            arcs += [(0, index, self._follows(model, 0, index)), (index, 0, model.new_bool_var(""))]
-            arcs += [
-                (index, other, self._follows(model, index, other))
-                for other in range(1, len(self.until))
-                if other != index
-            ]
+        for index, writer in enumerate(writers, 1):
+            arcs += [(index, index, writer.instance.present.negated()), (index, 0, model.new_bool_var(""))]
+        for one, other in product(range(len(self.until)), range(1, len(self.until))):
+            if one != other and writers[other - 1].needed in (None, self.made(one)):
+                arcs.append((one, other, self._follows(model, one, other)))
         model.add_circuit(arcs)
+
+    def made(self, index: int) -> int:
+        """Return the value after a writer, 0 for the beginning."""
+        return self.writers[index - 1].made if index else self.initial
 
     def _follows(self, model: cp_model.CpModel, one: int, other: int) -> cp_model.IntVar:
         """Return whether `other` is the next writer after `one`, 0 for the beginning."""
-        next_ = model.new_bool_var("")
-        model.add(self.until[one] <= self.writers[other - 1][0].start).only_enforce_if(next_)
+        next_, start = model.new_bool_var(""), self.writers[other - 1].instance.start
+        model.add(self.until[one] <= start).only_enforce_if(next_)
         if one:
-            model.add(self.writers[one - 1][0].end <= self.writers[other - 1][0].start).only_enforce_if(next_)
+            model.add(self.writers[one - 1].instance.end <= start).only_enforce_if(next_)
         return next_
 
 
-def _none_of(model: cp_model.CpModel, writers: list[tuple[Instance, bool]]) -> cp_model.IntVar:
+def _none_of(model: cp_model.CpModel, writers: list[_Writer]) -> cp_model.IntVar:
     none = model.new_bool_var("")
-    for writer, _ in writers:
-        model.add_implication(none, writer.present.negated())
+    for writer in writers:
+        model.add_implication(none, writer.instance.present.negated())
     return none
 
 
@@ -122,14 +135,40 @@ class ScheduleModel:
                 self.model.add(one.end <= other.start).only_enforce_if(other.present)
 
     def _add_timelines(self) -> None:
-        needed = {abs(each) for activity in self.task.activities for each in list_literals(activity.need)}
-        needed |= {abs(each) for each in list_literals(self.task.goal)}
-        self._timelines: dict[int, _Timeline] = {}
+        """Make a timeline for each literal that is needed, with the value that stands for it.
+
+        What shall not hold has one of its own: of its group, it does not matter which other fact holds.
+        """
+        needs = (self.task.goal, *(activity.need for activity in self.task.activities))
+        needed = {literal for need in needs for literal in list_literals(need)}
+        self._timelines: dict[int, tuple[_Timeline, int]] = {}
+        for group in self.task.groups:
+            if needed.intersection(group):
+                timeline = self._make_timeline(group)
+                self._timelines |= {fact: (timeline, fact) for fact in group}
         for fact, writers in self._writers.items():
             if len(writers) > 1:
                 self.model.add_no_overlap([writer.interval for writer, _ in writers])
-            if fact in needed:
-                self._timelines[fact] = _Timeline(self.model, writers, fact in self._true, self.task.horizon)
+            missing = [each for each in (fact, -fact) if each in needed and each not in self._timelines]
+            if missing:
+                timeline = self._make_timeline((fact,))
+                self._timelines |= {literal: (timeline, int(literal > 0)) for literal in missing}
+
+    def _make_timeline(self, facts: tuple[int, ...]) -> _Timeline:
+        """Return the timeline of a fact, or of a group of facts of which one holds at any time."""
+        one_of_many, found = len(facts) > 1, list[_Writer]()
+        for instance in self.instances:
+            effects = [each for each in instance.activity.effects if abs(each) in facts]
+            made = [each for each in effects if each > 0 or not one_of_many]
+            if not effects:
+                continue
+            needed = [each for each in list_conjuncts(instance.activity.need) if abs(each) in facts]
+            if one_of_many:
+                found.append(_Writer(instance, *(each for each in needed if each > 0), *made))
+            else:
+                found.append(_Writer(instance, int(needed[0] > 0) if needed else None, int(made[0] > 0)))
+        initial = [each for each in facts if each in self._true]
+        return _Timeline(self.model, initial[0] if one_of_many else len(initial), found, self.task.horizon)
 
     def _require(self, need: Need, guard: cp_model.IntVar | None, reader: Instance | None) -> None:
         """Let `need` hold for a reader, None for the goal, if `guard` is true."""
@@ -152,17 +191,16 @@ class ScheduleModel:
         if self.task.relaxed:
             self._require_made(literal, guard, reader)
             return
-        fact, value = abs(literal), literal > 0
-        timeline = self._timelines.get(fact)
-        if timeline is None:
-            if (fact in self._true) != value:
+        if literal not in self._timelines:
+            if (abs(literal) in self._true) != (literal > 0):
                 self._at_least_one([], guard)
             return
-        start, end = self._span_of(fact, reader)
+        timeline, value = self._timelines[literal]
+        start, end = self._span_of(timeline, reader)
         causes = []
         for index, until in enumerate(timeline.until):
-            writer, made = timeline.writers[index - 1] if index else (None, timeline.initial)
-            if made != value or (writer is not None and writer is reader):
+            writer = timeline.writers[index - 1].instance if index else None
+            if timeline.made(index) != value or (writer is not None and writer is reader):
                 continue
             cause = self.model.new_bool_var("")
             self.model.add(end <= until).only_enforce_if(cause)
@@ -172,11 +210,13 @@ class ScheduleModel:
             causes.append(cause)
         self._at_least_one(causes, guard)
 
-    def _span_of(self, fact: int, reader: Instance | None) -> tuple[cp_model.LinearExprT, cp_model.LinearExprT]:
-        """Return from when until when a reader needs a fact: for the goal (None) for ever, else until it changes it."""
+    def _span_of(
+        self, timeline: _Timeline, reader: Instance | None
+    ) -> tuple[cp_model.LinearExprT, cp_model.LinearExprT]:
+        """Return from when until when a reader needs a value: for the goal (None) for ever, or until it changes it."""
         if reader is None:
             return self.makespan, self.task.horizon + 1
-        changes = any(abs(each) == fact for each in reader.activity.effects)
+        changes = any(each.instance is reader for each in timeline.writers)
         return reader.start, reader.start if changes else reader.end
 
     def _require_made(self, literal: int, guard: cp_model.IntVar | None, reader: Instance | None) -> None:
