@@ -208,7 +208,7 @@ class ScheduleModel:
                 self.model.add_implication(cause, writer.present)
                 self.model.add(writer.end <= start).only_enforce_if(cause)
             causes.append(cause)
-        self._at_least_one(causes, guard)
+        self.model.add(sum(causes) == (1 if guard is None else guard))  # the last writer before
 
     def _span_of(
         self, timeline: _Timeline, reader: Instance | None
