@@ -25,6 +25,7 @@ MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "cluster": ("distributed",),
         "learn": ("optuna", "sqlalchemy", "alembic"),
         "ontologies": ("pyhornedowl",),
+        "vision": ("cv2",),
     }
 )
 """The modules of each extra; the first ones are those without which it is of no use."""

@@ -15,7 +15,7 @@ import pytest
 import skillc
 from docs.pages import ROOT, blocks
 
-PARTS = ("backends", "collision", "controllers", "devices", "events", "primitives", "space", "world")
+PARTS = ("backends", "collision", "controllers", "devices", "events", "primitives", "space", "vision", "world")
 MODULES = ("skillc", *(f"skillc.{part}" for part in PARTS))
 PAGES = tuple(path for path in sorted((ROOT / "docs").rglob("*.md")) if path.name != "architecture.md")
 HEAVY = ("mujoco", "numpy", "rich", "pyoxigraph", "msgspec", "lark", "pandas", "asyncio", "skillc.api")

@@ -18,6 +18,7 @@ _OTHERS = {
     "server": ("starlette", "cells are served"),
     "meshes": ("coacd", "meshes are cut into convex pieces"),
     "data": ("pyarrow", "signals are written as Parquet"),
+    "vision": ("opencv-python-headless", "images are inspected"),
 }
 """A package of each of the other extras, and what works with it."""
 

@@ -1,0 +1,25 @@
+"""Dirt in images: which cells of a flat surface are clean, dirty, or not seen."""
+
+from skillc_runtime.vision.cell_map import CLEAN, DIRTY, UNSEEN, CellMap
+from skillc_runtime.vision.inspect_image import inspect_image
+from skillc_runtime.vision.inspected_surface import InspectedSurface, Markers, SurfaceLook
+from skillc_runtime.vision.lens import Lens
+from skillc_runtime.vision.locate import LocatedSurface, NotLocated
+from skillc_runtime.vision.picture import draw_cells, read_image, write_image
+
+__all__ = [
+    "CLEAN",
+    "DIRTY",
+    "UNSEEN",
+    "CellMap",
+    "InspectedSurface",
+    "Lens",
+    "LocatedSurface",
+    "Markers",
+    "NotLocated",
+    "SurfaceLook",
+    "draw_cells",
+    "inspect_image",
+    "read_image",
+    "write_image",
+]
