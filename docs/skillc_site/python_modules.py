@@ -6,7 +6,7 @@ import importlib
 from collections.abc import Callable, Mapping
 from functools import partial
 
-FURTHER = ("backends", "collision", "controllers", "devices", "events", "primitives", "space", "world")
+FURTHER = ("backends", "collision", "controllers", "devices", "events", "primitives", "space", "vision", "world")
 MODULES = ("skillc", *(f"skillc.{name}" for name in FURTHER))
 """The modules that programs of others may import from."""
 

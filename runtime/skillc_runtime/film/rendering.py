@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes.util
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -28,6 +26,8 @@ from skillc_runtime.film.windows import (
     list_geoms,
 )
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.platforms.gl import RenderingError as RenderingError
+from skillc_runtime.platforms.gl import make_gl_context
 from skillc_runtime.world.space.shape.solids import Kind
 
 Picture = NDArray[np.uint8]
@@ -73,14 +73,7 @@ GEOMS: dict[Kind, Any] = {
 }
 """How a solid is drawn; the hull of a mesh as its box."""
 
-PLATFORMS = {"EGL": "egl", "OSMesa": "osmesa"}
-"""GL libraries that render off screen, and their names in PyOpenGL."""
-
 TRAIL_RGBA, TRAIL_PIXELS = (0.05, 0.35, 0.75), 3.0
-
-
-class RenderingError(RuntimeError):
-    """There is no GL library that renders off screen; the message says how to install one."""
 
 
 def check_rendering() -> str:
@@ -103,7 +96,7 @@ class Renderer:
         self._model, self._size, self._props = model, (width, height), tuple(props)
         self._scale = quality.scale
         rendered = round(quality.scale * width), round(quality.scale * height)
-        self.library, self._context = _context(*rendered)
+        self.library, self._context = make_gl_context(*rendered)
         self._context.make_current()
         _set_quality(model, rendered, quality)
         self._gl = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
@@ -234,27 +227,3 @@ def _turned(direction: Array, azimuth_deg: float) -> Array:
     angle = np.radians(azimuth_deg)
     x, y, z = direction
     return np.array([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle), z])
-
-
-def _context(width: int, height: int) -> tuple[str, Any]:
-    """Return the first GL context that can be created, with the name of its library."""
-    reasons = []
-    for library, platform in PLATFORMS.items():
-        if ctypes.util.find_library(library) is None:
-            continue
-        if os.environ.setdefault("PYOPENGL_PLATFORM", platform) != platform:
-            continue
-        try:
-            return library, _create_context(library, width, height)
-        except (ImportError, AttributeError, RuntimeError) as error:
-            reasons.append(f"{library}: {error}")
-    tried = f" ({'; '.join(reasons)})" if reasons else ""
-    raise RenderingError(f"no GL library draws off screen{tried}; on Debian: apt install libegl1 libgl1-mesa-dri")
-
-
-def _create_context(library: str, width: int, height: int) -> Any:
-    if library == "EGL":
-        from mujoco.egl import GLContext
-    else:
-        from mujoco.osmesa import GLContext
-    return GLContext(width, height)
