@@ -17,7 +17,7 @@ from skillc.errors import RequestError
 from skillc.services.library.libraries import load_vocabulary
 from skillc.services.scene.sheets import find_sheet
 from skillc_rdf.vocabulary.types import local_name
-from skillc_runtime.film import rendering
+from skillc_runtime.platforms import gl
 from skillc_runtime.scene.load import load_sheets
 from skillc_runtime.world.space.shape.outlines import convex_hull
 
@@ -50,7 +50,7 @@ lab:Part-B a skiros:Product ;
 def cell(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a scene in the current folder; its pictures, which cost most of the time of `show`, are not rendered."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(rendering, "PLATFORMS", {})
+    monkeypatch.setattr(gl, "PLATFORMS", {})
     path = Path("cell.ttl")
     path.write_text(CELL, "utf-8")
     return path
