@@ -161,3 +161,51 @@ def test_the_editor_reads_a_library_in_its_edition(tmp_path: Path) -> None:
         assert ("duplicate-declaration" in told) == (edition == NEWEST)
         libraries.write(file.as_uri(), text.replace("duration 1 s", "duration 2 s"))
         assert {each.name for each in libraries.view(file.as_uri()).analysis.problems} == told
+
+
+CLEANING = """\
+use skiros
+
+function depth(p: Product) -> Length = python "skillc.space:depth"
+
+skill Clean {
+    in   object: Product
+    opt  depth:  Length = 1 cm
+    # former thing until edition 1: write `object`
+    noplan
+}
+impl plain of Clean { run python "skillc.primitives:StandIn" }
+
+# former Cleanse until edition 1: write `Clean`
+# former deepness until edition 1: write `depth`
+"""
+CLEANED = """\
+use skiros
+import "cleaning.skill"
+
+skill Twice {
+    in thing: Product
+    noplan
+}
+impl first of Twice {
+    do seq {
+        Cleanse(thing)
+        Cleanse(thing: thing, depth: deepness(thing))
+    }
+}
+impl other of Cleanse { run python "skillc.primitives:StandIn" }
+"""
+
+
+def test_former_skills_functions_and_parameters_are_read_up_to_their_edition() -> None:
+    vocabulary = load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
+    importable = {"cleaning.skill": Source("std/cleaning.skill", CLEANING)}
+    found = [
+        compile([Source("a.skill", CLEANED, edition=edition)], vocabulary, importable, "mine") for edition in EDITIONS
+    ]
+    unknown = [{each.name for each in one.diagnostics if each.name.startswith("unknown")} for one in found]
+    assert unknown == [set(), {"unknown-skill", "unknown-function"}]
+    assert {"Clean.other", "Twice.first"} <= found[0].value.implementations.keys()
+    body = repr(found[0].value.implementations["Twice.first"].body)
+    assert body.count("skill='Clean'") == 2 and body.count("'object': Variable(name='thing')") == 2
+    assert "Invoke(function='depth'" in body

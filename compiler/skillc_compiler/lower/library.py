@@ -17,6 +17,7 @@ from skillc_compiler.program.walk import calls_in
 from skillc_compiler.resolve.declarations import used_vocabularies
 from skillc_compiler.resolve.files import library_namespace
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.editions import NEWEST
 from skillc_dsl.query import Memo
 from skillc_model import skills as library
 from skillc_model.pddl.constants import mentions_of
@@ -114,6 +115,7 @@ def _calls_known(body: object, skills: Iterable[str]) -> bool:
 
 def _hash(files: Sequence[ParsedFile]) -> str:
     digest = hashlib.sha256()
-    for path, text in sorted((unit.file.path, unit.text) for unit in files):
-        digest.update(f"{path}\0{text}\0".encode())
+    for path, text, edition in sorted((unit.file.path, unit.text, unit.edition) for unit in files):
+        written_in = f"{edition}\0" if edition < NEWEST else ""
+        digest.update(f"{path}\0{text}\0{written_in}".encode())
     return digest.hexdigest()
