@@ -11,6 +11,7 @@ from skillc.server.state import SCHEMA as STATE
 from skillc.services.learning.study import FORMAT as STUDY
 from skillc.services.library.schemas import DIAGNOSTICS_FORMAT, PROJECT_FORMAT, RESULT_FORMAT
 from skillc_dsl.editions import EDITIONS
+from skillc_dsl.token_table import SINCE
 from skillc_model.skills import FORMAT as LIBRARY
 from skillc_runtime.evaluation.trials.journal import FORMAT as TRIALS
 from skillc_runtime.planning.cache import FORMAT as PLANS
@@ -60,6 +61,15 @@ def test_the_page_on_versions_has_the_formats_of_the_code() -> None:
     told = {name: int(number) for start, number in rows for name in FORMATS if start.startswith(name)}
     assert len(rows) == len(FORMATS) and told == FORMATS
     assert DIAGNOSTICS_FORMAT == PROJECT_FORMAT == SIGNALS
+
+
+def test_the_page_on_projects_names_the_words_of_editions() -> None:
+    page = (ROOT / "docs/projects.md").read_text("utf-8")
+    for edition in EDITIONS[1:]:
+        (listed,) = re.findall(
+            rf"^With edition {edition} came the words (.*?), the terms", page, re.MULTILINE | re.DOTALL
+        )
+        assert set(re.findall(r"`(\w+)`", listed)) == {word for word, since in SINCE.items() if since == edition}
 
 
 def test_the_page_on_projects_names_the_editions() -> None:
