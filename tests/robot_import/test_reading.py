@@ -10,11 +10,11 @@ import pytest
 
 from robot_import.arms import GEN3, railed, six
 from skillc.errors import RequestError
+from skillc.services.robot_import.arm_reader import Reading, ReadOptions
 from skillc.services.robot_import.comparison import POSTURES, TOLERANCE, Kinetics, prove_same
 from skillc.services.robot_import.home_posture import HomeSearch
 from skillc.services.robot_import.mjcf_writer import write_mjcf
 from skillc.services.robot_import.reader import read_robot
-from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc_ontology import catalogue
 from skillc_runtime.control.inverse_kinematics import solve_inverse_kinematics
 from skillc_runtime.control.laws.virtual_arm import VirtualArm, load_virtual_model

@@ -96,10 +96,6 @@ class CollisionChecker:
         wrong = [(far, pair) for pair, far in self.near_pairs(q).items() if far < self._least[pair]]
         return self._collision(*min(wrong)) if wrong else None
 
-    def first_collision(self, way: Iterable[Array]) -> Collision | None:
-        """Return the first collision along postures `way`, each (nv,) in rad, None if there is none."""
-        return next((touch for q in way if (touch := self.find_collision(q)) is not None), None)
-
     def find_free_share(self, start: Array, goal: Array) -> float:
         """Return which share of the straight way from a posture that is free to another is free: 1 for all.
 
@@ -119,11 +115,6 @@ class CollisionChecker:
         collision here."""
         self._look(start + share * change)
         return self._find_advance(self._least, self._data, change)
-
-    def worst_collision(self, way: Iterable[Array]) -> Collision | None:
-        """Return the worst collision along postures `way`, each (nv,) in rad, None if there is none."""
-        touches = (touch for q in way if (touch := self.find_collision(q)) is not None)
-        return min(touches, key=lambda touch: touch.distance_m, default=None)
 
     def find_overlap(self, start: Array, way: Iterable[Array], spared: frozenset[str]) -> Collision | None:
         """Return the first overlap of links or the palm along postures (nv,), None if there is none.

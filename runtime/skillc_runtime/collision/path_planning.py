@@ -59,9 +59,10 @@ def plan_joint_path(
         found = _sample_path(contacts, start, goal, space.range) or _go_through(contacts, start, goal, space.safe)
         if found is not None:
             return found
-        touch = contacts.worst_collision(interpolate(contacts, start, goal))
+        touches = filter(None, map(contacts.find_collision, interpolate(contacts, start, goal)))
+        nearest = min(touches, key=lambda each: each.distance_m, default=None) or "it would come too near"
         looks = contacts.checks - before
-        reasons.append(f"on the straight way {touch}; no way around was found in {looks} looks")
+        reasons.append(f"on the straight way {nearest}; no way around was found in {looks} looks")
         searched += 1
         if searched == MAX_SEARCHES:
             break
@@ -70,17 +71,14 @@ def plan_joint_path(
 
 def find_motion_collision(contacts: CollisionChecker, motion: JointTrajectory) -> Collision | None:
     """Return the first collision of a motion, which may be blended, None if there is none."""
-    step, before = _step(contacts), motion.start
-
-    def samples() -> Iterator[Array]:
-        nonlocal before
-        for time in np.arange(0.0, motion.duration, SAMPLE_S).tolist():
-            q = motion.at(time).q
-            if np.abs(q - before) @ contacts.model.levers > step / 2:
-                before = q
-                yield q
-
-    return contacts.first_collision(samples())
+    before = motion.start
+    for time in np.arange(0.0, motion.duration, SAMPLE_S).tolist():
+        q = motion.at(time).q
+        if np.abs(q - before) @ contacts.model.levers > _step(contacts) / 2:
+            before = q
+            if (touch := contacts.find_collision(q)) is not None:
+                return touch
+    return None
 
 
 def is_path_free(contacts: CollisionChecker, postures: Sequence[Array]) -> bool:

@@ -16,7 +16,6 @@ from skillc.cli.settings import GroupedOption
 
 if TYPE_CHECKING:
     from skillc.services.project.project import Project
-    from skillc.services.robot_import.add_robot import AddedRobot
     from skillc.services.scaffolding.additions import Kind
 
 model_option = partial(click.option, cls=GroupedOption, group="Model file")
@@ -132,7 +131,7 @@ def _add_robot(
         )
     require("reading models of robots", "robots")
     from skillc.services.robot_import.add_robot import RobotRequest, add_robot
-    from skillc.services.robot_import.reading import ReadOptions
+    from skillc.services.robot_import.arm_reader import ReadOptions
 
     wrong = [each for each in settings if "=" not in each]
     if wrong:
@@ -142,22 +141,7 @@ def _add_robot(
     added = add_robot(project, RobotRequest(file, called, like, part=part, settings=stated, **options))
     for path in added.files:
         click.echo(path)
-    _show(added, project.name)
-
-
-def _show(added: AddedRobot, prefix: str) -> None:
-    """Print what was found, what is still to be stated, and how a scene uses the arm."""
-    for line in (added.summary, added.proof, f"home: {added.home}"):
-        print_remark(f"{added.name}: {line}")
-    for note in added.notes:
-        print_labelled("warning", note)
-    if added.unstated:
-        print_labelled(
-            "warning",
-            f"still to be stated, in the sheet, with --set or as those of --like: {', '.join(added.unstated)}",
-        )
-    sensor = " ; skillc:hasSensor lab:Sensor-1 . lab:Sensor-1 a skillc:ForceTorqueSensor" * added.needs_force
-    print_remark(
-        f"in a scene: lab:Arm-1 a {prefix}:{added.cls} ; skillc:hasSheet {prefix}:{added.name}-sheet ; "
-        f'skiros:CompliantController "{added.controller}"{sensor} .'
-    )
+    for remark in added.remarks:
+        print_remark(remark)
+    for warning in added.warnings:
+        print_labelled("warning", warning)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -14,11 +14,12 @@ import numpy as np
 from skillc.errors import RequestError
 from skillc.services.project.manifest import NAME
 from skillc.services.project.project import Project
+from skillc.services.robot_import.arm_reader import Reading, ReadOptions
 from skillc.services.robot_import.comparison import POSTURES, Kinetics, prove_same
 from skillc.services.robot_import.mjcf_writer import ControlKind, format_numbers, write_mjcf
 from skillc.services.robot_import.options import read_efforts, read_home, read_settings
 from skillc.services.robot_import.reader import read_robot
-from skillc.services.robot_import.reading import Reading, ReadOptions
+from skillc.services.robot_import.robot_model import RobotModel
 from skillc.services.robot_import.sheet_writer import COMMON, CONTROLLERS, GAINS, TEXTS, SheetFacts, write_sheet
 from skillc.services.robot_import.shipped_sheet import ShippedSheet, read_shipped_sheet
 from skillc.services.scaffolding.additions import add_device_files
@@ -45,21 +46,11 @@ class RobotRequest:
 
 @dataclass(frozen=True, slots=True)
 class AddedRobot:
-    """The files of a new arm, and what its user should know: sentences without full stop.
+    """The files of a new arm, and what its user should know: sentences without full stop, some of them warnings."""
 
-    needs_force: whether its controller needs a force/torque sensor.
-    """
-
-    name: str
-    cls: str
     files: tuple[Path, ...]
-    controller: str
-    needs_force: bool
-    summary: str
-    proof: str
-    home: str
-    notes: tuple[str, ...]
-    unstated: tuple[str, ...]
+    remarks: tuple[str, ...]
+    warnings: tuple[str, ...]
 
 
 def add_robot(project: Project, request: RobotRequest) -> AddedRobot:
@@ -100,7 +91,12 @@ def add_robot(project: Project, request: RobotRequest) -> AddedRobot:
     )
     sheet = write_sheet(facts, project.name, project.namespace)
     files = add_device_files(project, "robot", name, sheet, mjcf)
-    return _report(facts, files, reading, differences, request, efforts)
+    remarks = (*_describe(reading.model, differences), _describe_home(reading.model, facts, request))
+    return AddedRobot(
+        tuple(files),
+        (*(f"{name}: {remark}" for remark in remarks), _show_use(facts, project.name)),
+        (*reading.notes, *_list_unstated(facts)),
+    )
 
 
 def _name_of(file: Path) -> str:
@@ -150,35 +146,36 @@ def _unstated(values: Mapping[str, str], control: ControlKind, home: Array | Non
     return (*(name for name in needed if name not in values), *(("hasPosture",) if home is None else ()))
 
 
-def _report(
-    facts: SheetFacts,
-    files: tuple[Path, ...],
-    reading: Reading,
-    differences: Kinetics,
-    request: RobotRequest,
-    efforts: Sequence[float],
-) -> AddedRobot:
-    model = reading.model
+def _describe(model: RobotModel, differences: Kinetics) -> Iterator[str]:
     mass = sum(link.inertia.mass_kg for link in model.links)
     names = ", ".join(link.joint.name for link in model.links)
+    yield (
+        f"{len(model.links)} joints ({names}) from {model.base.name} to {model.tip}; the links that move weigh "
+        f"{mass:.2f} kg"
+    )
+    yield (
+        f"the file in MuJoCo and the model in pinocchio agree in {POSTURES} postures: poses of all links, Jacobians, "
+        f"mass matrices and weights; the largest difference is {max(differences):.1e} ({differences.worst})"
+    )
+
+
+def _describe_home(model: RobotModel, facts: SheetFacts, request: RobotRequest) -> str:
+    if not facts.home:
+        return "home: no posture with the flange pointing down was found"
     unit = "rad, or m for what slides" if any(link.joint.slides for link in model.links) else "rad"
     where = "stated" if request.home else "proposed: the flange points down in front of the base"
-    return AddedRobot(
-        name=facts.name,
-        cls=facts.cls,
-        files=files,
-        controller=CONTROLLERS[facts.control],
-        needs_force="forceTorqueTime" in GAINS[facts.control],
-        summary=(
-            f"{len(model.links)} joints ({names}) from {model.base.name} to {model.tip}; the links that move weigh "
-            f"{mass:.2f} kg"
-        ),
-        proof=(
-            f"the file in MuJoCo and the model in pinocchio agree in {POSTURES} postures: poses of "
-            f"all links, Jacobians, mass matrices and weights; the largest difference is {max(differences):.1e} "
-            f"({differences.worst})"
-        ),
-        home=f"{facts.home} {unit}, {where}" if facts.home else "no posture with the flange pointing down was found",
-        notes=reading.notes,
-        unstated=tuple(facts.unstated),
+    return f"home: {facts.home} {unit}, {where}"
+
+
+def _list_unstated(facts: SheetFacts) -> Iterator[str]:
+    if facts.unstated:
+        yield f"still to be stated, in the sheet, with --set or as those of --like: {', '.join(facts.unstated)}"
+
+
+def _show_use(facts: SheetFacts, prefix: str) -> str:
+    needs_force = "forceTorqueTime" in GAINS[facts.control]
+    sensor = " ; skillc:hasSensor lab:Sensor-1 . lab:Sensor-1 a skillc:ForceTorqueSensor" * needs_force
+    return (
+        f"in a scene: lab:Arm-1 a {prefix}:{facts.cls} ; skillc:hasSheet {prefix}:{facts.name}-sheet ; "
+        f'skiros:CompliantController "{CONTROLLERS[facts.control]}"{sensor} .'
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -11,17 +12,48 @@ import numpy as np
 
 from skillc.errors import RequestError
 from skillc.services.robot_import.chain import Chain, list_some
-from skillc.services.robot_import.comparison import MujocoMechanism, compare
+from skillc.services.robot_import.comparison import Mechanism, MujocoMechanism, compare
 from skillc.services.robot_import.possible_inertia import restate_inertia
-from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.robot_model import Base, Inertia, Joint, RobotLink, RobotModel, Shape
-from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.pose import Array, Pose, rotation_from_angles
 
 FindShapes: TypeAlias = Callable[[Sequence[int]], Iterable[tuple[int, Shape]]]
 """Returns the shapes of bodies that are fixed to each other, each with the number of the body in whose frame it is."""
 
 STAND_IN_M = 0.04
 """Radius of the capsule that stands for a link without shape; shorter links get none."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReadOptions:
+    """Which part of a file is the arm: the names of its ends, which are found if they are None.
+
+    tip_turn: roll, pitch and yaw in degrees of the flange in the frame of the tip; correct_inertia: whether moments of
+    inertia that no body can have are raised.
+    """
+
+    base: str | None = None
+    tip: str | None = None
+    tip_turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    correct_inertia: bool = False
+
+    @property
+    def turn(self) -> Array:
+        """The rotation (3, 3) from the flange to the tip."""
+        return rotation_from_angles(*np.radians(self.tip_turn).tolist())
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A model, the file as a mechanism in MuJoCo, and what a user should know, as sentences."""
+
+    model: RobotModel
+    source: Mechanism
+    notes: tuple[str, ...]
+
+    def with_notes(self, *notes: str) -> Reading:
+        """Return the reading with further notes."""
+        return replace(self, notes=(*self.notes, *notes))
 
 
 def compile_model(path: Path, spec: Any) -> Any:

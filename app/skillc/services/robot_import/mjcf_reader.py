@@ -11,10 +11,9 @@ import mujoco
 import numpy as np
 
 from skillc.errors import RequestError
-from skillc.services.robot_import.arm_reader import ArmReader, compile_model
+from skillc.services.robot_import.arm_reader import ArmReader, Reading, ReadOptions, compile_model
 from skillc.services.robot_import.chain import choose_chain, cut_to_chain
 from skillc.services.robot_import.possible_inertia import correct_inertia
-from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.robot_model import WHOLE_TURN, Joint, Shape, ShapeKind
 from skillc.services.robot_import.shape_fitting import fit_shape
 from skillc_runtime.motion.pose import Pose, rotation_from_quaternion

@@ -9,7 +9,7 @@ from typing import Literal
 from xml.etree import ElementTree
 
 from skillc.errors import RequestError
-from skillc.services.robot_import.reading import Reading, ReadOptions
+from skillc.services.robot_import.arm_reader import Reading, ReadOptions
 from skillc.services.robot_import.robot_model import Joint
 
 LARGEST_BYTES = 20_000_000

@@ -9,16 +9,10 @@ import pyoxigraph as ox
 
 from skillc.errors import RequestError
 from skillc.services.robot_import.mjcf_writer import ControlKind
+from skillc.services.robot_import.sheet_writer import CLASSES
 from skillc_dsl.spelling import did_you_mean
 from skillc_ontology import catalogue
 from skillc_runtime.world.state.terms import ARM_SHEET, SKILLC
-
-KINDS: Mapping[str, ControlKind] = {
-    "TorqueControlledArm": "torque",
-    "PositionControlledArm": "position",
-    "VelocityControlledArm": "velocity",
-}
-"""How arms of each class are controlled."""
 
 _TYPE = ox.NamedNode("http://www.w3.org/1999/02/22-rdf-syntax-ns#type")
 _SUBCLASS = ox.NamedNode("http://www.w3.org/2000/01/rdf-schema#subClassOf")
@@ -49,5 +43,5 @@ def read_shipped_sheet(name: str) -> ShippedSheet:
     }
     above = (quad.object for quad in graph.quads_for_pattern(None, _SUBCLASS, None))
     classes = {each.value.removeprefix(SKILLC) for each in above if isinstance(each, ox.NamedNode)}
-    control = next(kind for cls, kind in KINDS.items() if cls in classes)
+    control = next(kind for kind, cls in CLASSES.items() if cls in classes)
     return ShippedSheet(name, values, control)

@@ -11,10 +11,9 @@ import mujoco
 import numpy as np
 
 from skillc.errors import RequestError
-from skillc.services.robot_import.arm_reader import ArmReader
+from skillc.services.robot_import.arm_reader import ArmReader, Reading, ReadOptions
 from skillc.services.robot_import.chain import Chain, choose_chain, cut_to_chain, fixed_to, list_some, other_joints
 from skillc.services.robot_import.possible_inertia import correct_inertia
-from skillc.services.robot_import.reading import Reading, ReadOptions
 from skillc.services.robot_import.robot_model import WHOLE_TURN, Joint, Shape
 from skillc.services.robot_import.urdf_shapes import read_shapes
 from skillc.services.robot_import.urdf_tree import UrdfJoint, UrdfTree, numbers, read_tree
