@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.control.laws.virtual_arm import VirtualArm, load_virtual_model
-from skillc_runtime.kinematics.inverse import find_posture
+from skillc_runtime.kinematics.inverse import find_postures
 from skillc_runtime.motion.pose import Array, Pose, exp
 
 AHEAD = (0.5, 0.6)
@@ -20,7 +20,6 @@ AHEAD = (0.5, 0.6)
 ABOVE = (0.6, 0.75)
 """How high above the base it may be, likewise: a long hand is above what stands as high as the base."""
 TURNS = 4
-SEEDS = 8
 FAR_RAD = 1.0
 """Joints farther than this from the ends of their ranges are no better than those that are this far."""
 SAMPLES = 100
@@ -67,15 +66,11 @@ class HomeSearch:
 
     def _candidates(self) -> Iterator[Array]:
         most = np.where(self._slides, np.inf, np.pi)
-        low, high = np.maximum(self._limits[:, 0], -most), np.minimum(self._limits[:, 1], most)
-        draw = np.random.default_rng(3)
-        starts = [(low + high) / 2, *(self._centred(draw.uniform(low, high)) for _ in range(SEEDS - 1))]
-        for ahead, above, turn, start in product(AHEAD, ABOVE, range(TURNS), starts):
+        middle = np.clip(self._limits, -most[:, None], most[:, None]).mean(axis=1)
+        for ahead, above, turn in product(AHEAD, ABOVE, range(TURNS)):
             down = exp(np.array([0.0, 0.0, 2 * np.pi * turn / TURNS])) @ np.diag([1.0, -1.0, -1.0])
             place = self.shape.carried + self.shape.turned_m * np.array([ahead, 0.0, above])
-            q = find_posture(self._chain, Pose(place, down), self._limits, start, seeds=0)
-            if q is not None:
-                yield q
+            yield from find_postures(self._chain, Pose(place, down), self._limits, middle)
 
     def _score(self, q: Array) -> float:
         """Rate a posture: room to the ends of ranges, dexterity, elbow above the flange, all links above the ground."""
