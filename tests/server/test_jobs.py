@@ -34,6 +34,8 @@ def test_a_plan_is_for_those_who_see_and_all_else_for_those_who_operate(server: 
         assert server.wait_for_job(begun.json()["id"])["state"] == "ended"
         refused = vera.post("/jobs", json={"kind": "rehearsal", "goal": GOAL})
         assert refused.status_code == 403 and "needs the role `operate`" in refused.json()["detail"]
+        of_another = server.begin("plan", goal=GOAL)["id"]
+        assert vera.delete(f"/jobs/{of_another}").status_code == 403
         trials = server.begin("trials", **LONG)["id"]
         for method, path in (("POST", f"{trials}/cancel"), ("DELETE", trials)):
             assert vera.request(method, f"/jobs/{path}").status_code == 403

@@ -68,7 +68,7 @@ def show_comparison(page: Page) -> None:
 def show_series(page: Page) -> None:
     page.keyboard.press("h")
     page.get_by_role("tab", name="Jobs").click()
-    page.locator(".series").first.click()
+    page.locator(".series", has_text="Trials").first.click()
     page.get_by_role("main", name="Trials of carry").wait_for()
 
 

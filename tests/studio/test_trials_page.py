@@ -24,11 +24,12 @@ def test_the_worst_case_of_a_series_is_one_click_from_its_replay(
     page.get_by_role("spinbutton", name="Trials").fill("5")
     check_axe(page, f"trials-new-{scheme}")
     page.get_by_role("button", name="Begin").click()
-    page.locator(".series").first.wait_for()
-    begun = page.locator(".series").first.get_attribute("title") or ""
+    series = page.locator(".series", has_text="Trials").first
+    series.wait_for()
+    begun = series.get_attribute("title") or ""
     server.wait_for_job(begun)
-    expect(page.locator(".series").first).to_contain_text("5 passed")
-    page.locator(".series").first.click()
+    expect(series).to_contain_text("5 passed")
+    series.click()
     shown = page.get_by_role("main", name="Trials of carry")
     shown.locator(".distribution").first.wait_for()
     told = server.find_outcome(begun)["series"]
@@ -41,7 +42,7 @@ def test_the_worst_case_of_a_series_is_one_click_from_its_replay(
     expect(page.locator(".topbar .operation")).to_contain_text(f"carry, seed {worst}", timeout=120_000)
     expect(page.locator(".tree-row[aria-level='1'].is-success")).to_have_count(2)
     page.get_by_role("button", name="Back to the cell").click()
-    page.locator(".series").first.click()
+    series.click()
     shown.get_by_role("button", name="Forget").click()
     shown.get_by_role("button", name="Forget them").click()
     expect(shown).to_be_hidden()

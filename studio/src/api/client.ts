@@ -53,28 +53,14 @@ async function send(path: string, init: RequestInit): Promise<Answer> {
   } catch (error) {
     if (error instanceof DOMException && error.name === "TimeoutError")
       throw new ApiError(0, "the server did not answer in time");
-    if (error instanceof DOMException && error.name === "AbortError")
-      throw new ApiError(0, "the answer is not needed any more");
     throw new ApiError(0, hasBegun ? "the answer of the server was cut off" : "the server cannot be reached");
   }
-}
-
-/** Return what ends a request: its patience, and `signal` if there is one. */
-function endingWith(signal: AbortSignal | undefined): AbortSignal {
-  const patience = AbortSignal.timeout(PATIENCE_MS);
-  if (signal === undefined) return patience;
-  const either = new AbortController();
-  if (signal.aborted) either.abort();
-  for (const each of [patience, signal]) each.addEventListener("abort", () => either.abort(each.reason));
-  return either.signal;
 }
 
 type Headers = Record<string, string>;
 
 interface Manner {
   headers?: Headers;
-  /** What ends the request when its answer is not needed any more. */
-  signal?: AbortSignal;
   /** Whether it waits for no other request. */
   isUrgent?: boolean;
 }
@@ -83,7 +69,7 @@ async function request(
   method: string,
   path: string,
   body?: unknown,
-  { headers = {}, signal, isUrgent = false }: Manner = {},
+  { headers = {}, isUrgent = false }: Manner = {},
 ): Promise<Answer> {
   const json: Headers = body === undefined ? {} : { "Content-Type": "application/json" };
   const content = body === undefined ? null : JSON.stringify(body);
@@ -92,7 +78,7 @@ async function request(
       method,
       headers: { ...json, ...headers },
       body: content,
-      signal: endingWith(signal),
+      signal: AbortSignal.timeout(PATIENCE_MS),
       priority: isUrgent ? "high" : "auto",
     });
   const answer = await (isUrgent ? begin() : turns.take(begin));
@@ -176,8 +162,7 @@ export const api = {
   terms: (cell: string, subject: string) => call("list_terms", [cell], { query: { subject } }),
   query: (cell: string, sparql: string) => call("query_world", [cell], { body: { sparql } }),
   edit: (cell: string, edits: string[], why: string) => call("edit_world", [cell], { body: { edits, why } }),
-  beginJob: (body: JobRequest, signal?: AbortSignal) =>
-    call("add_job", [], signal === undefined ? { body } : { body, signal }),
+  beginJob: (body: JobRequest) => call("add_job", [], { body }),
   jobResult: (id: string) => call("show_job_result", [id]),
   jobEvents: (id: string) => call("list_job_events", [id]),
   jobFile: (id: string, file: string) => call("read_job_file", [id, file]),

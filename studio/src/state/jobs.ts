@@ -6,6 +6,9 @@ import type { Job, JobRequest, PlanPreview } from "../api/types";
 /** All jobs that the server knows, by id. */
 export const jobs = signal<ReadonlyMap<string, Job>>(new Map());
 
+/** The plans of what is being written; they are shown where it is written, and are gone soon. */
+export const previews = signal<ReadonlySet<string>>(new Set());
+
 /** What the kinds are called. */
 export const KINDS: Record<JobRequest["kind"], string> = {
   plan: "Plan",
@@ -33,30 +36,24 @@ export const canRestart = (job: Job): boolean => !goesOn(job) && job.state !== "
 /** Note how a job is. */
 export function takeJob(job: Job, removed = false): void {
   const known = new Map(jobs.peek());
-  if (removed) known.delete(job.id);
-  else known.set(job.id, job);
+  if (removed) {
+    known.delete(job.id);
+    previews.value = new Set([...previews.peek()].filter((each) => each !== job.id));
+  } else {
+    known.set(job.id, job);
+  }
   jobs.value = known;
 }
 
 /** Begin a job; what the server has said of it meanwhile is newer than the answer. */
-export async function beginJob(request: JobRequest, signal?: AbortSignal): Promise<Job> {
-  const begun = await api.beginJob(request, signal);
+export async function beginJob(request: JobRequest): Promise<Job> {
+  const begun = await api.beginJob(request);
   if (!jobs.peek().has(begun.id)) takeJob(begun);
   return begun;
 }
 
-/** Begin a job and wait until it has ended; ApiError if it fails, or somebody ends it. `signal` cancels it. */
-export async function runJob(request: JobRequest, signal?: AbortSignal): Promise<Job> {
-  const { id } = await beginJob(request, signal);
-  const cancel = (): void => void api.removeJob(id).catch(ignoreRefusal);
-  if (signal?.aborted === true) cancel();
-  signal?.addEventListener("abort", cancel);
-  try {
-    return await ended(id);
-  } finally {
-    signal?.removeEventListener("abort", cancel);
-  }
-}
+/** Begin a job and wait until it has ended; ApiError if it fails, or somebody ends it. */
+export const runJob = async (request: JobRequest): Promise<Job> => ended((await beginJob(request)).id);
 
 function ended(id: string): Promise<Job> {
   return new Promise((resolve, reject) => {
@@ -71,11 +68,21 @@ function ended(id: string): Promise<Job> {
   });
 }
 
-/** Plan for something; nothing is kept of it in the server. */
+/** Plan for something, until `signal` says that nobody needs it; nothing is kept of it in the server. */
 export async function previewPlan(cell: string, wish: PlanWish, signal: AbortSignal): Promise<PlanPreview> {
-  const { id } = await runJob({ kind: "plan", cell, ...wish }, signal);
-  const { outcome } = await api.jobResult(id);
-  void api.removeJob(id).catch(ignoreRefusal);
+  const { id } = await beginJob({ kind: "plan", cell, ...wish });
+  previews.value = new Set(previews.peek()).add(id);
+  const remove = (): void => void api.removeJob(id).catch(ignoreRefusal);
+  signal.addEventListener("abort", remove);
+  let outcome;
+  try {
+    if (signal.aborted) throw new ApiError(0, "The plan is not needed any more.");
+    await ended(id);
+    ({ outcome } = await api.jobResult(id));
+  } finally {
+    signal.removeEventListener("abort", remove);
+    if (jobs.peek().has(id)) remove();
+  }
   if (outcome.kind !== "plan") throw new ApiError(0, "The server has answered something else than a plan.");
   return outcome.plan as PlanPreview;
 }

@@ -3,7 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { api } from "../api/client";
 import type { Job, JobEvent, JobRequest } from "../api/types";
 import { attempt } from "../state/actions";
-import { beginJob, canRestart, goesOn, jobs, KINDS, RECORDING, REPORT } from "../state/jobs";
+import { beginJob, canRestart, goesOn, jobs, KINDS, previews, RECORDING, REPORT } from "../state/jobs";
 import { replayJob } from "../state/replay";
 import { cellName, library, may } from "../state/studio";
 import { formatMoment, formatStart } from "../state/run_times";
@@ -15,7 +15,8 @@ export function JobsView() {
   const [isAdding, setIsAdding] = useState(false);
   const all = jobs.value;
   useEffect(followSeries, [all]);
-  const found = [...all.values()].filter((each) => each.cell === cell).reverse();
+  const shown = [...all.values()].filter((each) => each.cell === cell && !previews.value.has(each.id));
+  const found = shown.reverse();
   return (
     <div class="runs">
       <div class="view-tools row">

@@ -120,8 +120,8 @@ async def _begin(call: ApiCall, job: Job) -> Job:
 
 
 def _check_role(call: ApiCall, job: Job) -> None:
-    """Raise ApiRefusal (403) if a client may not have such a job done, or ended."""
-    needed = KINDS[type(job.request)].role
+    """Raise ApiRefusal (403) if a client may not have such a job of its own, or of another client, done or ended."""
+    needed = KINDS[type(job.request)].role if job.owner == call.client.name else "operate"
     if not includes(call.client.role, needed):
         raise ApiRefusal(
             HTTPStatus.FORBIDDEN, f"this needs the role `{needed}`, and `{call.client.name}` has `{call.client.role}`"
