@@ -19,7 +19,7 @@ from skillc.contract.job import FILE_TYPES, ONGOING, Job, JobChanged, JobOutcome
 from skillc.server.jobs.store import JobStore
 from skillc.server.log import log
 from skillc.server.problems import ApiRefusal
-from skillc.workers.pool import TooMuchWork, Workers, WorkFailed, WorkTimedOut
+from skillc.workers.pool import TooMuchWork, WorkCrashed, Workers, WorkFailed, WorkTimedOut
 from skillc.workers.questions import Work
 
 LaneName: TypeAlias = Literal["plans", "simulations", "trials"]
@@ -92,7 +92,9 @@ class Jobs:
         return found
 
     def begin(self, job: Job, lane: LaneName, snapshot: bytes, run: JobRun) -> Job:
-        """Do a job, a new one or one that goes on no more, once those before it in its lane are done."""
+        """Do a job, once those before it in its lane are done; ApiRefusal (409) if that was begun already."""
+        if job.id in self._tasks:
+            raise ApiRefusal(HTTPStatus.CONFLICT, f"{job.id} goes on")
         done = len(self.store.parts(job.id))
         failed = job.failed if done else 0
         job = structs.replace(job, state="waiting", reason="", problem=None, files=(), done=done, failed=failed)
@@ -143,6 +145,9 @@ class Jobs:
             self._fail(job.id, error)
         except sqlite3.Error as error:
             log("job", job=job.id, problem=f"it cannot be kept: {error}")
+        except Exception as error:  # noqa: BLE001 - the boundary of a task: a job has an end
+            log("job", job=job.id, problem=repr(error))
+            self._fail(job.id, WorkCrashed(f"an error of skillc: {error!r}"))
         except asyncio.CancelledError:
             self._clear(job.id)
             raise
