@@ -9,16 +9,21 @@ import pytest
 
 from planners.job_shops import PUBLISHED, SHOP, JobShop, compile_shop, make_goal, make_world
 from planners.test_makespan import COMMAND, needs_cp_sat
+from skillc_model.pddl.formulas import Disjunction, conjuncts
+from skillc_model.pddl.prepare import remove_axioms
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.arrangement import find_predecessors
 from skillc_runtime.planning.cp_sat.solver import CpSat
+from skillc_runtime.planning.fast_downward.solver import FastDownward, find_fast_downward
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
-from skillc_runtime.planning.plan import Plan, Step
+from skillc_runtime.planning.plan import Plan, Solved, Step
 from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.search.astar import AStar
+from skillc_runtime.planning.solve import solve
 
 library = cache(compile_shop)
 
@@ -76,6 +81,33 @@ def test_the_optimum_is_found_and_proved(seed: int) -> None:
 def test_a_published_optimum_is_found_and_proved() -> None:
     answer = schedule(PUBLISHED["ft06"])
     assert (answer.optimal, answer.schedule.makespan_s, answer.planner) == ("proven", 55.0, "CP-SAT")
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(find_fast_downward() is None, reason="the planner is an extra")
+def test_fast_downward_takes_conditions_over_all_operations() -> None:
+    programs, shop = find_fast_downward(), PUBLISHED["ft06"]
+    assert programs is not None
+    world, goal = make_world(shop, library()), make_goal(shop)
+    answer = solve(library(), world, goal, (FastDownward(programs),), CancelToken(30.0))
+    assert isinstance(answer, Solved), answer
+    assert (answer.optimal, len(answer.plan.steps), answer.plan.duration_s) == ("proven", 36, 197.0)
+
+
+def test_an_action_is_copied_where_its_condition_has_too_many_cases() -> None:
+    shop = JobShop.draw(4, 2, 0)
+    problem = pose_problem(library(), make_world(shop, library()), make_goal(shop)).problem
+    plain = remove_axioms(problem)
+    assert len(problem.domain.actions) == 1 and len(plain.domain.actions) == 8, "one for each operation"
+    assert all(
+        not isinstance(each, Disjunction) for one in plain.domain.actions for each in conjuncts(one.precondition)
+    )
+    assert isinstance(before := AStar().plan(problem, CancelToken(20.0)), Solved)
+    assert isinstance(after := AStar().plan(plain, CancelToken(20.0)), Solved)
+    assert (after.plan.duration_s, set(map(repr, after.plan.steps))) == (
+        before.plan.duration_s,
+        set(map(repr, before.plan.steps)),
+    )
 
 
 def test_operations_wait_only_for_those_of_their_job_and_machine() -> None:

@@ -1,14 +1,18 @@
 """Rewrites a problem for `astar(lmcut())`, which does not support axioms.
 
 Fast Downward compiles `forall` over changing predicates in preconditions, and disjunctive goals, into axioms. So the
-former are expanded over the problem's objects, and the latter become an action that costs nothing.
+former are expanded over the problem's objects, and the latter become an action that costs nothing. Fast Downward also
+takes each combination of the disjuncts of a condition as an operator of its own: where there are too many because facts
+that never change stand in them (`forall o (o before ?x implies o done)`), the action is copied for each value of ?x.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 from fractions import Fraction
+from itertools import product
+from math import prod
 from typing import assert_never
 
 import msgspec
@@ -28,12 +32,19 @@ from skillc_model.pddl.formulas import (
     Negation,
     Typed,
     Universal,
+    atoms,
     conjunction,
     conjuncts,
     disjunction,
     existential,
 )
+from skillc_model.pddl.names import make_unique
 from skillc_model.pddl.problem import Problem
+
+MOST_CASES = 64
+"""The most combinations of the disjuncts of a condition that are left to Fast Downward, if there is another way."""
+MOST_COPIES = 2000
+"""The most copies of an action for the values of its variables."""
 
 GOAL_REACHED = "goal-reached"
 REACH_GOAL = "reach-goal"
@@ -49,14 +60,30 @@ def remove_axioms(problem: Problem) -> Problem:
 def _expanded_domain(problem: Problem) -> PlanningDomain:
     """Return the domain with every `forall` in a condition expanded over the objects, which become constants."""
     domain, expansion = problem.domain, _Expansion(problem.domain, problem.objects, frozenset(problem.init))
-    actions = tuple(
-        structs.replace(action, precondition=expansion.of(action.precondition, {}), hold=expansion.of(action.hold, {}))
-        for action in domain.actions
-    )
+    names = set(domain.action)
+    actions = tuple(each for action in domain.actions for each in _expand(action, expansion, names))
     if actions == domain.actions:
         return domain
     possible = tuple(each for each in actions if FALSE not in (each.precondition, each.hold))
     return replace(domain, actions=possible, constants=problem.objects)
+
+
+def _expand(action: Action, expansion: _Expansion, names: set[str]) -> Iterator[Action]:
+    """Yield the expanded action, or copies of it for the values of variables that leave fewer disjunctions."""
+    expanded = expansion.apply(action, {})
+    variables = expansion.find_open(conjunction((expanded.precondition, expanded.hold)))
+    values = [expansion.members_of(each) for each in action.parameters if each.name in variables]
+    if not values or prod(map(len, values)) > MOST_COPIES:
+        yield expanded
+        return
+    bound = [each.name for each in action.parameters if each.name in variables]
+    for objects in product(*values):
+        copy = expansion.apply(action, dict(zip(bound, objects, strict=True)))
+        if FALSE not in (copy.precondition, copy.hold):
+            name = make_unique(action.name, names)
+            names.add(name)
+            here = (Equal(variable, each) for variable, each in zip(bound, objects, strict=True))
+            yield structs.replace(copy, name=name, precondition=conjunction((*here, copy.precondition)))
 
 
 def _with_goal_action(problem: Problem) -> Problem:
@@ -86,6 +113,25 @@ class _Expansion(msgspec.Struct, frozen=True):
     domain: PlanningDomain
     objects: Sequence[Typed]
     facts: Set[Atom]
+
+    def apply(self, action: Action, values: Mapping[str, str]) -> Action:
+        """Return the action with expanded conditions."""
+        precondition, hold = self.of(action.precondition, values), self.of(action.hold, values)
+        return structs.replace(action, precondition=precondition, hold=hold)
+
+    def members_of(self, variable: Typed) -> tuple[str, ...]:
+        """Return the objects that a variable may be."""
+        return self.domain.of_type(self.objects, variable.type)
+
+    def find_open(self, formula: Formula) -> frozenset[str]:
+        """Return the variables of facts that never change in disjunctions, if these have more than MOST_CASES cases."""
+        several = [each for each in conjuncts(formula) if isinstance(each, Disjunction)]
+        open_ = [
+            {term for atom in atoms(each) if not self.domain.predicate[atom.predicate].changes for term in atom.terms}
+            for each in several
+        ]
+        cases = prod(len(each.parts) for each, terms in zip(several, open_, strict=True) if terms)
+        return frozenset().union(*open_) if cases > MOST_CASES else frozenset()
 
     def of(self, formula: Formula, values: Mapping[str, str]) -> Formula:
         """Return the expanded formula with variables replaced by the objects in `values`."""
