@@ -10,6 +10,7 @@ from projects.folders import call, checked, names, write_project
 from skillc.lsp.libraries import Libraries
 from skillc.services.library.files import find_library
 from skillc.services.library.libraries import compile_library
+from skillc_compiler.goals.parsing import home_of, parse_goal
 from skillc_compiler.pipeline import compile
 from skillc_compiler.program.name_notes import find_later_names
 from skillc_compiler.resolve.files import read_sources
@@ -209,3 +210,11 @@ def test_former_skills_functions_and_parameters_are_read_up_to_their_edition() -
     body = repr(found[0].value.implementations["Twice.first"].body)
     assert body.count("skill='Clean'") == 2 and body.count("'object': Variable(name='thing')") == 2
     assert "Invoke(function='depth'" in body
+
+
+def test_a_goal_is_read_in_the_edition_in_which_it_is_right(tmp_path: Path) -> None:
+    compiled = _compile(tmp_path, 1, "use skiros\nclass Cup < Product\nrelation start(Cup, Cup)\n").value
+    prefixes = {**compiled.vocabulary.prefixes, "lab": "http://example.org/lab#"}
+    cups = {f"http://example.org/lab#{name}": ("https://w3id.org/skillc/library/mine#Cup",) for name in ("A", "B")}
+    goal = parse_goal("lab:A start lab:B", compiled.vocabulary, cups, prefixes, home_of(compiled), compiled.skills)
+    assert [each.name for each in goal.diagnostics if each.severity == "error"] == []

@@ -23,6 +23,7 @@ from skillc_compiler.resolve.scope import FileContext
 from skillc_compiler.resolve.tasks import resolve_task
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.editions import EDITIONS
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.position import Position
 from skillc_dsl.source import Source, Span
@@ -178,9 +179,14 @@ def _from_pddl(group: PddlGroup, text: str, names: Names) -> Outcome[s.TaskDecla
 
 
 def _wrapped(text: str, what: InputKind) -> Outcome[s.TaskDeclaration | None]:
-    """Parse a goal or call as the only member of a task, which begins LINES_ABOVE lines above it."""
+    """Parse a goal or call as the only member of a task, which begins LINES_ABOVE lines above it.
+
+    It may be right in any edition: a goal does not say of which library it is.
+    """
     member = "goal" if what == "goal" else "do"
-    parsed = parse(Source(what, f"task {what} {{\n{member}\n{text}\n}}\n"))
+    source = Source(what, f"task {what} {{\n{member}\n{text}\n}}\n")
+    read = (parse(source._replace(edition=edition)) for edition in reversed(EDITIONS))
+    parsed = next((each for each in read if not each.diagnostics), None) or parse(source)
     if parsed.diagnostics:
         reworded = ((problem, *reword(problem, what)) for problem in parsed.diagnostics)
         return Outcome(
