@@ -76,6 +76,11 @@ PATTERNS: MappingProxyType[TokenKind, str] = MappingProxyType(
 """Each kind of token with its regular expression; where several match, the first one wins. Keywords are names here."""
 
 
+def list_later_words(edition: int) -> frozenset[str]:
+    """Return the keywords that came after an edition."""
+    return frozenset(word for word, since in SINCE.items() if since > edition)
+
+
 def keyword_group(word: str) -> Group | None:
     """Return what a keyword is for, None for any other word."""
     return next((group for group, words in KEYWORDS.items() if word in words), None)

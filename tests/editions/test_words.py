@@ -6,8 +6,8 @@ from types import MappingProxyType
 
 import pytest
 
-from skillc_dsl import editions
 from skillc_dsl import syntax as s
+from skillc_dsl import token_table
 from skillc_dsl.editions import EDITIONS
 from skillc_dsl.formatting.formatter import format_source
 from skillc_dsl.parsing.grammar import fixed_texts
@@ -47,7 +47,7 @@ def test_a_later_word_is_a_name(word: str) -> None:
 def test_a_word_that_a_row_gives_a_later_edition_is_a_name_before(monkeypatch: pytest.MonkeyPatch) -> None:
     text = RELATION.format("scoped")
     assert set(_errors(text, 1)) == {"reserved-word"}
-    monkeypatch.setattr(editions, "SINCE", MappingProxyType({**SINCE, "scoped": 2}))
+    monkeypatch.setattr(token_table, "SINCE", MappingProxyType({**SINCE, "scoped": 2}))
     assert _errors(text, 1) == []
     assert set(_errors(text, 2)) == {"reserved-word"}
     assert _errors("skill Wait {\n    scoped\n}\n", 2) == []

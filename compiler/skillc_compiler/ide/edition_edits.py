@@ -19,8 +19,8 @@ from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.declarations import library_prefix, prefixes_in, used_vocabularies
 from skillc_compiler.resolve.names import KINDS, Kind, bare_terms
 from skillc_dsl.diagnostics import Fix
-from skillc_dsl.editions import list_later_words
 from skillc_dsl.source import Span
+from skillc_dsl.token_table import list_later_words
 from skillc_rdf.vocabulary.types import local_name
 
 

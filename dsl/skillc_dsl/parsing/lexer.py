@@ -8,12 +8,12 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
-from skillc_dsl.editions import list_later_words
 from skillc_dsl.parsing.grammar import DECLARATIONS, END, begins_line
 from skillc_dsl.parsing.table_types import WORD
 from skillc_dsl.parsing.tables import load_pattern, load_tables
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source, Span
+from skillc_dsl.token_table import list_later_words
 
 _HINTS = MappingProxyType(
     {

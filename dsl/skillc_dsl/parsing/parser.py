@@ -9,7 +9,7 @@ from msgspec import structs
 
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, ForeignForm, Outcome
-from skillc_dsl.editions import NEWEST, list_later_words
+from skillc_dsl.editions import NEWEST
 from skillc_dsl.encoding import report_not_text, report_too_large, report_wrong_bytes
 from skillc_dsl.parsing.braces import close_braces, region_lines
 from skillc_dsl.parsing.building.declarations import FileBuilder
@@ -21,6 +21,7 @@ from skillc_dsl.parsing.reserved_names import rename_reserved
 from skillc_dsl.parsing.token_repairs import repair_tokens
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source, Span
+from skillc_dsl.token_table import list_later_words
 
 MOST_PROBLEMS = 200
 """The maximum number of syntax errors shown for a file."""
