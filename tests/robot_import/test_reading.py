@@ -169,6 +169,14 @@ def test_a_hand_with_two_fingers_is_left_out_at_a_flange_and_asked_for_elsewhere
         read(tmp_path, six().replace(LAST, FINGERS + LAST).replace("tool0", "palm"))
 
 
+def test_a_file_with_a_place_that_is_no_number_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)  # MuJoCo writes a log there.
+    path = written(tmp_path, read(tmp_path, six()))
+    path.write_text(path.read_text("utf-8").replace('pos="0 0 0.4"', 'pos="0 nan 0.4"'), "utf-8")
+    with pytest.raises(RequestError, match="differs from the file: poses by nan"):
+        proved(tmp_path, read_robot(path))
+
+
 def test_soft_limits_are_the_range_and_said(tmp_path: Path) -> None:
     soft = 'velocity="2"/> <safety_controller soft_lower_limit="-2" soft_upper_limit="3" k_velocity="1"/>'
     reading = read(tmp_path, six().replace('velocity="2"/>', soft, 1))
