@@ -8,10 +8,10 @@ An answer that equals one of the last about the same thing is that object again,
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Generic, Protocol, TypeVar, cast
+from typing import Any, Generic, Protocol, TypeVar, cast
 
 Value = TypeVar("Value")
 Found = TypeVar("Found", covariant=True)
@@ -150,6 +150,11 @@ class Memo:
         values.insert(0, value)
         del values[RECENT:]
         return value
+
+    def recent(self, query: str, about: Hashable) -> Sequence[Any]:
+        """Return the last values about something, the latest one first."""
+        known = self._queries[query].values.get(about)
+        return () if known is None else tuple(cast("list[Any]", known.value))
 
     @contextmanager
     def _run(self, running: Hashable) -> Iterator[dict[tuple[str, str], object]]:

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from skillc.cli.main import skillc
 from skillc.services.check import library_checks
-from skillc.services.library import check_cache
+from skillc.services.library import disk_store
 from skillc_dsl.cache import load, store
 from skillc_ontology import catalogue
 
@@ -49,8 +49,8 @@ class Look:
 def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return the folder of this test's cache, which nothing but the library and what it names invalidates."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(check_cache, "installation_digest", lambda: b"this one")
-    return tmp_path / "cache" / "skillc" / "checks"
+    monkeypatch.setattr(disk_store, "installation_digest", lambda: b"this one")
+    return tmp_path / "cache" / "skillc" / "check"
 
 
 @pytest.fixture
@@ -111,7 +111,7 @@ def test_whatever_changes_is_seen(library: Path, own: Path, change: Callable[[Pa
 def test_what_has_not_changed_is_not_checked_again(library: Path, own: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     before = check(library)
     assert len(list(own.iterdir())) == 1
-    monkeypatch.setattr(library_checks, "check_library", lambda *_: pytest.fail("checked again"))
+    monkeypatch.setattr(library_checks, "check_whole", lambda *_: pytest.fail("checked again"))
     assert check(library) == before
 
 
@@ -158,15 +158,15 @@ def test_another_state_of_the_installation_is_another_digest(tmp_path: Path, mon
     module = package / "inner" / "module.py"
     module.write_text("a = 1\n", encoding="utf-8")
     monkeypatch.syspath_prepend(str(tmp_path))
-    monkeypatch.setattr(check_cache, "PACKAGES", ("some_package",))
-    states = [tuple(check_cache.describe_installation())]
-    assert tuple(check_cache.describe_installation()) == states[0]
+    monkeypatch.setattr(disk_store, "PACKAGES", ("some_package",))
+    states = [tuple(disk_store.describe_installation())]
+    assert tuple(disk_store.describe_installation()) == states[0]
     module.write_text("a = 12\n", encoding="utf-8")
-    states.append(tuple(check_cache.describe_installation()))
+    states.append(tuple(disk_store.describe_installation()))
     (package / "inner" / "added.py").touch()
-    states.append(tuple(check_cache.describe_installation()))
+    states.append(tuple(disk_store.describe_installation()))
     (tmp_path / "another_package").mkdir()
-    states.append(tuple(check_cache.describe_installation()))
+    states.append(tuple(disk_store.describe_installation()))
     assert len(set(states)) == 4
 
 
@@ -198,11 +198,11 @@ opened = set()
 sys.addaudithook(lambda event, arguments: opened.add(str(arguments[0])) if event == "open" else None)
 from pathlib import Path
 from skillc.services.check import library_checks
-from skillc.services.library import check_cache
+from skillc.services.library import check_inputs
 from skillc.services.library import files as library_files
 library = library_files.find_library(Path({str(library)!r}))
 opened.clear()
-check_cache.compute_digest(library, None)
+check_inputs.compute_digest(library, None)
 counted = set(opened) | set(map(str, library.places.values()))
 opened.clear()
 library_checks.check_library(library, None)
@@ -214,7 +214,7 @@ print(*counted, sep="\\n", file=sys.stderr)
         capture_output=True,
         text=True,
         check=True,
-        env={**os.environ, "PYTHONPATH": str(library.parent / "python")},
+        env={**os.environ, "PYTHONPATH": os.pathsep.join((str(library.parent / "python"), *filter(None, sys.path)))},
     )
     assert f"{library}/scene.ttl" in run.stderr
     assert [line for line in run.stdout.splitlines() if line.startswith(str(library.parent))] == []

@@ -11,15 +11,17 @@ from shipped import SKILLS
 from single_edits import apply_edits, single_edit
 from test_libraries import LIBRARIES, text_of
 
-from skillc.services.check import snapshots
 from skillc.services.check.edit_checks import check_edits
-from skillc.services.check.known_checks import check_and_store
+from skillc.services.check.known_checks import check_with
 from skillc.services.check.library_checks import check_library
-from skillc.services.library import check_cache, parse_cache
-from skillc.services.library.check_cache import CheckCacheEntry
+from skillc.services.check.snapshots import SNAPSHOT, Snapshot
+from skillc.services.library import disk_store
+from skillc.services.library.check_inputs import CheckInputs
+from skillc.services.library.disk_store import DiskStore
 from skillc.services.library.files import LibraryFiles, find_library
 from skillc_dsl.cache import store
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.query import Memo
 
 WRONG = """
 use skiros
@@ -44,7 +46,7 @@ STEPS = 6
 def cache_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return the folder of this test's cache, which nothing but the library and what it names invalidates."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(check_cache, "installation_digest", lambda: b"this one")
+    monkeypatch.setattr(disk_store, "installation_digest", lambda: b"this one")
     return tmp_path / "cache" / "skillc"
 
 
@@ -174,12 +176,13 @@ def _move(text: str, chance: random.Random) -> str:
 def test_a_check_after_edits_equals_one_of_everything(
     tmp_path: Path, seed: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    author, gone_on = Author(tmp_path / "mine", random.Random(seed)), []
+    author, gone_on, watching = Author(tmp_path / "mine", random.Random(seed)), [], Memo()
     author.begin()
     for step in range(STEPS):
         library = find_library(author.folder)
         gone_on.append(_goes_on(library))
-        assert check_and_store(CheckCacheEntry.of(library, None), None) == check_library(library, None), f"step {step}"
+        found = check(author.folder, watching if seed % 2 else None)
+        assert found == check_library(library, None), f"step {step}"
         before = {path: path.read_text("utf-8") for path in author.folder.glob("*.skill")}
         author.edit()
         if step % 3 == 2:
@@ -190,32 +193,30 @@ def test_a_check_after_edits_equals_one_of_everything(
     assert not gone_on[0]
 
 
-def check(folder: Path) -> tuple[Diagnostic, ...]:
-    """Check a library as `skillc check` does, and store what was found."""
-    return check_and_store(CheckCacheEntry.of(find_library(folder), None), None)
+def check(folder: Path, watching: Memo | None = None) -> tuple[Diagnostic, ...]:
+    """Check a library as `skillc check` does, with `--watch` or in a new process, and store what was found."""
+    return check_with(watching or Memo(), DiskStore(), CheckInputs.of(find_library(folder), None))
 
 
 def _goes_on(library: LibraryFiles) -> bool:
-    before = snapshots.load_snapshot(CheckCacheEntry.of(library, None).around)
-    return before is not None and check_edits(library, before, parse_cache.parse_cached) is not None
+    before = DiskStore().load(SNAPSHOT, (CheckInputs.of(library, None).around,))
+    return isinstance(before, Snapshot) and check_edits(library, before, Memo()) is not None
 
 
 @pytest.mark.parametrize("damage", [b"", b"x" * 200, pickle.dumps(1), pickle.dumps({"a": 1}), pickle.dumps(Path())])
 @pytest.mark.parametrize("whole", [True, False])
 def test_what_is_damaged_is_found_anew(tmp_path: Path, cache_folder: Path, damage: bytes, whole: bool) -> None:
-    parse_cache.parse_cached.cache_clear()
     author = Author(tmp_path / "mine", random.Random(0))
     author.folder.mkdir()
     (author.folder / "m.skill").write_text(text_of(LIBRARIES[0].stem), "utf-8")
     check(author.folder)
-    kept = [file for file in cache_folder.rglob("*") if file.is_file() and file.parent.name != "checks"]
-    assert {file.parent.name for file in kept} >= {"snapshots", "findings", "parsed"}
+    kept = [file for file in cache_folder.rglob("*") if file.is_file() and file.parent.name != "check"]
+    assert {file.parent.name for file in kept} >= {"snapshot", "findings", "parse"}
     for file in kept:
         if whole:
             file.write_bytes(damage)
         else:
             store(file, damage)
-    parse_cache.parse_cached.cache_clear()
     author.edit()
     assert check(author.folder) == check_library(find_library(author.folder), None)
 
@@ -238,5 +239,5 @@ def test_another_version_goes_on_from_nothing(tmp_path: Path, monkeypatch: pytes
     check(folder)
     file.write_text(f"{file.read_text('utf-8')}# it is a comment\n", "utf-8")
     assert _goes_on(find_library(folder))
-    monkeypatch.setattr(check_cache, "installation_digest", lambda: b"another one")
+    monkeypatch.setattr(disk_store, "installation_digest", lambda: b"another one")
     assert not _goes_on(find_library(folder))

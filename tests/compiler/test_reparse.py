@@ -9,7 +9,8 @@ from single_edits import apply_edits, single_edit
 
 from skillc_dsl.parsing import reparse
 from skillc_dsl.parsing.parser import parse
-from skillc_dsl.parsing.reparse import ParseMemo
+from skillc_dsl.parsing.reparse import parse_with
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 
 EDITED = int(os.environ.get("EDITS", "60"))
@@ -18,7 +19,7 @@ EDITED = int(os.environ.get("EDITS", "60"))
 @pytest.mark.slow
 @pytest.mark.parametrize("number", range(len(beginnings())))
 def test_edits_are_parsed_as_from_nothing(number: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    parser, chance, whole = ParseMemo(), random.Random(number), []
+    memo, chance, whole = Memo(), random.Random(number), []
     monkeypatch.setattr(reparse, "parse", lambda source: whole.append(source.text) or parse(source))
     text = "".join(source.text for source in sorted(beginnings()[number].values(), key=lambda each: each.path)[-3:])
     text = "\n".join(line for line in text.split("\n") if not line.startswith(("use ", "import ", "prefix ")))
@@ -26,6 +27,6 @@ def test_edits_are_parsed_as_from_nothing(number: int, monkeypatch: pytest.Monke
     for _ in range(EDITED):
         edited = apply_edits(chance.choice([text, text, edited]), [single_edit(text, chance.randrange(10**6))])
         before = len(whole)
-        assert parser(Source("a.skill", edited)) == parse(Source("a.skill", edited))
+        assert parse_with(memo, Source("a.skill", edited)) == parse(Source("a.skill", edited))
         spared += all(len(each.strip()) < len(edited.strip()) for each in whole[before:])
     assert spared > EDITED // 3

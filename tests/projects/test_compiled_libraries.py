@@ -78,7 +78,7 @@ def test_errors_are_found_each_time(compiled: list[str], tmp_path: Path) -> None
 def test_a_damaged_entry_is_written_again(compiled: list[str], tmp_path: Path) -> None:
     files = find_library(SHIPPED / "contact")
     first = compile_valid(files)
-    (entry,) = (tmp_path / "cache" / "libraries").iterdir()
+    (entry,) = (tmp_path / "cache" / "library").iterdir()
     entry.write_bytes(entry.read_bytes()[:-10])
     assert compile_valid(files) == first
     assert compile_valid(files) == first

@@ -6,7 +6,7 @@ import random
 import traceback
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import Literal, TypeAlias
 
 from shipped import SKILLS, library, shelf, vocabulary
@@ -17,7 +17,7 @@ from skillc_compiler.ide.analysis import AnalysisInput, analyse
 from skillc_compiler.pipeline import compile, find_problems, lower_and_report
 from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
 from skillc_dsl.edits import apply_fixes
-from skillc_dsl.parsing.reparse import ParseMemo
+from skillc_dsl.parsing.reparse import parse_with
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 
@@ -107,8 +107,8 @@ def _problems(sources: Sequence[Source], edited: Source, edits: Sequence[Edit]) 
 
 def _check(sources: Sequence[Source], changed: dict[str, Source]) -> tuple[Diagnostic, ...]:
     """Return what is reported; a library is lowered with errors and without, to see that this does not crash."""
-    parser, memo = _memory(sources)
-    analysis = analyse(AnalysisInput("own", changed, shelf(), vocabulary()), parser, memo)
+    memo = _memory(sources)
+    analysis = analyse(AnalysisInput("own", changed, shelf(), vocabulary()), partial(parse_with, memo), memo)
     found = find_problems(analysis.files, analysis.resolved, memo)
     return lower_and_report(Outcome(analysis.program, found), tuple(changed.values())).diagnostics
 
@@ -121,9 +121,9 @@ def _warned(sources: tuple[Source, ...]) -> frozenset[tuple[str, str]]:
 
 
 @cache
-def _memory(library: Sequence[Source]) -> tuple[ParseMemo, Memo]:
+def _memory(library: Sequence[Source]) -> Memo:
     """Return what is kept from one analysis of a library to the next."""
-    return ParseMemo(), Memo()
+    return Memo()
 
 
 def _errors(problems: Iterable[Diagnostic]) -> list[Diagnostic]:

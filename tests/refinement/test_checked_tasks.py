@@ -12,7 +12,7 @@ from refinement.scenes import DESK, tilt_desk
 from refinement.test_measured_values import PROBING
 from skillc.cli.main import skillc
 from skillc.services.check import known_checks
-from skillc.services.library import cache_entries, check_cache
+from skillc.services.library import disk_store
 from skillc.services.space import cure, look, verdicts
 
 CLEAN = """
@@ -103,8 +103,7 @@ def move(place: dict[str, float], told: str) -> dict[str, float]:
 @pytest.fixture
 def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Give this test entries of its own in the cache, which nothing but what is checked invalidates."""
-    for module in (check_cache, cache_entries):
-        monkeypatch.setattr(module, "installation_digest", lambda: str(tmp_path).encode())
+    monkeypatch.setattr(disk_store, "installation_digest", lambda: str(tmp_path).encode())
 
 
 @pytest.mark.slow
@@ -198,11 +197,12 @@ def test_an_edit_beside_a_task_has_only_its_file_checked_again(tmp_path, own, mo
     first = check(folder)
     assert "infeasible-step" in {each["name"] for each in first[0]}
     (folder / "tasks.skill").write_text(VISITING + beside.replace("1 s", "2 s"))
-    assert check(folder) == first == check(folder, "--no-cache")
+    assert check(folder) == first
     assert len(wholes) == 1
+    assert check(folder, "--no-cache") == first
     (folder / "tasks.skill").write_text(VISITING.replace("Eraser-1-approach", "Panda-1") + beside)
     assert check(folder) != first
-    assert len(wholes) == 2
+    assert len(wholes) == 3
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from skillc.services.check import library_checks
-from skillc.services.library.check_cache import compute_digest
+from skillc.services.library.check_inputs import compute_digest
 from skillc.services.library.files import find_library
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_ontology import catalogue

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote, urlsplit
@@ -16,9 +17,10 @@ from skillc.lsp.scenes import find_problems, read_scenes
 from skillc.services.library.files import LibraryFiles, edition_of
 from skillc.services.library.libraries import load_vocabulary_with
 from skillc_compiler.ide.analysis import Analysis, AnalysisInput, analyse
+from skillc_compiler.resolve.files import Parser
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import normalise_text
-from skillc_dsl.parsing.reparse import ParseMemo
+from skillc_dsl.parsing.reparse import parse_with
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 from skillc_rdf.vocabulary.conflicts import judge_conflicts
@@ -45,7 +47,6 @@ class Libraries:
     buffers: dict[Path, str] = field(default_factory=dict)
     _uris: dict[Path, str] = field(default_factory=dict)
     _analyses: dict[Root, Analysis] = field(default_factory=dict)
-    _parsers: dict[Root, ParseMemo] = field(default_factory=dict)
     _memos: dict[Root, Memo] = field(default_factory=dict)
     _sources: dict[Root, dict[str, Source]] = field(default_factory=dict)
     _vocabularies: dict[Root, tuple[Source, ...]] = field(default_factory=dict)
@@ -132,9 +133,9 @@ class Libraries:
         """Return the texts of a library by path, without analysing them."""
         return self._sources.get(root) or files.read_sources(root, self.buffers, self._edition(root))
 
-    def parser(self, root: Root) -> ParseMemo:
+    def parser(self, root: Root) -> Parser:
         """Return the parser of a library's files, which knows their last texts."""
-        return self._parsers.setdefault(root, ParseMemo())
+        return partial(parse_with, self._memos.setdefault(root, Memo()))
 
     def open_in(self, root: Root) -> frozenset[str]:
         """Return the URIs of the open files of a library."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from skillc.services.check.library_checks import Known, check_with_scenes
+from skillc.services.check.library_checks import check_with_scenes
 from skillc.services.library.files import LibraryFiles
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.program.typed import Program
@@ -55,7 +55,7 @@ def read_scenes(
 def find_problems(scenes: TaskScenes | None, analysis: Analysis, memo: Memo) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of tasks in their scenes and of text values, without those in shipped files."""
     sources = analysis.library.sources.values()
-    found = check_with_scenes(analysis.compiled, analysis.program, scenes, str, sources, Known(memo=memo))
+    found = check_with_scenes(analysis.compiled, analysis.program, scenes, str, sources, memo)
     return tuple(each for each in found if not _is_shipped(each.span.path))
 
 

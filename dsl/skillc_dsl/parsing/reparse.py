@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from functools import partial
 from itertools import pairwise
+from typing import TypeAlias
 
 from msgspec import structs
 
@@ -13,6 +14,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.encoding import MOST_CHARACTERS
 from skillc_dsl.parsing.parser import MOST_PROBLEMS, parse
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 
 _KEYWORDS = r"class|relation|property|function|skill|impl|task|test(?=\s+\w+\s*\{)"
@@ -20,28 +22,25 @@ _DECLARATION = re.compile(
     rf"^(?:(?:[ \t]*#[^\n]*\n)++(?:(?P<below>{_KEYWORDS})\b)?|(?P<first>{_KEYWORDS})\b)", re.MULTILINE
 )
 """A declaration with the comments above it, or comments above something else, which are not read again line by line."""
-_REMEMBERED = 3
+_CLEAN = "parse without errors"
+Parsed: TypeAlias = tuple[Source, Outcome[s.File]]
 
 
-@dataclass
-class ParseMemo:
-    """A parser that knows, of each file, the last texts and the last one without errors."""
+def parse_with(memo: Memo, source: Source) -> Outcome[s.File]:
+    """Return what `parse` returns, given what the memo knows of the last texts of the file."""
+    known: Iterable[Parsed] = memo.recent("parse", source.path)
+    parsed = next((each for each in known if each[0] == source), None)
+    if parsed is None:
+        inputs = source.path, source.text, str(source.unreadable), str(source.edition)
+        parsed = source, memo.recall("parse", inputs, partial(_parse, memo, source))
+    if not parsed[1].diagnostics and not parsed[1].value.errors:
+        memo.same(_CLEAN, source.path, parsed)
+    return memo.same("parse", source.path, parsed)[1]
 
-    _recent: dict[str, tuple[tuple[Source, Outcome[s.File]], ...]] = field(default_factory=dict)
-    _clean: dict[str, tuple[Source, s.File]] = field(default_factory=dict)
 
-    def __call__(self, source: Source) -> Outcome[s.File]:
-        """Return what `parse` returns."""
-        recent = self._recent.get(source.path, ())
-        known = next((outcome for each, outcome in recent if each == source), None)
-        if known is None:
-            clean = self._clean.get(source.path)
-            known = (reparse(*clean, source) if clean else None) or parse(source)
-        others = tuple(each for each in recent if each[0] != source)
-        self._recent[source.path] = ((source, known), *others[: _REMEMBERED - 1])
-        if not known.diagnostics and not known.value.errors:
-            self._clean[source.path] = source, known.value
-        return known
+def _parse(memo: Memo, source: Source) -> Outcome[s.File]:
+    clean: Parsed | None = next(iter(memo.recent(_CLEAN, source.path)), None)
+    return (reparse(clean[0], clean[1].value, source) if clean else None) or parse(source)
 
 
 def reparse(before: Source, file: s.File, source: Source) -> Outcome[s.File] | None:

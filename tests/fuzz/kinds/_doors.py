@@ -36,7 +36,8 @@ from skillc_compiler.pipeline import compile
 from skillc_dsl.encoding import MOST_CHARACTERS
 from skillc_dsl.formatting.formatter import format_source
 from skillc_dsl.parsing.parser import parse as parse_skills
-from skillc_dsl.parsing.reparse import ParseMemo
+from skillc_dsl.parsing.reparse import parse_with
+from skillc_dsl.query import Memo
 from skillc_dsl.rendering import full, sarif
 from skillc_dsl.source import Source
 from skillc_dsl.token_table import scan_tokens
@@ -179,8 +180,8 @@ def _body(text: str) -> object:
 
 
 def _reparse(text: str) -> object:
-    memo = ParseMemo()
-    return memo(Source("a.skill", f"{text}\n# a\n")), memo(Source("a.skill", f"{text}\n# b\n"))
+    memo = Memo()
+    return tuple(parse_with(memo, Source("a.skill", f"{text}\n# {end}\n")) for end in "ab")
 
 
 NO_FRAME = (("", ""),)

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
-from skillc.services.library.cache_entries import DiskStore, describe_models, describe_scene, encode_meaning
+from skillc.services.library.check_inputs import describe_models, describe_scene, encode_meaning
+from skillc.services.library.disk_store import DiskStore
 from skillc_dsl.query import Memo
 from skillc_model.conditions import Condition
 from skillc_runtime.scene.load import LoadedScene

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias, cast
 
 from skillc.errors import DiagnosticsError, RequestError
-from skillc.services.library.check_cache import CheckCacheEntry
+from skillc.services.library.check_inputs import CHECK, CheckInputs
+from skillc.services.library.disk_store import DiskStore
 from skillc.services.library.files import LibraryFiles, read_single_file, source_texts
 from skillc.services.library.libraries_below import find_libraries
 from skillc.services.reporting.reporter import find_texts, sort_diagnostics
@@ -78,22 +79,18 @@ def check_sources(request: CheckRequest, libraries: Iterable[LibraryFiles], memo
 def check_with_cache(
     request: CheckRequest, library: LibraryFiles, memos: Memos | None = None
 ) -> tuple[Diagnostic, ...]:
-    """Return the diagnostics of a library, from the cache if nothing has changed."""
-    entry = CheckCacheEntry.of(library, request.scene) if request.cache else None
-    known = entry.load() if entry else None
-    if known is not None:
-        return known
+    """Return the diagnostics of a library, from the store if nothing has changed."""
+    inputs, store = CheckInputs.of(library, request.scene), DiskStore() if request.cache else None
+    known = store.load(CHECK, (inputs.digest,)) if store else None
+    return _check(inputs, memos, store) if known is None else cast(tuple[Diagnostic, ...], known)
+
+
+def _check(inputs: CheckInputs, memos: Memos | None, store: DiskStore | None) -> tuple[Diagnostic, ...]:
+    from skillc.services.check.known_checks import check_with
+
+    memo = Memo() if memos is None else memos.setdefault(inputs.library.root, Memo())
     with gc_disabled():
-        return _check(request, library, entry, memos)
-
-
-def _check(
-    request: CheckRequest, library: LibraryFiles, entry: CheckCacheEntry | None, memos: Memos | None
-) -> tuple[Diagnostic, ...]:
-    from skillc.services.check.known_checks import check_and_store, check_uncached
-
-    memo = None if memos is None else memos.setdefault(library.root, Memo())
-    return check_uncached(library, request.scene, memo) if entry is None else check_and_store(entry, memo)
+        return check_with(memo, store, inputs)
 
 
 def check_paths(request: CheckRequest) -> CheckResult:

@@ -2,61 +2,43 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-from skillc.services.check.edit_checks import check_edits
-from skillc.services.check.snapshots import Snapshot, load_snapshot, store_snapshot, take_snapshot
-from skillc.services.library import parse_cache
-from skillc.services.library.cache_entries import DiskStore
-from skillc.services.library.check_cache import CheckCacheEntry
-from skillc.services.library.files import LibraryFiles
-from skillc.services.library.vocabulary_cache import load_vocabulary_once
+from skillc.services.check.edit_checks import check_edits, recall_vocabulary
+from skillc.services.check.snapshots import SNAPSHOT, Snapshot, take_snapshot
+from skillc.services.library.check_inputs import CHECK, CheckInputs
+from skillc.services.library.disk_store import DiskStore
 from skillc.services.tasks.value_checks import files_with_texts
 from skillc_compiler.program.slices import outlines_of
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.query import Memo
 
 
-def check_uncached(library: LibraryFiles, scene: Path | None, memo: Memo | None) -> tuple[Diagnostic, ...]:
-    """Return the diagnostics of a library, without any cache on disk."""
-    from skillc.services.check.library_checks import Known, check_library
-    from skillc.services.space.verdicts import TaskLooks
-
-    return check_library(library, scene, Known(memo=memo, look=TaskLooks(use_cache=False).judge))
-
-
-def check_and_store(entry: CheckCacheEntry, memo: Memo | None) -> tuple[Diagnostic, ...]:
-    """Return the diagnostics of a library without an entry in the cache, and store them unless an input changes."""
-    library = entry.library
-    before = load_snapshot(entry.around)
-    now = check_edits(library, before, parse_cache.parse_cached) if before else None
-    store, complete = DiskStore(), True
-    memo = memo or Memo()
-    memo.store, memo.around = store, entry.around
+def check_with(memo: Memo, store: DiskStore | None, inputs: CheckInputs) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics of a library, and store them unless an input changes meanwhile."""
+    memo.store, memo.around = store, inputs.around
+    before = store.load(SNAPSHOT, (inputs.around,)) if store else None
+    now = check_edits(inputs.library, before, memo) if isinstance(before, Snapshot) else None
     if now is not None:
-        found = now.diagnostics
+        found, complete = now.found, True
     else:
-        found, now, complete = _check_whole(entry, memo)
-    if complete and entry.is_current():
-        entry.store(found)
-        store.flush()
+        found, now, complete = _check_whole(inputs, memo)
+    if store and complete and inputs.are_current():
+        store.save(CHECK, (inputs.digest,), found)
         if now is not None:
-            store_snapshot(entry.around, now)
-    parse_cache.delete_oldest_entries()
+            store.save(SNAPSHOT, (inputs.around,), now)
+        store.flush()
     return found
 
 
-def _check_whole(entry: CheckCacheEntry, memo: Memo) -> tuple[tuple[Diagnostic, ...], Snapshot | None, bool]:
+def _check_whole(inputs: CheckInputs, memo: Memo) -> tuple[tuple[Diagnostic, ...], Snapshot | None, bool]:
     """Check everything; the result has a snapshot if the library compiles, and whether there was time for all."""
     # After an edit of skills, this is mostly not imported.
-    from skillc.services.check.library_checks import Known, check_whole
+    from skillc.services.check.library_checks import check_whole
     from skillc.services.space.verdicts import TaskLooks
 
-    look = TaskLooks(use_cache=True)
-    known = Known(parse_cache.parse_cached, memo, look.judge)
-    checked = check_whole(entry.library, entry.scene, known)
-    if checked.program is None:
+    look = TaskLooks(memo.store)
+    checked = check_whole(inputs.library, inputs.scene, memo, look.judge)
+    if checked.program is None or memo.store is None:
         return checked.diagnostics, None, look.in_time
-    load_vocabulary_once(entry.library.vocabularies)  # from now on it is there for checks of edits
+    recall_vocabulary(memo, inputs.library.vocabularies)  # from now on it is there for checks of edits
     now = take_snapshot(checked, outlines_of(checked.program, memo), files_with_texts(checked.program), look.looked)
     return checked.diagnostics, now, look.in_time

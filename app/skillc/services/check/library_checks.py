@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -13,7 +12,6 @@ from skillc.services.reporting.reporter import sort_diagnostics
 from skillc.services.tasks.value_checks import check_values
 from skillc_compiler.diagnostics.suppressions import without_suppressed
 from skillc_compiler.program.typed import Program
-from skillc_compiler.resolve.files import Parser
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
@@ -23,21 +21,6 @@ from skillc_model.skills import SkillLibrary
 if TYPE_CHECKING:
     from skillc.services.tasks.scenes import TaskScenes
     from skillc.services.tasks.space_problems import SpaceJudge
-
-
-@dataclass(frozen=True, slots=True)
-class Known:
-    """Where a check finds what earlier ones have found: a parser that may cache its results, and the memo.
-
-    `look` looks at tasks in space; without it nothing does.
-    """
-
-    parsed_by: Parser | None = None
-    memo: Memo | None = None
-    look: SpaceJudge | None = None
-
-
-NOTHING = Known()
 
 
 class Checked(NamedTuple):
@@ -53,19 +36,22 @@ class Checked(NamedTuple):
     scenes: TaskScenes | None = None
 
 
-def check_library(library: LibraryFiles, scene: Path | None, known: Known = NOTHING) -> tuple[Diagnostic, ...]:
+def check_library(library: LibraryFiles, scene: Path | None) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of a library, of its tasks' scenes and of `scene`, with displayable paths."""
-    return check_whole(library, scene, known).diagnostics
+    return check_whole(library, scene, Memo()).diagnostics
 
 
-def check_whole(library: LibraryFiles, scene: Path | None, known: Known = NOTHING) -> Checked:
-    """Check a library as `check_library` does, and return also its program if it compiles without errors."""
+def check_whole(library: LibraryFiles, scene: Path | None, memo: Memo, look: SpaceJudge | None = None) -> Checked:
+    """Check a library as `check_library` does, and return also its program if it compiles without errors.
+
+    `look` looks at tasks in space; without it nothing does.
+    """
     found = _SceneReader(library, () if scene is None else (scene,))
-    outcome = libraries.compile_library(library, found.individuals, known.parsed_by, known.memo)
+    outcome = libraries.compile_library(library, found.individuals, memo)
     assert found.program is not None, "a compiled library has a program"
     sources = [each._replace(path=library.display_path(each.path)) for each in library.sources]
-    around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources, known)
-    of_scenes = (*around, *_named_goals(library, outcome, known.look))
+    around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources, memo, look)
+    of_scenes = (*around, *_named_goals(library, outcome, look))
     problems = sort_diagnostics((*outcome.diagnostics, *of_scenes))
     if not outcome.ok:
         return Checked(problems)
@@ -91,18 +77,19 @@ def check_with_scenes(
     scenes: TaskScenes | None,
     display_path: Callable[[str], str],
     sources: Iterable[Source],
-    known: Known = NOTHING,
+    memo: Memo,
+    look: SpaceJudge | None = None,
 ) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of scenes, of tasks in them, and of text values that name nothing.
 
     `display_path` maps a path of the library to a displayable one. Diagnostics that the `sources` (with displayable
-    paths) suppress are omitted. The parser of `known` is not used.
+    paths) suppress are omitted.
     """
     found: tuple[Diagnostic, ...] = ()
     if scenes is not None:
         from skillc.services.check.task_checks import check_tasks_in_scenes
 
-        of_tasks = check_tasks_in_scenes(compiled, program, scenes, display_path, known.memo or Memo(), known.look)
+        of_tasks = check_tasks_in_scenes(compiled, program, scenes, display_path, memo, look)
         found = (*scenes.problems, *of_tasks)
     values = check_values(compiled, program, scenes, found, display_path)
     return without_suppressed((*found, *values), sources)

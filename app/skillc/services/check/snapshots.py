@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import msgspec
 
 from skillc_compiler.program.outlines import FileOutline
-from skillc_dsl import cache
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.rendering import json
 from skillc_dsl.source import Source
 from skillc_model.planning_view import encode_view
 from skillc_model.skills import SkillLibrary
@@ -20,8 +17,8 @@ from skillc_model.skills import SkillLibrary
 if TYPE_CHECKING:
     from skillc.services.check.library_checks import Checked
 
-_MOST = 500
-"""The most entries in the cache; beyond it the older half is deleted."""
+SNAPSHOT = "snapshot"
+"""The query whose answer is the last check of a library."""
 
 
 class Snapshot(msgspec.Struct, frozen=True):
@@ -38,20 +35,10 @@ class Snapshot(msgspec.Struct, frozen=True):
     views: dict[str, str]
     texts: frozenset[str]
     looked: frozenset[str]
-    found: str
-    of_scenes: str
+    found: tuple[Diagnostic, ...]
+    of_scenes: tuple[Diagnostic, ...]
     individuals: dict[str, dict[str, list[str]]]
     scenes: dict[str, str]
-
-    @property
-    def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """Everything that was found."""
-        return json.read(self.found)
-
-    @property
-    def diagnostics_of_scenes(self) -> frozenset[Diagnostic]:
-        """Those that are no problems of the texts of skills: what compiling does not find."""
-        return frozenset(json.read(self.of_scenes))
 
     @property
     def individuals_by_task(self) -> dict[str, dict[str, list[str]]]:
@@ -76,8 +63,8 @@ def take_snapshot(
         views=digest_views(library, library.skills),
         texts=frozenset(texts),
         looked=frozenset(looked),
-        found=json.render(checked.diagnostics, {}),
-        of_scenes=json.render(checked.of_scenes, {}),
+        found=checked.diagnostics,
+        of_scenes=checked.of_scenes,
         individuals={} if scenes is None else {files[task]: each for task, each in scenes.individuals.items()},
         scenes=files,
     )
@@ -95,7 +82,7 @@ def update_snapshot(
         before,
         digests={**before.digests, **digests},
         outlines={**before.outlines, **outlines},
-        found=json.render(found, {}),
+        found=tuple(found),
     )
 
 
@@ -109,26 +96,3 @@ def digest_of(source: Source) -> str:
     """Return the digest of a text."""
     read = f"{source.text}{source.unreadable or ''}"
     return hashlib.sha256(read.encode("utf-8", "surrogateescape")).hexdigest()
-
-
-def load_snapshot(around: str) -> Snapshot | None:
-    """Return the snapshot of a library, None if there is none; `around` is the digest of all that it depends on."""
-    path = _path(around)
-    body = cache.load(path) if path else None
-    try:
-        return None if body is None else msgspec.msgpack.decode(body, type=Snapshot)
-    except msgspec.MsgspecError:
-        return None
-
-
-def store_snapshot(around: str, snapshot: Snapshot) -> None:
-    """Store the snapshot of a library in the place of the one before."""
-    path = _path(around)
-    if path is not None:
-        cache.store(path, msgspec.msgpack.encode(snapshot))
-        cache.delete_oldest(path.parent, _MOST, _MOST // 2)
-
-
-def _path(around: str) -> Path | None:
-    folder = cache.cache_folder()
-    return folder / "snapshots" / around if folder else None

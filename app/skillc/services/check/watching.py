@@ -10,7 +10,7 @@ from typing import NoReturn, TypeAlias
 
 from skillc.errors import DiagnosticsError, RequestError
 from skillc.services.check.checking import CheckRequest, CheckResult, Memos, check_sources, read_libraries
-from skillc.services.library.check_cache import named_scenes
+from skillc.services.library.check_inputs import named_scenes
 from skillc.services.library.files import SHIPPED, LibraryFiles
 from skillc.services.reporting.reporter import Reporter
 from skillc_ontology import catalogue

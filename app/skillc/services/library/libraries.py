@@ -16,12 +16,13 @@ from skillc_compiler import pipeline
 from skillc_compiler.diagnostics.fixes import keep_useful_fixes
 from skillc_compiler.problems import find_problems
 from skillc_compiler.program.typed import Program
-from skillc_compiler.resolve.files import Parser, read_sources
+from skillc_compiler.resolve.files import read_sources
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.garbage import gc_disabled
 from skillc_dsl.parsing.parser import parse
+from skillc_dsl.parsing.reparse import parse_with
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source, Span
 from skillc_model.skills import SkillLibrary
@@ -39,19 +40,18 @@ _MOST_VOCABULARIES = 4
 def compile_library(
     library: LibraryFiles,
     find_individuals: IndividualsByTask | None = None,
-    parsed_by: Parser | None = None,
     memo: Memo | None = None,
 ) -> Outcome[SkillLibrary]:
     """Compile, with the shipped and the library's own ontology as vocabulary; diagnostics have displayable paths.
 
     `find_individuals` returns the individuals that each task may name; the names in other tasks are not checked.
-    `parsed_by` is the parser, which may cache its results; without it they are kept in memory. `memo` has what the last
-    analysis of the library has found.
+    `memo` has what is known of the library.
     """
+    parsed_by = partial(parse_with, memo) if memo else _parse
     kept, memo = memo, memo or Memo()
     with gc_disabled():
         known = load_vocabulary_with(library.vocabularies)
-        files = read_sources(library.sources, library.importable, library.name, parsed_by or _parse, library.namespaces)
+        files = read_sources(library.sources, library.importable, library.name, parsed_by, library.namespaces)
         resolve = partial(resolve_program, base=known.value, name=library.name, importable=library.importable)
         program = resolve(files.value, scenes=pipeline.NO_SCENES, memo=memo)
         individuals = find_individuals(program.value) if find_individuals else {}
@@ -61,7 +61,7 @@ def compile_library(
         outcome = pipeline.lower_and_report(checked, library.sources, kept)
 
         def check(texts: Sequence[Source]) -> tuple[Diagnostic, ...]:
-            others = read_sources(texts, library.importable, library.name, parsed_by or _parse, library.namespaces)
+            others = read_sources(texts, library.importable, library.name, parsed_by, library.namespaces)
             found = resolve(others.value, scenes=individuals, memo=memo)
             return find_problems(others, found, memo)
 

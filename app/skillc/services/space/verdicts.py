@@ -1,22 +1,21 @@
-"""Caches what looking at tasks in space finds, because it imports the simulator, plans and searches postures.
+"""What looking at tasks in space finds, which is stored: it imports the simulator, plans and searches postures.
 
-The key of an entry is the digest of the scene, of the goal or body, of what planners read of the skills that they may
-use or that change something, and of the user's models and Python. An entry holds the digest of the skills that were
-looked into, with their bodies.
+An answer depends on the scene, of the goal or body, of what planners read of the skills that they may
+use or that change something, and of the user's models and Python. It holds the digest of the skills that were looked
+into, with their bodies.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from pathlib import Path
 
 import msgspec
 
-from skillc.services.library.cache_entries import describe_scene, encode_meaning, find_entry
-from skillc.services.library.check_cache import digest_modules, digest_parts
+from skillc.services.library.check_inputs import describe_scene, digest_modules, encode_meaning
+from skillc.services.library.disk_store import digest_parts
 from skillc.services.library.modules import find_modules
 from skillc.services.tasks.space_problems import OutOfTime, SpaceProblem
-from skillc_dsl import cache
+from skillc_dsl.query import Store
 from skillc_model.planning_view import encode_view
 from skillc_model.skills import Compound, SkillLibrary, Task
 from skillc_model.traversal import find_calls
@@ -27,11 +26,9 @@ from skillc_runtime.world.state.terms import ARM_DEVICE
 
 LIMIT_S = 60.0
 """How long all tasks of a library are looked at together."""
-_MOST = 500
-"""The most entries in the cache; beyond it the older half is deleted."""
 
 
-class _Entry(msgspec.Struct, frozen=True):
+class Look(msgspec.Struct, frozen=True):
     """What was found, the skills that the task calls, and the digest of these and of all that they call."""
 
     problem: SpaceProblem | None
@@ -40,13 +37,13 @@ class _Entry(msgspec.Struct, frozen=True):
 
 
 class TaskLooks:
-    """Looks at tasks in space, together for at most LIMIT_S; in the cache is what was found before.
+    """Looks at tasks in space, together for at most LIMIT_S; in the store is what was found before.
 
     `looked` are the skills so far on whose bodies depends what was found; `in_time` is whether none was given up.
     """
 
-    def __init__(self, use_cache: bool) -> None:
-        self._use_cache = use_cache
+    def __init__(self, store: Store | None) -> None:
+        self._store = store
         self._cancel: CancelToken | None = None
         self.looked = frozenset[str]()
         self.in_time = True
@@ -55,43 +52,31 @@ class TaskLooks:
         """Return the step of a task that does not go in its scene; None if nothing is known against any."""
         if not scene.state.instances(ARM_DEVICE):
             return None
-        path = find_entry("looks", _inputs(library, scene, task)) if self._use_cache else None
-        entry = _read(path)
+        inputs = tuple(_inputs(library, scene, task)) if self._store else ()
+        known = self._store.load("look", inputs) if self._store else None
+        entry = known if isinstance(known, Look) else None
         if entry is None or entry.bodies != _digest_bodies(library, entry.skills):
             entry = self._look(library, scene, task)
             if entry is None:
                 self.in_time = False
                 return OutOfTime(LIMIT_S)
-            _store(path, entry)
+            if self._store:
+                self._store.save("look", inputs, entry)
         self.looked |= _called(library, entry.skills)
         return entry.problem
 
-    def _look(self, library: SkillLibrary, scene: LoadedScene, task: Task) -> _Entry | None:
+    def _look(self, library: SkillLibrary, scene: LoadedScene, task: Task) -> Look | None:
         """Look at a task; None if the time is over."""
         # The simulator is slow to import.
         from skillc.services.space.look import look_at_task
 
         self._cancel = self._cancel or CancelToken(LIMIT_S)
         try:
-            found = look_at_task(library, scene.state, task, self._cancel, self._use_cache)
+            found = look_at_task(library, scene.state, task, self._cancel, self._store is not None)
         except Cancelled:
             return None
         skills = tuple(sorted(found.skills))
-        return _Entry(found.problem, skills, _digest_bodies(library, skills))
-
-
-def _read(path: Path | None) -> _Entry | None:
-    body = None if path is None else cache.load(path)
-    try:
-        return None if body is None else msgspec.json.decode(body, type=_Entry)
-    except msgspec.MsgspecError:
-        return None
-
-
-def _store(path: Path | None, entry: _Entry) -> None:
-    if path is not None:
-        cache.store(path, msgspec.json.encode(entry))
-        cache.delete_oldest(path.parent, _MOST, _MOST // 2)
+        return Look(found.problem, skills, _digest_bodies(library, skills))
 
 
 def _inputs(library: SkillLibrary, scene: LoadedScene, task: Task) -> Iterator[str | bytes]:

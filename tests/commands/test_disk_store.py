@@ -1,4 +1,4 @@
-"""Syntax trees on disk: what is read is what would be parsed, whatever other processes write or damage there."""
+"""Answers on disk: what is read is what would be found, whatever other processes write or damage there."""
 
 import pickle
 from concurrent.futures import ProcessPoolExecutor
@@ -7,24 +7,29 @@ from pathlib import Path
 import pytest
 from shipped_sources import TEXTS
 
-from skillc.services.library import cache_entries, parse_cache
+from skillc.services.library import disk_store
+from skillc.services.library.disk_store import DiskStore
 from skillc_dsl import cache
+from skillc_dsl.parsing import reparse
 from skillc_dsl.parsing.parser import parse
+from skillc_dsl.parsing.reparse import parse_with
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return the folder of this test's cache; nothing is in memory."""
+    """Return the folder of this test's cache."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    parse_cache.parse_cached.cache_clear()
-    return tmp_path / "skillc" / "parsed"
+    return tmp_path / "skillc" / "parse"
 
 
 def again(source: Source) -> object:
     """Parse as a new process does."""
-    parse_cache.parse_cached.cache_clear()
-    return parse_cache.parse_cached(source)
+    store = DiskStore()
+    parsed = parse_with(Memo(store), source)
+    store.flush()
+    return parsed
 
 
 @pytest.mark.parametrize("text", TEXTS)
@@ -37,11 +42,13 @@ def test_what_is_read_is_what_was_parsed(folder: Path, text: str) -> None:
 def test_a_file_is_parsed_once(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     source = Source("m.skill", TEXTS[0])
     first = again(source)
-    monkeypatch.setattr(parse_cache, "parse", lambda _: pytest.fail("it was parsed again"))
+    monkeypatch.setattr(reparse, "parse", lambda _: pytest.fail("it was parsed again"))
     assert again(source) == first
 
 
-@pytest.mark.parametrize("damage", [b"", b"x", pickle.dumps(print), pickle.dumps(5), pickle.dumps(Path("x"))])
+@pytest.mark.parametrize(
+    "damage", [b"", b"x", *map(pickle.dumps, (print, 5, ("parse", print), ("parse", Path("x")), ("check", ())))]
+)
 def test_a_damaged_or_foreign_entry_is_not_read(folder: Path, damage: bytes) -> None:
     source = Source("m.skill", TEXTS[0])
     again(source)
@@ -55,7 +62,7 @@ def test_a_damaged_or_foreign_entry_is_not_read(folder: Path, damage: bytes) -> 
 def test_another_version_does_not_read_the_entry(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     source = Source("m.skill", TEXTS[0])
     again(source)
-    monkeypatch.setattr(cache_entries, "installation_digest", lambda: b"another")
+    monkeypatch.setattr(disk_store, "installation_digest", lambda: b"another")
     assert again(source) == parse(source)
     assert len(list(folder.iterdir())) == 2
 

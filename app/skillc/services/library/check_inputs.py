@@ -1,40 +1,33 @@
-"""Caches the diagnostics of checks; nothing heavy is imported here.
-
-The key of an entry is the digest of everything that it depends on, so an outdated entry is never found.
-"""
+"""What checks depend on, as digests; nothing heavy is imported here."""
 
 from __future__ import annotations
 
 import hashlib
 import os
 import re
-import sys
-from collections.abc import Iterable, Iterator, Sequence
-from functools import cache
-from importlib import import_module
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
+import msgspec
+
+from skillc.services.library.disk_store import PACKAGES, digest_parts
 from skillc.services.library.files import LibraryFiles
-from skillc_dsl import cache as files
-from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import read_file
-from skillc_dsl.rendering import json
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import user_models
 
-PACKAGES = (
-    *("skillc_dsl", "skillc_ontology", "skillc_rdf", "skillc_model", "skillc_compiler", "skillc_skills"),
-    *("skillc_runtime", "skillc"),
-)
+if TYPE_CHECKING:
+    from skillc_runtime.scene.load import LoadedScene
+
+CHECK = "check"
+"""The query whose answer is what a check finds."""
 _SCENE = re.compile(r'scene\s+"([^"\n]+)"')
 _PYTHON = re.compile(r'python\s+"([\w.]+):(\w+)"')
-_MOST = 500
-"""The most entries in the cache; beyond it the older half is deleted."""
 
 
-class CheckCacheEntry(NamedTuple):
-    """The cache entry of a library, checked with `scene` or without; `digest` is its key.
+class CheckInputs(NamedTuple):
+    """Everything that a check of a library depends on, with `scene` or without, as `digest`.
 
     `around` is the digest of everything but the texts of the library's own files.
     """
@@ -45,77 +38,59 @@ class CheckCacheEntry(NamedTuple):
     digest: str
 
     @staticmethod
-    def of(library: LibraryFiles, scene: Path | None) -> CheckCacheEntry:
-        """Return the entry for the current state of all inputs."""
+    def of(library: LibraryFiles, scene: Path | None) -> CheckInputs:
+        """Return the current state of all inputs."""
         around = compute_digest(library, scene)
-        return CheckCacheEntry(library, scene, around, _with_texts(around, library))
+        return CheckInputs(library, scene, around, _with_texts(around, library))
 
-    def is_current(self) -> bool:
-        """Whether no input has changed since the entry was made."""
+    def are_current(self) -> bool:
+        """Whether no input has changed since."""
         return compute_digest(self.library, self.scene) == self.around
-
-    def load(self) -> tuple[Diagnostic, ...] | None:
-        """Return the cached diagnostics, None if there is no entry."""
-        path = self._path()
-        body = files.load(path) if path else None
-        return None if body is None else json.read(body.decode())
-
-    def store(self, found: Sequence[Diagnostic]) -> None:
-        """Store diagnostics."""
-        path = self._path()
-        if path is not None:
-            files.store(path, json.render(found, {}).encode())
-            files.delete_oldest(path.parent, _MOST, _MOST // 2)
-
-    def _path(self) -> Path | None:
-        folder = files.cache_folder()
-        return folder / "checks" / self.digest if folder else None
 
 
 def compute_digest(library: LibraryFiles, scene: Path | None) -> str:
     """Return the digest of everything that a check depends on but the texts of the library's own files.
 
     That is where these are, what they can import, the scene checked with them, the scenes that tasks name, the user's
-    models, what checks read of the Python that it names, the current folder, skillc itself and the installed
-    packages.
+    models, what checks read of the Python that it names, and the current folder.
     """
-    return digest_parts((installation_digest(), *_inputs(library, scene)))
+    return digest_parts(_inputs(library, scene))
 
 
 def _with_texts(around: str, library: LibraryFiles) -> str:
     return digest_parts((around, *(source.text for source in library.sources)))
 
 
-def digest_parts(parts: Iterable[str | bytes]) -> str:
-    """Return the digest of texts and bytes, which depends on where each ends."""
-    digest = hashlib.sha256()
-    for part in parts:
-        content = part if isinstance(part, bytes) else part.encode("utf-8", "surrogateescape")
-        digest.update(b"%d:" % len(content) + content)
-    return digest.hexdigest()
+def describe_scene(scene: LoadedScene) -> Iterator[str | bytes]:
+    """Yield the terms, statements and models that what is found in a scene depends on."""
+    yield encode_meaning(scene.state.vocabulary)
+    for each in scene.said:
+        yield f"{each.subject} {each.predicate} {each.object}"
+    yield from describe_models()
 
 
-@cache
-def installation_digest() -> bytes:
-    """Return the digest of the state of skillc, Python and the installed packages when this process first looked.
-
-    That is the code that it runs, mostly, whatever is installed meanwhile.
-    """
-    return hashlib.sha256("\n".join(describe_installation()).encode("utf-8", "surrogateescape")).digest()
+def describe_models() -> Iterator[str | bytes]:
+    """Yield the user's models of devices."""
+    for model in user_models():
+        yield str(model)
+        yield model.read_bytes()
 
 
-def describe_installation() -> Iterator[str]:
-    """Yield texts that identify the state of skillc, Python and the installed packages.
+def encode_meaning(item: object) -> bytes:
+    """Return structs as bytes that do not depend on where they stand in files."""
+    return msgspec.json.encode(_without_positions(msgspec.to_builtins(item)), order="deterministic")
 
-    What is read of the Python in projects is part of the inputs of their libraries.
-    """
-    yield sys.version
-    for folder in filter(os.path.isdir, sys.path):
-        if os.path.isfile(os.path.join(folder, "skillc.toml")):  # noqa: PTH113, PTH118
-            continue
-        yield f"{folder} {os.stat(folder).st_mtime_ns}"  # noqa: PTH116
-    for package in PACKAGES:
-        yield from _states(import_module(package).__path__[0])
+
+def _without_positions(item: object) -> object:
+    match item:
+        case {"path": str(), "line": int(), "column": int()}:
+            return None
+        case dict():
+            return {name: _without_positions(each) for name, each in item.items()}
+        case list() | tuple():
+            return [_without_positions(each) for each in item]
+        case _:
+            return item
 
 
 def named_scenes(library: LibraryFiles) -> Iterator[Path]:
@@ -131,7 +106,7 @@ def named_scenes(library: LibraryFiles) -> Iterator[Path]:
 
 
 def _inputs(library: LibraryFiles, scene: Path | None) -> Iterator[str | bytes]:
-    """Yield everything that a check depends on other than the installation and the texts of the library's own files."""
+    """Yield everything that a check depends on but the texts of the library's own files."""
     yield from (os.getcwd(), library.name, str(library.root), library.backend or "")  # noqa: PTH109
     yield from (f"{name} {namespace}" for name, namespace in sorted(library.namespaces.items()))
     if library.project:
@@ -186,15 +161,3 @@ def digest_modules(modules: Iterable[str]) -> Iterator[str]:
         for file in inside:
             if isinstance(file, Path):
                 yield f"{file} {hashlib.sha256(read_file(file)).hexdigest()}"
-
-
-def _states(folder: str) -> list[str]:
-    """Return path, size and modification time of every file below a folder, without compiled Python, in order."""
-    found, folders = [], [folder]
-    while folders:
-        with os.scandir(folders.pop()) as entries:
-            inside = [(each, each.is_dir()) for each in entries]
-        folders += [each.path for each, is_folder in inside if is_folder and each.name != "__pycache__"]
-        states = ((each.path, each.stat()) for each, is_folder in inside if not is_folder)
-        found += [f"{path} {state.st_size} {state.st_mtime_ns}" for path, state in states]
-    return sorted(found)
