@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import msgspec
@@ -14,10 +15,10 @@ from server.test_recordings import CARRY
 from skillc.cells.host import open_cell
 from skillc.contract.diagnosis import WorkRefused
 from skillc.contract.operation import OperationRequest
-from skillc.contract.runs.run_questions import CompareRuns, ReadSignals, RunFiles
-from skillc.contract.runs.signals import SignalRows
+from skillc.contract.runs.signals import SignalPage, SignalRows
 from skillc.services.reporting.reporter import SilentReporter
-from skillc.workers.run_reading import MAX_ROWS, MAX_VALUES, answer_run_question
+from skillc.workers.answering import answer_work
+from skillc.workers.run_reading import MAX_ROWS, MAX_VALUES, RunFiles, compare_runs, read_signals
 
 
 def test_a_tree_is_shown_while_its_operation_waits_for_approval_and_its_events_have_its_numbers(
@@ -119,26 +120,26 @@ def test_what_does_not_exist_or_is_out_of_range_is_refused(server: RunningServer
 def test_signals_are_read_while_they_are_recorded(tmp_path: Path) -> None:
     settings = make_settings(tmp_path, TABLE, "kinematic")
     recording = Path(settings.folder) / "recordings" / "first.mcap"
-    run = RunFiles("first", str(settings.journal), str(recording))
+    run = RunFiles("first", settings.journal, recording)
     with open_cell(settings, SilentReporter()) as host:
-        assert isinstance(answer_run_question((ReadSignals(run, (), -1.0, 1e9, 0.0), b"")), WorkRefused)
-        refused = answer_run_question((CompareRuns(run, run), b""))
+        assert isinstance(answer_work((partial(read_signals, run, SignalPage()), b"")), WorkRefused)
+        refused = answer_work((partial(compare_runs, run, run), b""))
         assert isinstance(refused, WorkRefused) and "first has no events of a task: it has not begun" in str(refused)
         host.submit("first", OperationRequest(task=TABLE[1]))
         (ended,) = run_all(host)
         assert ended.state == "succeeded"
-    whole = read(ReadSignals(run, ("wrench", "joint"), -1.0, 1e9, 0.0))
+    whole = read(run, SignalPage("wrench,joint"))
     assert whole.signals and all("wrench" in each.column or "joint" in each.column for each in whole.signals)
     assert len(whole.columns) == len(whole.signals) and {len(each) for each in whole.columns} == {len(whole.time_s)}
     assert whole.more and len(whole.time_s) == min(MAX_ROWS, MAX_VALUES // len(whole.signals))
-    rest = read(ReadSignals(run, ("joint",), whole.time_s[-1], 1e9, 0.0))
+    rest = read(run, SignalPage("joint", whole.time_s[-1]))
     assert rest.time_s[0] > whole.time_s[-1] and rest.time_s[0] - whole.time_s[-1] < 2.0 * whole.every_s
-    coarse = read(ReadSignals(run, ("joint",), 1.0, 3.0, 0.1))
+    coarse = read(run, SignalPage("joint", 1.0, 3.0, 0.1))
     assert 18 <= len(coarse.time_s) <= 21 and not coarse.more and 1.0 < coarse.time_s[0] < coarse.time_s[-1] <= 3.0
 
 
-def read(job: ReadSignals) -> SignalRows:
-    answer = answer_run_question((job, b""))
+def read(run: RunFiles, page: SignalPage) -> SignalRows:
+    answer = answer_work((partial(read_signals, run, page), b""))
     assert isinstance(answer, bytes), answer
     return msgspec.json.decode(answer, type=SignalRows)
 

@@ -122,9 +122,8 @@ class AsyncCell(CellCalls):
     ) -> PlanPreview:
         """Plan for a task of the cell's library, or a goal, as its world is now; parameters as of `skillc.plan`."""
         request = describe_plan(self.name, task, goal, arguments, minimise, prove, deadline_s, geometry)
-        job, outcome = await run_job(self._connection, request)
+        job, outcome = await run_job(self._connection, request, PlanResult)
         await self._connection.call(REMOVE_JOB, job.id)
-        assert isinstance(outcome, PlanResult), "that is the outcome of plans"
         return outcome.plan
 
     async def rehearse(
@@ -144,11 +143,10 @@ class AsyncCell(CellCalls):
         a film is written to this MP4 file, unless nothing has moved. RefusedError if the request cannot be carried out.
         """
         request = describe_rehearsal(self.name, task, goal, call, arguments, seed, deadline_s, film is not None)
-        job, outcome = await run_job(self._connection, request)
+        job, outcome = await run_job(self._connection, request, RunResult)
         if film is not None and FILM in job.files:
             await self._connection.download(READ_JOB_FILE, job.id, FILM, file=Path(film))
         await self._connection.call(REMOVE_JOB, job.id)
-        assert isinstance(outcome, RunResult), "that is the outcome of rehearsals"
         return outcome.run
 
     async def trials(
@@ -169,8 +167,7 @@ class AsyncCell(CellCalls):
         RefusedError if the trials cannot be run.
         """
         request = describe_trials(self.name, task, arguments, number, seed, disturb, deadline_s)
-        _, outcome = await run_job(self._connection, request, watch)
-        assert isinstance(outcome, TrialsResult), "that is the outcome of trials"
+        _, outcome = await run_job(self._connection, request, TrialsResult, watch)
         return Trials(outcome.series)
 
     async def facts(

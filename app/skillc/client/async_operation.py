@@ -110,13 +110,12 @@ class AsyncOperation(OperationCalls):
         The server runs it again for that.
         Without `film` that takes a fraction of the time. RefusedError if it has not ended, or cannot be repeated.
         """
-        job, outcome = await run_job(self._connection, ReportRequest(operation=self.id, film=film))
+        job, outcome = await run_job(self._connection, ReportRequest(operation=self.id, film=film), RunResult)
         place = Path(folder)
         place.mkdir(parents=True, exist_ok=True)
         for each in job.files:
             await self._connection.download(READ_JOB_FILE, job.id, each, file=place / Path(each).name)
         await self._connection.call(REMOVE_JOB, job.id)
-        assert isinstance(outcome, RunResult), "that is the outcome of reports"
         return outcome.run
 
     async def approve(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 from http import HTTPStatus
+from typing import TypeVar
 
 from skillc.client.connection import Connection, describe_problem
 from skillc.client.errors import RefusedError, UnavailableError
@@ -16,15 +17,16 @@ from skillc.contract.api.endpoints import (
     SHOW_JOB,
     SHOW_JOB_RESULT,
 )
-from skillc.contract.job import ONGOING, Job, JobEventPage, JobOutcome, JobRequest
+from skillc.contract.job import ONGOING, Job, JobEventPage, JobRequest, PlanResult, RunResult, TrialsResult
 
+Outcome = TypeVar("Outcome", PlanResult, RunResult, TrialsResult)
 WAIT_S = 5.0
 
 
 async def run_job(
-    connection: Connection, request: JobRequest, watch: Callable[[Job], None] | None = None
-) -> tuple[Job, JobOutcome]:
-    """Begin a job; return it once it has ended, with its outcome. `watch` is called with each progress.
+    connection: Connection, request: JobRequest, kind: type[Outcome], watch: Callable[[Job], None] | None = None
+) -> tuple[Job, Outcome]:
+    """Begin a job; return it once it has ended, with its outcome, of a kind. `watch` is called with each progress.
 
     If this is cancelled, the job is. RefusedError, with what is wrong, if it fails or somebody cancels it.
     """
@@ -38,7 +40,9 @@ async def run_job(
         raise describe_problem(job.problem)
     if job.state != "ended":
         raise RefusedError(f"{job.id} was {job.state}: {job.reason}", HTTPStatus.CONFLICT)
-    return job, (await connection.call(SHOW_JOB_RESULT, job.id)).outcome
+    outcome = (await connection.call(SHOW_JOB_RESULT, job.id)).outcome
+    assert isinstance(outcome, kind), "such requests have such outcomes"
+    return job, outcome
 
 
 async def follow_job(connection: Connection, job: Job, watch: Callable[[Job], None] | None = None) -> Job:

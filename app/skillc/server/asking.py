@@ -8,7 +8,6 @@ from http import HTTPStatus
 from typing import TypeVar
 
 from skillc.contract.messages import TakeSnapshot
-from skillc.contract.runs.run_questions import RunQuestion
 from skillc.server.http.api_call import ApiCall
 from skillc.server.http.outcome import raise_refused
 from skillc.server.problems import ApiRefusal
@@ -38,12 +37,12 @@ async def ask_with(call: ApiCall, work: Work, snapshot: bytes, kind: type[T], se
     return await _wait(call, call.server.workers.answer(work, snapshot, kind, seconds))
 
 
-async def ask_about_run(call: ApiCall, question: RunQuestion, kind: type[T], seconds: float) -> T:
+async def ask_about_run(call: ApiCall, work: Work, kind: type[T], seconds: float) -> T:
     """Let a worker answer a question about runs, of which the cell notices nothing; ApiRefusal if there is no answer.
 
     The worker is killed if the client goes.
     """
-    return await _wait(call, call.server.run_readers.answer(question, b"", kind, seconds))
+    return await _wait(call, call.server.run_readers.answer(work, b"", kind, seconds))
 
 
 async def _wait(call: ApiCall, answer: Coroutine[None, None, T]) -> T:

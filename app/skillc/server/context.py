@@ -27,7 +27,6 @@ from skillc.server.served_library import ServedLibrary
 from skillc.server.state import JOB_FILES, ServerState
 from skillc.server.supervisor import CellSupervisor
 from skillc.workers.pool import Workers
-from skillc.workers.programs import read_run
 
 FAILURES_PER_S, FAILURES = 0.2, 100.0
 """How many requests and WebSockets without a valid token an address may make."""
@@ -59,7 +58,7 @@ class ServerContext:
     failures: TokenBuckets = field(default_factory=lambda: TokenBuckets(FAILURES_PER_S, FAILURES))
     workers: Workers = field(default_factory=Workers)
     jobs: Jobs = field(init=False)
-    run_readers: Workers = field(default_factory=partial(Workers, read_run))
+    run_readers: Workers = field(default_factory=Workers)
     watchers: Watchers = field(default_factory=Watchers)
     language_servers: Watchers = field(
         default_factory=partial(Watchers, "language servers", MAX_OF_CLIENT, MAX_SERVERS)

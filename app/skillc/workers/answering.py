@@ -21,7 +21,7 @@ def answer_work(request: tuple[Work, bytes] | None) -> bytes | WorkRefused:
         return b""
     work, snapshot = request
     try:
-        return msgspec.json.encode(work(decode_snapshot(snapshot)))
+        return msgspec.json.encode(work(decode_snapshot(snapshot)) if snapshot else work())
     except DiagnosticsError as error:
         return WorkRefused(diagnosis=diagnose(error))
     except (ServiceError, QueryError, NoSuchName, DatabaseError) as error:

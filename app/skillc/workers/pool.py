@@ -11,11 +11,10 @@ from typing import TypeAlias, TypeVar
 import msgspec
 
 from skillc.contract.diagnosis import NO_DIAGNOSIS, Diagnosis, WorkRefused
-from skillc.contract.runs.run_questions import RunQuestion
-from skillc.workers.programs import Program, do_work
 from skillc.workers.questions import Work
 from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess, WorkerResult
+from skillc_runtime.platforms.memory import limit_memory
 
 MAX_WORKERS, MAX_WAITING = 2, 20
 """How much work is done at once, and how much waits."""
@@ -24,8 +23,11 @@ TURN_S = 30.0
 START_S = 60.0
 """How long a process may take to start, in s."""
 
+MEMORY_BYTES = 4 * 2**30
+"""The largest address space of a worker."""
+
 T = TypeVar("T")
-Request: TypeAlias = tuple[RunQuestion | Work, bytes]
+Request: TypeAlias = tuple[Work, bytes]
 
 
 class WorkFailed(Exception):
@@ -52,10 +54,9 @@ class TooMuchWork(Exception):
 class Workers:
     """The processes of a server for work, `count` at most. They are started when they are first needed.
 
-    They work by `program`. Work waits for a process for up to `turn_s`.
+    Work waits for a process for up to `turn_s`.
     """
 
-    program: Program = do_work
     count: int = MAX_WORKERS
     turn_s: float = TURN_S
     _idle: list[WorkerProcess] = field(default_factory=list)
@@ -67,7 +68,7 @@ class Workers:
     def __post_init__(self) -> None:
         self._free = asyncio.Semaphore(self.count)
 
-    async def answer(self, work: RunQuestion | Work, snapshot: bytes, kind: type[T], seconds: float) -> T:
+    async def answer(self, work: Work, snapshot: bytes, kind: type[T], seconds: float) -> T:
         """Return what comes of work for an encoded snapshot; WorkFailed, WorkTimedOut or TooMuchWork otherwise.
 
         If this is cancelled, the process is killed.
@@ -130,7 +131,7 @@ class Workers:
         The time in which a process starts does not count.
         """
         new = not self._idle
-        worker = WorkerProcess(self.program, "spawn") if new else self._idle.pop()
+        worker = WorkerProcess(do_work, "spawn") if new else self._idle.pop()
         result: WorkerResult | None = None
         try:
             ready = not new or isinstance(worker.answer(None, cancel.limited(START_S)), Returned)
@@ -152,3 +153,11 @@ class Workers:
                 raise WorkCrashed(f"the process that should have answered has ended: {why}")
             case _:
                 raise Cancelled(limit.reason or "")
+
+
+def do_work(request: Request | None) -> bytes | WorkRefused:
+    """Do work in this process, whose memory is limited from now on; it alone imports what that needs."""
+    from skillc.workers.answering import answer_work
+
+    limit_memory(MEMORY_BYTES)
+    return answer_work(request)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import closing, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, assert_never
+from typing import TYPE_CHECKING, TypeAlias, assert_never
 
 from skillc.contract.device import Device
 from skillc.contract.sample import PoseNumbers
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from skillc.cells.snapshot import CellSnapshot
     from skillc_runtime.world.state.facts import Fact
 
-Work: TypeAlias = Callable[[Any], object]
-"""A function that can be pickled, of a CellSnapshot; its value is the answer. Such are these questions."""
+Work: TypeAlias = Callable[..., object]
+"""A function that can be pickled, of a CellSnapshot or nothing; its value is the answer. Such are these questions."""
 MAX_ROWS = 10_000
 """How many rows of the answer to a query are returned."""
 

@@ -1,75 +1,65 @@
-"""What the workers for recorded runs do: they read events, trees, reasons and signals, and compare runs."""
+"""Questions about recorded runs that a process answers: trees, reasons, signals and differences.
+
+What that needs is imported when one is answered, so that a server, which only passes them on, starts sooner.
+"""
 
 from __future__ import annotations
 
 from contextlib import closing
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias, assert_never
+from typing import TYPE_CHECKING
 
-import msgspec
 import numpy as np
 
-from skillc.cells.database import DatabaseError
-from skillc.cells.journal.reading import JournalReader
-from skillc.contract.diagnosis import WorkRefused
 from skillc.contract.runs.explanation import ChainedFailure, ExplainedCall, RunExplanation
 from skillc.contract.runs.run_diff import RunDiff
-from skillc.contract.runs.run_questions import CompareRuns, ExplainRun, ReadSignals, RunFiles, RunQuestion, ShowTree
 from skillc.contract.runs.run_tree import OperationTree
-from skillc.contract.runs.signals import SignalRows
+from skillc.contract.runs.signals import SignalPage, SignalRows
 from skillc.errors import ServiceError
-from skillc.services.recording.recordings import answer_question, make_result, read_signals
-from skillc.services.recording.story_text import explain_call, format_answer, overview_lines
-from skillc.services.run.operation_tree import build_tree
-from skillc.services.run_diff.compare import compare_runs
-from skillc.services.run_diff.recorded import RecordedRunData, make_run_data, read_mcap_columns
-from skillc_model.codec import LibraryError, loads
-from skillc_model.skills import SkillLibrary
-from skillc_runtime.recording.envelope import Envelope
-from skillc_runtime.recording.history.history import RecordedCall
-from skillc_runtime.recording.history.history_builder import read_history
-from skillc_runtime.recording.mcap.contents import LIBRARY
-from skillc_runtime.recording.mcap.reader import RecordedFile, read_recording
-from skillc_runtime.recording.reader import TraceError
+
+if TYPE_CHECKING:
+    from skillc.services.run_diff.recorded import RecordedRunData
+    from skillc_model.skills import SkillLibrary
+    from skillc_runtime.recording.envelope import Envelope
+    from skillc_runtime.recording.history.history import RecordedCall
+    from skillc_runtime.recording.mcap.reader import RecordedFile
 
 MAX_ROWS = 5000
 """How many rows of signals are returned."""
 MAX_VALUES = 200_000
 """How many values of signals are returned."""
 
-RunAnswer: TypeAlias = OperationTree | RunExplanation | SignalRows | RunDiff
+
+@dataclass(frozen=True, slots=True)
+class RunFiles:
+    """Where a run is: its events in the journal of its cell, the rest in its recording, if there is one."""
+
+    operation: str
+    journal: Path
+    recording: Path
 
 
-def answer_run_question(request: tuple[RunQuestion, bytes] | None) -> bytes | WorkRefused:
-    """Return the answer to a job as JSON, or why there is none; None asks if it is ready. A snapshot is not needed."""
-    if request is None:
-        return b""
-    try:
-        return msgspec.json.encode(_answer(request[0]))
-    except (ServiceError, DatabaseError) as error:
-        return WorkRefused(str(error))
-    except MemoryError:
-        return WorkRefused("it needs too much memory; ask for less")
+def show_tree(run: RunFiles) -> OperationTree:
+    """Show the tree of a run, with the library in its recording; ServiceError if it has none."""
+    from skillc.services.run.operation_tree import build_tree
+
+    return build_tree(_read_events(run), _read_library(run))
 
 
-def _answer(job: RunQuestion) -> RunAnswer:
-    match job:
-        case ShowTree(run):
-            return build_tree(_read_events(run), _read_library(run))
-        case ExplainRun(run, question):
-            return _explain(run, question)
-        case ReadSignals():
-            return _read_signals(job)
-        case CompareRuns(first, second):
-            return compare_runs(_read_run(first), _read_run(second))
-        case _:
-            assert_never(job)
+def compare_runs(first: RunFiles, second: RunFiles) -> RunDiff:
+    """Compare two runs; one that goes on as far as it is."""
+    from skillc.services.run_diff.compare import compare_runs as compare
+
+    return compare(_read_run(first), _read_run(second))
 
 
 def _read_events(run: RunFiles) -> tuple[Envelope, ...]:
     """Return all events of a run up to now."""
-    found = list[Envelope]()
-    with closing(JournalReader(Path(run.journal))) as reader:
+    from skillc.cells.journal.reading import JournalReader
+
+    found: list[Envelope] = []
+    with closing(JournalReader(run.journal)) as reader:
         while page := reader.envelopes(run.operation, found[-1].sequence if found else 0):
             found += page
     return tuple(found)
@@ -77,6 +67,9 @@ def _read_events(run: RunFiles) -> tuple[Envelope, ...]:
 
 def _read_library(run: RunFiles) -> SkillLibrary:
     """Return the library that a run uses; ServiceError if its recording does not have it."""
+    from skillc_model.codec import LibraryError, loads
+    from skillc_runtime.recording.mcap.contents import LIBRARY
+
     attachments = _open_recording(run).attachments
     if LIBRARY not in attachments:
         raise ServiceError(f"the recording of {run.operation} has no library yet; try again")
@@ -87,13 +80,21 @@ def _read_library(run: RunFiles) -> SkillLibrary:
 
 
 def _open_recording(run: RunFiles) -> RecordedFile:
+    from skillc_runtime.recording.mcap.reader import read_recording
+    from skillc_runtime.recording.reader import TraceError
+
     try:
-        return read_recording(Path(run.recording))
+        return read_recording(run.recording)
     except (OSError, TraceError) as error:
         raise ServiceError(f"the recording of {run.operation} cannot be read: {error}") from error
 
 
-def _explain(run: RunFiles, question: str) -> RunExplanation:
+def explain_run(run: RunFiles, question: str) -> RunExplanation:
+    """Explain a run; a question is one of `skillc why`, or empty."""
+    from skillc.services.recording.recordings import answer_question
+    from skillc.services.recording.story_text import format_answer, overview_lines
+    from skillc_runtime.recording.history.history_builder import read_history
+
     envelopes = _read_events(run)
     story = read_history(each.event for each in envelopes)
     if story is None:
@@ -110,6 +111,8 @@ def _explain(run: RunFiles, question: str) -> RunExplanation:
 
 
 def _explain_call(call: RecordedCall) -> ExplainedCall:
+    from skillc.services.recording.story_text import explain_call
+
     return ExplainedCall(
         number=call.number,
         skill=call.skill,
@@ -122,18 +125,19 @@ def _explain_call(call: RecordedCall) -> ExplainedCall:
     )
 
 
-def _read_signals(job: ReadSignals) -> SignalRows:
-    if not Path(job.run.recording).exists():
-        raise ServiceError(f"there is no recording of {job.run.operation}")
-    table = read_signals(Path(job.run.recording))
+def read_signals(run: RunFiles, page: SignalPage) -> SignalRows:
+    """Read the signals of a page; ServiceError if nothing is recorded."""
+    from skillc.services.recording import recordings
+
+    if not run.recording.exists():
+        raise ServiceError(f"there is no recording of {run.operation}")
+    table, match = recordings.read_signals(run.recording), [*filter(None, page.match.split(","))]
     wanted = [
-        number
-        for number, each in enumerate(table.signals)
-        if not job.match or any(part in each.column for part in job.match)
+        number for number, each in enumerate(table.signals) if not match or any(part in each.column for part in match)
     ]
-    rows = np.flatnonzero((table.time_s > job.after_s) & (table.time_s <= job.until_s))
+    rows = np.flatnonzero((table.time_s > page.after_s) & (table.time_s <= page.until_s))
     period_s = float(np.median(np.diff(table.time_s))) if len(table.time_s) > 1 else 0.0
-    step = max(1, round(job.every_s / period_s)) if period_s > 0.0 else 1
+    step = max(1, round(page.every_s / period_s)) if period_s > 0.0 else 1
     chosen = rows[::step]
     limit = max(1, min(MAX_ROWS, MAX_VALUES // max(1, len(wanted))))
     values = table.rows[chosen[:limit]][:, wanted]
@@ -148,7 +152,10 @@ def _read_signals(job: ReadSignals) -> SignalRows:
 
 def _read_run(run: RunFiles) -> RecordedRunData:
     """Read a run, also while it goes on: the journal has its events before the recording does."""
-    envelopes, recording = _read_events(run), Path(run.recording)
+    from skillc.services.recording.recordings import make_result
+    from skillc.services.run_diff.recorded import make_run_data, read_mcap_columns
+
+    envelopes, recording = _read_events(run), run.recording
     result = make_result(envelopes, run.operation)
     signals = read_mcap_columns(recording) if recording.exists() and recording.stat().st_size else None
     return make_run_data(run.operation, envelopes, result, signals)

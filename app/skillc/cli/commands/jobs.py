@@ -6,6 +6,7 @@ A job that a restart of the server has interrupted, that failed or was cancelled
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, assert_never
 
@@ -21,6 +22,7 @@ from skillc.cli.server_connection import connect_server, server_options
 
 if TYPE_CHECKING:
     from skillc.cli.layout import Row
+    from skillc.client.server import Server
     from skillc.contract.job import Job, JobEvent, JobOutcome
 
 JOB = click.argument("job", shell_complete=complete_job)
@@ -88,24 +90,22 @@ def log(job: str, follow: bool) -> None:
                 return
 
 
-@command.command(cls=Command)
-@JOB
-@server_options
-def cancel(job: str) -> None:
-    """End JOB; what is done of it is kept."""
-    with connect_server() as server:
-        found = server.cancel_job(job)
-    print_remark(f"{found.id}: {found.state}")
+def _add_command(name: str, act: Callable[[Server, str], Job], help: str) -> None:
+    @command.command(name, cls=Command, help=help)
+    @JOB
+    @server_options
+    def change(job: str) -> None:
+        with connect_server() as server:
+            found = act(server, job)
+        print_remark(f"{found.id}: {found.state}")
 
 
-@command.command(cls=Command)
-@JOB
-@server_options
-def restart(job: str) -> None:
-    """Begin JOB again, as its cell is now; trials go on with those that are missing."""
-    with connect_server() as server:
-        found = server.restart_job(job)
-    print_remark(f"{found.id}: {found.state}")
+_add_command("cancel", lambda server, job: server.cancel_job(job), "End JOB; what is done of it is kept.")
+_add_command(
+    "restart",
+    lambda server, job: server.restart_job(job),
+    "Begin JOB again, as its cell is now; trials go on with those that are missing.",
+)
 
 
 @command.command(cls=Command)

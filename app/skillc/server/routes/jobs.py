@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 from http import HTTPStatus
 from pathlib import Path
-from typing import assert_never
 
 from msgspec import structs
 from starlette.responses import Response
@@ -19,10 +18,6 @@ from skillc.contract.job import (
     JobRequest,
     JobResult,
 )
-from skillc.contract.plan import PlanRequest
-from skillc.contract.rehearsal import RehearsalRequest
-from skillc.contract.report import ReportRequest
-from skillc.contract.trials import TrialReplayRequest, TrialsRequest
 from skillc.server.access.roles import includes
 from skillc.server.http.api_call import ApiCall
 from skillc.server.http.files import send_file
@@ -37,7 +32,7 @@ SANDBOX = "sandbox; default-src 'none'; img-src data:; style-src 'unsafe-inline'
 
 async def add_job(call: ApiCall) -> Job:
     request: JobRequest = call.body
-    name = make_run_id(_name_subject(request))
+    name = make_run_id(getattr(request, "task", None) or str(type(request).__struct_config__.tag))
     return await _begin(call, Job(id=name, cell="", owner=call.client.name, request=request))
 
 
@@ -126,19 +121,3 @@ def _check_role(call: ApiCall, job: Job) -> None:
         raise ApiRefusal(
             HTTPStatus.FORBIDDEN, f"this needs the role `{needed}`, and `{call.client.name}` has `{call.client.role}`"
         )
-
-
-def _name_subject(request: JobRequest) -> str:
-    match request:
-        case PlanRequest(task=task):
-            return task or "plan"
-        case RehearsalRequest(task=task):
-            return task or "rehearsal"
-        case TrialsRequest(task=task):
-            return task
-        case TrialReplayRequest(trials=trials, seed=seed):
-            return f"trial-{seed}-{trials}"
-        case ReportRequest(operation=operation):
-            return f"report-{operation}"
-        case _:
-            assert_never(request)
