@@ -25,7 +25,7 @@ NS = 1e9
 def plan(spec: RunSpec, prove: bool, as_json: bool) -> int:
     """Print the plan of a cell, or why there is none; return the exit code."""
     from skillc.cli.console import print_text
-    from skillc.client.requests import PLANNING_S
+    from skillc.client.async_cell import PLANNING_S
 
     with asked_cell() as cell:
         answer = cell.plan(

@@ -13,14 +13,7 @@ from skillc.client.async_operation import AsyncOperation
 from skillc.client.calls import CellCalls
 from skillc.client.experiments import run_job
 from skillc.client.feed import follow_samples
-from skillc.client.requests import (
-    PLANNING_S,
-    describe_operation,
-    describe_order,
-    describe_plan,
-    describe_rehearsal,
-    describe_trials,
-)
+from skillc.client.requests import describe_operation, describe_order
 from skillc.contract.api.endpoints import (
     ADD_ORDER,
     DISTURB_CELL,
@@ -39,10 +32,11 @@ from skillc.contract.api.endpoints import (
 from skillc.contract.cell import CellStatus, Disturbance, PaceSetting
 from skillc.contract.job import FILM, Job, PlanResult, RunResult, TaskResult, TrialsResult
 from skillc.contract.order import Order
-from skillc.contract.plan import PlanPreview
+from skillc.contract.plan import PlanPreview, PlanRequest
+from skillc.contract.rehearsal import RehearsalRequest
 from skillc.contract.runs.history import HistoryPage
 from skillc.contract.sample import Sample
-from skillc.contract.trials import TrialDisturbance
+from skillc.contract.trials import TRIAL_LIMIT_S, TrialDisturbance, TrialsRequest
 from skillc.contract.world import (
     DocumentForm,
     FactPage,
@@ -54,11 +48,20 @@ from skillc.contract.world import (
     WorldWrite,
     WritePage,
 )
-from skillc.values.arguments import read_pace, require_choice, require_text
+from skillc.values.arguments import (
+    optional_seconds,
+    optional_text,
+    read_arguments,
+    read_pace,
+    require_choice,
+    require_count,
+    require_text,
+)
 from skillc.values.run_keywords import OperationKeywords, OrderKeywords
 from skillc.values.trials import Trials
 
 OPERATIONS, WRITES, TRIALS, FACTS = 100, 100, 50, 1000
+PLANNING_S, REHEARSAL_S = 30.0, 600.0
 
 
 class AsyncCell(CellCalls):
@@ -121,7 +124,16 @@ class AsyncCell(CellCalls):
         geometry: bool = True,
     ) -> PlanPreview:
         """Plan for a task of the cell's library, or a goal, as its world is now; parameters as of `skillc.plan`."""
-        request = describe_plan(self.name, task, goal, arguments, minimise, prove, deadline_s, geometry)
+        request = PlanRequest(
+            cell=self.name,
+            task=optional_text(task, "the task"),
+            goal=optional_text(goal, "the goal"),
+            arguments=read_arguments(arguments),
+            minimise=require_choice(minimise, Literal["work", "makespan"], "`minimise`"),
+            prove=prove,
+            deadline_s=optional_seconds(deadline_s, "`deadline_s`") or PLANNING_S,
+            geometry=geometry,
+        )
         job, outcome = await run_job(self._connection, request, PlanResult)
         await self._connection.call(REMOVE_JOB, job.id)
         return outcome.plan
@@ -142,7 +154,16 @@ class AsyncCell(CellCalls):
         `seed` determines how the reality of the twin differs from the facts, `deadline_s` is in its time. With `film`
         a film is written to this MP4 file, unless nothing has moved. RefusedError if the request cannot be carried out.
         """
-        request = describe_rehearsal(self.name, task, goal, call, arguments, seed, deadline_s, film is not None)
+        request = RehearsalRequest(
+            cell=self.name,
+            task=optional_text(task, "the task"),
+            goal=optional_text(goal, "the goal"),
+            call=optional_text(call, "the skill call"),
+            arguments=read_arguments(arguments),
+            seed=seed,
+            deadline_s=optional_seconds(deadline_s, "`deadline_s`") or REHEARSAL_S,
+            film=film is not None,
+        )
         job, outcome = await run_job(self._connection, request, RunResult)
         if film is not None and FILM in job.files:
             await self._connection.download(READ_JOB_FILE, job.id, FILM, file=Path(film))
@@ -166,7 +187,15 @@ class AsyncCell(CellCalls):
         `watch` is called with each progress. The server keeps the job; it is cancelled if this is.
         RefusedError if the trials cannot be run.
         """
-        request = describe_trials(self.name, task, arguments, number, seed, disturb, deadline_s)
+        request = TrialsRequest(
+            cell=self.name,
+            task=require_text(task, "the task"),
+            arguments=read_arguments(arguments),
+            number=require_count(number, "the number of trials", 1),
+            seed=require_count(seed, "the seed", 0),
+            disturb=require_choice(disturb, TrialDisturbance, "`disturb`"),
+            deadline_s=optional_seconds(deadline_s, "`deadline_s`") or TRIAL_LIMIT_S,
+        )
         _, outcome = await run_job(self._connection, request, TrialsResult, watch)
         return Trials(outcome.series)
 

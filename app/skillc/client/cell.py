@@ -7,11 +7,8 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any, Literal, Unpack
 
-from skillc.client.async_cell import OPERATIONS, TRIALS, WRITES
+from skillc.client.async_cell import OPERATIONS, PLANNING_S, TRIALS, WRITES
 from skillc.client.operation import ServerOperation
-from skillc.client.requests import (
-    PLANNING_S,
-)
 from skillc.client.waiting import WaitingCell
 from skillc.contract.cell import CellCheckpoint, CellStatus, Disturbance
 from skillc.contract.device import DeviceStatus
