@@ -179,6 +179,21 @@ class With(msgspec.Struct, frozen=True, tag="with"):
     source: Position
 
 
+class OnFailure(msgspec.Struct, frozen=True, tag="on-failure"):
+    """Runs the child; if it fails, `handler` decides, in which `why` is the reason as text; None if it has no name.
+
+    `why.kind`, `why.message`, `why.skill` and `why.source` are variables of these names.
+    """
+
+    child: Node
+    why: str | None
+    handler: Node
+    source: Position
+
+
+FAILURE_PARTS = ("kind", "message", "skill", "source")
+"""What a failure tells, each a text."""
+
 Decorator: TypeAlias = Retry | Repeat | Timeout | Try | Invert | Once
 """A node that changes the result of its child, or how often or how long it runs; its tag is its word."""
 
@@ -197,7 +212,13 @@ Node: TypeAlias = (
     | Apply
     | Call
     | With
+    | OnFailure
 )
+
+
+def name_failure(why: str) -> tuple[str, ...]:
+    """Return the variables for the failure called `why`: that of the reason, and those of what else it tells."""
+    return (why, *(f"{why}.{part}" for part in FAILURE_PARTS))
 
 
 def kind_of(node: Node | type[Node]) -> str:

@@ -33,6 +33,8 @@ def run(node: tree.Node, model: Model, scope: Scope) -> Life:
             return _with(node, model, scope)
         case tree.Call():
             return call(node, model, scope, run)
+        case tree.OnFailure(child=child, handler=handler):
+            return _on_failure(child, handler, model, scope)
         case tree.If():
             return _if(node, model, scope)
         case tree.Wait() | tree.WaitUntil() | tree.Check() | tree.Fail():
@@ -48,6 +50,14 @@ def _sequence(node: tree.Sequence, model: Model, scope: Scope) -> Life:
             return result
         results.append(result)
     return all_still(results)
+
+
+def _on_failure(child: tree.Node, handler: tree.Node, model: Model, scope: Scope) -> Life:
+    result = yield from run(child, model, scope)
+    if result.ok:
+        return result
+    then = yield from run(handler, model, scope)
+    return then if then.ok else none_worked([then, result])
 
 
 def _selector(node: tree.Selector, model: Model, scope: Scope) -> Life:

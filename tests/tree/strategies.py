@@ -20,7 +20,7 @@ ENDINGS = ("success", "success", "success", "fail", "fail", "crash", "refuse", "
 
 CONTESTED_ENDINGS = ("success", "success", "success", "fail", "refuse")
 
-KINDS = ("leaf", "several", "several", "several", "loop", "decorator", "around", "branch")
+KINDS = ("leaf", "several", "several", "several", "loop", "decorator", "around", "branch", "handled")
 
 SKILLS = ("Act", "Act", "Setup", "Kept", "Kept", "Lit", "Set", "Use", "Either", "Another", "", "")
 
@@ -71,6 +71,7 @@ class _Writer:
             "decorator": self.decorator,
             "around": self.around,
             "branch": self.branch,
+            "handled": self.handled,
             "contest": self.contest,
         }
         return self.leaf() if kind == "leaf" else make[kind](depth - 1)
@@ -140,6 +141,9 @@ class _Writer:
         if kind is tree.Timeout:
             return tree.Timeout(seconds=Literal(self.draw(st.integers(0, 4)) * PERIOD_S), child=child, source=here())
         return kind(child=child, source=here())
+
+    def handled(self, depth: int) -> tree.Node:
+        return tree.OnFailure(child=self.node(depth), why="why", handler=self.node(depth), source=here())
 
     def around(self, depth: int) -> tree.Node:
         child = self.node(depth)

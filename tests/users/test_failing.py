@@ -48,6 +48,7 @@ lab:Arm-1 a rparts:ArmDevice .
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "lab.ttl").write_text(SCENE, "utf-8")
+    (tmp_path / "skillc.toml").write_text('name = "own"\nedition = 2\n', "utf-8")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -105,3 +106,76 @@ def test_a_value_in_a_text_that_is_passed_as_it_is_warns(folder: Path) -> None:
     done = run(folder, 'Say(text: "{{arm}} {force} {other}")', "check", "--json", more=more)
     found = {each["name"]: (each["line"], each["column"]) for each in json.loads(done.stdout)}
     assert found.get("unread-value") == (16, 28), found
+
+
+HANDLED = """
+impl other of Stay {
+    prefer 2
+    do seq {
+        check(force > 9 N)
+        wait 1 s
+    } on failure as why {
+        HANDLER
+    }
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("handler", "said"),
+    [
+        ('fail "no: {why}"', "no: `force > 9 N` does not hold"),
+        ('if why.kind == "body" { fail "of the body" }', "of the body"),
+        ('if why.kind == "timeout" { wait 1 s } else { fail "not late" }', "not late"),
+    ],
+)
+def test_what_is_done_on_failure_knows_why(folder: Path, handler: str, said: str) -> None:
+    more = HANDLED.replace("HANDLER", handler)
+    done = run(folder, "wait 1 s", "test", expected=said, more=more)
+    assert done.exit_code == 0, done.output
+
+
+def test_what_recovers_succeeds(folder: Path) -> None:
+    (done,) = json.loads(run(folder, "wait 1 s", "test", "--json", more=HANDLED.replace("HANDLER", "wait 2 s")).stdout)[
+        "tests"
+    ]
+    assert ["a failure with" in each["message"] for each in done["problems"]] == [True], done
+
+
+def test_what_follows_from_the_block_is_not_assumed_on_failure(folder: Path) -> None:
+    text = """\
+skill Clear { in arm: ArmDevice  post arm.deviceState == Idle  noplan }
+impl own of Clear { run python "skillc.primitives:StandIn" }
+skill Must { in arm: ArmDevice  pre arm.deviceState == Idle  noplan }
+impl own of Must { run python "skillc.primitives:StandIn" }
+skill Both { in arm: ArmDevice  post arm.deviceState == Idle  noplan }
+impl one of Both { do seq { Clear(arm) } on failure { Must(arm) } }
+impl two of Both { prefer 2  do seq { Clear(arm) Must(arm) } on failure { Clear(arm) } }
+impl three of Both { prefer 4  do seq { Clear(arm) Must(arm) } on failure { wait 1 s } }
+"""
+    (folder / "both.skill").write_text(f"use rparts, skillc\n{text}", "utf-8")
+    done = run(folder, "wait 1 s", "check", "--json")
+    found = [(each["name"], each["line"]) for each in json.loads(done.stdout) if each["path"].endswith("both.skill")]
+    assert found == [("child-precondition", 7), ("post-not-established", 9)], done.stdout
+
+
+def test_a_part_that_a_failure_does_not_have_is_an_error(folder: Path) -> None:
+    more = HANDLED.replace("HANDLER", 'if why.sort == "body" { wait 1 s }')
+    found = json.loads(run(folder, "wait 1 s", "check", "--json", more=more).stdout)
+    (problem,) = (each for each in found if each["name"] == "unknown-property")
+    assert "has no `sort`" in problem["message"] and "`kind`, `message`, `skill`" in problem["help"]
+
+
+def test_it_is_formatted_as_else_is() -> None:
+    text = (
+        "impl put of Stay {\n    do with Hold(arm) {\n        Go(arm)\n    } on failure as on {\n"
+        "        Go(on: on, as: failure)\n    }\n}\n"
+    )
+    assert format_source(Source("own.skill", text)).value == text
+    assert format_source(Source("own.skill", " ".join(text.split()))).value == text
+
+
+def test_its_words_are_names_in_older_editions(folder: Path) -> None:
+    names = "impl put of Stay {\n    do on(as: failure)\n}\n"
+    assert not format_source(Source("own.skill", names, edition=1)).diagnostics
+    assert format_source(Source("own.skill", names, edition=2)).diagnostics

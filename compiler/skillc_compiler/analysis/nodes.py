@@ -87,6 +87,8 @@ def _explore_kind(run: Exploration, node: TypedNode, states: StatePaths, context
         case s.CallSkill():
             assert node.call is not None, "a call node has a call"
             return explore_call(run, node.call, states, context)
+        case s.OnFailure():
+            return _explore_on_failure(run, node, states, context)
         case s.With():
             return explore_with(run, node, states, context)
         case _:
@@ -133,6 +135,20 @@ def _explore_selector(run: Exploration, node: TypedNode, states: StatePaths, con
         broken |= bool(one.broken)
         states = one.failed
     ends.failure, ends.broken = dict(states), dict(states) if broken else {}
+    return ends
+
+
+def _explore_on_failure(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:
+    """Explore a block, and from where it failed what is done then; a hold that broke counts as broken if that fails."""
+    inner = explore(run, node.children[0], states, context.with_failure_caught())
+    failed = {
+        state: extend_path(path, node.written.span, "it failed, and `on failure` goes on")
+        for state, path in inner.failed.items()
+    }
+    ends = explore_sequence(run, node.orelse, failed, context)
+    add_states(ends.success, inner.success)
+    if inner.broken:
+        ends.broken = {**ends.failure, **ends.broken}
     return ends
 
 

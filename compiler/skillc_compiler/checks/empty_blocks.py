@@ -35,6 +35,8 @@ def _describe_empty(node: s.Node) -> tuple[str, str] | None:
             return "nothing is done if this condition holds", f"write `if not ({text}) {{ .. }}`, or add a step"
         case s.If(orelse=()):
             return "this `else` has no steps", "remove it, or add a step"
+        case s.OnFailure(handler=()):
+            return "nothing is done on failure", "write `try { .. }`, or add a step"
         case s.Block(kind=kind, children=()) | s.Decorator(kind=kind, children=()):
             return f"this `{kind}` has no steps", "add a step, or remove it"
         case s.While(children=()) | s.For(children=()) | s.With(children=()):

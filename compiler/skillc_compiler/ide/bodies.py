@@ -45,12 +45,10 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
                 yield from (each for value in values for each in self.value(known, value))
             case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
                 yield from self.condition(known, condition)
-            case s.If(condition=condition, then=then, orelse=orelse):
+            case s.If(condition=condition) | s.While(condition=condition):
                 yield from self.condition(known, condition)
-                yield from self.nodes(home, known, (*then, *(orelse or ())))
-            case s.While(condition=condition, children=children):
-                yield from self.condition(known, condition)
-                yield from self.nodes(home, known, children)
+                inside = (*written.then, *(written.orelse or ())) if isinstance(written, s.If) else written.children
+                yield from self.nodes(home, known, inside)
             case s.For():
                 yield from self._for(home, known, written)
             case s.ApplyPosts(labels=labels):
@@ -61,6 +59,8 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
             case s.With(call=call, children=children):
                 yield from self._call(home, known, call)
                 yield from self.nodes(home, known, children)
+            case s.OnFailure():
+                yield from self._on_failure(home, known, written)
             case _:
                 assert_never(written)
 
@@ -81,6 +81,15 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
         inner: dict[str, Symbol] = {written.variable.text: symbol, **known}
         yield from self.nodes(home, inner, written.children)
         known.update({name: found for name, found in inner.items() if found != symbol})
+
+    def _on_failure(self, home: BodyContext, known: dict[str, Symbol], written: s.OnFailure) -> Iterator[Occurrence]:
+        yield from self.node(home, known, written.node)
+        inner = dict(known)
+        if written.why is not None:
+            symbol = LocalSymbol("failure", written.span, written.why.text)
+            inner[written.why.text] = symbol
+            yield from self.bound(known, written.why, symbol)
+        yield from self.nodes(home, inner, written.handler)
 
     def _call(self, home: BodyContext, known: dict[str, Symbol], written: s.CallSkill) -> Iterator[Occurrence]:
         skill = written.skill.text

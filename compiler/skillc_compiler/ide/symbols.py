@@ -58,7 +58,7 @@ class ParameterSymbol(msgspec.Struct, frozen=True):
 class LocalSymbol(msgspec.Struct, frozen=True):
     """A let, loop variable, output, quantified variable or parameter of a head; `owner` is the place of its scope."""
 
-    origin: Literal["let", "loop variable", "output", "variable", "function parameter", "task parameter"]
+    origin: Literal["let", "loop variable", "output", "variable", "function parameter", "task parameter", "failure"]
     owner: Span
     name: str
 

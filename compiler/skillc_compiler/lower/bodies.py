@@ -36,6 +36,9 @@ def lower_node(node: TypedNode) -> t.Node:
             return _lower_leaf(node, written)
         case s.CallSkill():
             return _lower_call(node)
+        case s.OnFailure(why=why):
+            handler = _lower_as_one(node.orelse, node)
+            return t.OnFailure(lower_node(node.children[0]), None if why is None else why.text, handler, source)
         case _:
             assert_never(written)
 

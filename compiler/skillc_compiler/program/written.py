@@ -28,6 +28,8 @@ def calls_of(declaration: s.Declaration) -> Iterator[s.CallSkill]:
         match todo.pop():
             case s.CallSkill() as call:
                 yield call
+            case s.OnFailure(node=block, handler=handler):
+                todo += [block, *handler]
             case s.With(call=call, children=children):
                 todo += [call, *children]
             case s.If(then=then, orelse=orelse):

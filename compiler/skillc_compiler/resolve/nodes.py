@@ -9,7 +9,7 @@ from msgspec import structs
 from msgspec.structs import replace
 
 from skillc_compiler.program.typed import TypedNode
-from skillc_compiler.program.types import UNKNOWN, ListOf, Measure
+from skillc_compiler.program.types import TEXT, UNKNOWN, ListOf, Measure
 from skillc_compiler.resolve.calls import resolve_call
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
@@ -33,8 +33,8 @@ def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[T
             return TypedNode(written, (resolve_value(context, scope, time, SECONDS),)), scope
         case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
             return TypedNode(written, conditions=(resolve_condition(context, scope, condition),)), scope
-        case s.Fail(message=message):
-            return TypedNode(written, tuple(resolve_value(context, scope, name) for name in message.names)), scope
+        case s.OnFailure():
+            return _on_failure(context, scope, written)
         case s.If():
             return _if(context, scope, written)
         case s.While(condition=condition, children=children):
@@ -43,8 +43,9 @@ def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[T
             return TypedNode(written, conditions=(guard,), children=inner), _merge_scopes(scope, after)
         case s.For():
             return _for(context, scope, written)
-        case s.ApplyPosts():
-            return TypedNode(written), scope
+        case s.Fail() | s.ApplyPosts():
+            names = written.message.names if isinstance(written, s.Fail) else ()
+            return TypedNode(written, tuple(resolve_value(context, scope, name) for name in names)), scope
         case s.CallSkill():
             typed, after = resolve_call(context, scope, written)
             return TypedNode(written, call=typed), after
@@ -82,6 +83,18 @@ def _if(context: FileContext, scope: Scope, written: s.If) -> tuple[TypedNode, S
     return TypedNode(written, conditions=(guard,), children=then, orelse=otherwise), _merge_scopes(
         after_then, after_else
     )
+
+
+def _on_failure(context: FileContext, scope: Scope, written: s.OnFailure) -> tuple[TypedNode, Scope]:
+    block, after = resolve_node(context, scope, written.node)
+    inner = scope
+    if written.why is not None:
+        why = LocalName(TEXT, "failure", written.why.span)
+        inner = context.bind(scope, written.why, why)
+    handler, handled = _resolve_sequence(context, inner, written.handler)
+    names = {n: v for n, v in handled.variables.items() if n in scope.variables or n not in inner.variables}
+    whole = TypedNode(written, children=(block,), orelse=handler)
+    return whole, _merge_scopes(scope, after, replace(handled, variables=names))
 
 
 def _for(context: FileContext, scope: Scope, written: s.For) -> tuple[TypedNode, Scope]:

@@ -19,7 +19,7 @@ from skillc_dsl.query import NameTable
 from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import Vocabulary
 
-Origin: TypeAlias = Literal["parameter", "out", "let", "output", "loop variable", "variable"]
+Origin: TypeAlias = Literal["parameter", "out", "let", "output", "loop variable", "variable", "failure"]
 
 
 class LocalName(msgspec.Struct, frozen=True):

@@ -30,6 +30,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.units import NUMBER, dimension_of, to_si
 from skillc_model.conditions import Arithmetic, Individual, Invoke, Literal, PropertyOf, Variable
+from skillc_model.tree import FAILURE_PARTS
 
 
 class ExpectedType(msgspec.Struct, frozen=True):
@@ -156,12 +157,30 @@ def _class_of(context: FileContext, written: s.NameReference, iri: str, wanted: 
 
 
 def _resolve_member(context: FileContext, scope: Scope, written: s.Member) -> TypedExpression:
+    part = _part_of_failure(context, scope, written)
+    if part is not None:
+        return part
     of = resolve_value(context, scope, written.of)
     iri = resolve_property(context, of, written.property)
     if iri is None:
         return TypedExpression(PropertyOf(of.meaning, written.property.text), UNKNOWN, written.span, (of,))
     kind = type_of(context.vocabulary.properties[iri].type)
     return TypedExpression(PropertyOf(of.meaning, iri), kind, written.span, (of,))
+
+
+def _part_of_failure(context: FileContext, scope: Scope, written: s.Member) -> TypedExpression | None:
+    """Return what `why.kind` and its like stand for; None for properties."""
+    if not isinstance(written.of, s.NameReference):
+        return None
+    name, part = written.of.name.text, written.property.text
+    known = scope.variables.get(name)
+    if known is None or known.origin != "failure":
+        return None
+    if part not in FAILURE_PARTS:
+        message = f"`{name}` is why something failed, and has no `{part}`"
+        context.report_unknown(UnknownName("property", written.property, message, FAILURE_PARTS))
+        return TypedExpression(Variable(name), UNKNOWN, written.span)
+    return TypedExpression(Variable(f"{name}.{part}"), known.type, written.span, declared=known.span)
 
 
 def resolve_property(context: FileContext, of: TypedExpression, name: s.Name) -> str | None:

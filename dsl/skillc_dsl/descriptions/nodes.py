@@ -58,6 +58,15 @@ NODES = (
         Picture("guard", "?"),
     ),
     Node(
+        "on failure",
+        words("on as", since=2),
+        "seq { .. } on failure as why { .. }",
+        "after `seq`, `sel`, `par` and `with`: runs the second block when the first one has failed, also by a broken "
+        "hold, but not when it is halted; what `with` sets up is undone before. It succeeds if the second block does. "
+        "[`why`](#failures) is optional",
+        Picture("flow", "?"),
+    ),
+    Node(
         "while",
         (*reserved("while"), *words("max", "trailing")),
         "while C max 10 { .. }",

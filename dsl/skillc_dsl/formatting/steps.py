@@ -23,8 +23,20 @@ class StepFormatter(InlineFormatter):
         start = index_of(tree.children, "LBRACE")
         if start < 0:
             return self.of(tree)
-        block = tree.children[start:]
-        return d.concatenate(self.spaced(tree.children[:start]), self._braces(block, self._is_short(block)))
+        end = index_of(tree.children, "RBRACE") + 1
+        block, handler = tree.children[start:end], tree.children[end:]
+        head = self.spaced(tree.children[:start])
+        if not handler:
+            return d.concatenate(head, self._braces(block, self._is_short(block)))
+        return d.concatenate(head, self._braces(block, False), *self._on_failure(block[-1], handler[0]))
+
+    def _on_failure(self, closing: Branch, handler: Branch) -> Iterator[d.Document]:
+        """Yield `on failure as why { }`, on the line of the preceding `}`."""
+        children = _inside(handler)
+        start = index_of(children, "LBRACE")
+        yield d.Gap() if self._is_free(closing, children[0]) else d.HardBreak()
+        yield self.spaced(children[:start])
+        yield self._braces(children[start:], False)
 
     def _if(self, children: Sequence[Branch], short: bool) -> d.Document:
         """Return `if C { } else { }`, with `else` on the line of the preceding `}`; `short` applies to all blocks."""

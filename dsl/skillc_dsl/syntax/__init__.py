@@ -60,6 +60,7 @@ from skillc_dsl.syntax.nodes import Fail as Fail
 from skillc_dsl.syntax.nodes import For as For
 from skillc_dsl.syntax.nodes import If as If
 from skillc_dsl.syntax.nodes import Node as Node
+from skillc_dsl.syntax.nodes import OnFailure as OnFailure
 from skillc_dsl.syntax.nodes import Wait as Wait
 from skillc_dsl.syntax.nodes import WaitUntil as WaitUntil
 from skillc_dsl.syntax.nodes import While as While

@@ -110,6 +110,15 @@ class Fail(msgspec.Struct, frozen=True):
     span: Span
 
 
+class OnFailure(msgspec.Struct, frozen=True):
+    """`node on failure as why { }`; `why` is None if it has no name."""
+
+    node: Block | With
+    why: Name | None
+    handler: tuple[Node, ...]
+    span: Span
+
+
 class ApplyPosts(msgspec.Struct, frozen=True):
     """`apply label, ..`"""
 
@@ -144,5 +153,17 @@ class With(msgspec.Struct, frozen=True):
 
 
 Node: TypeAlias = (
-    Block | Decorator | Wait | WaitUntil | If | While | For | CheckNode | Fail | ApplyPosts | CallSkill | With
+    Block
+    | Decorator
+    | Wait
+    | WaitUntil
+    | If
+    | While
+    | For
+    | CheckNode
+    | Fail
+    | ApplyPosts
+    | CallSkill
+    | With
+    | OnFailure
 )

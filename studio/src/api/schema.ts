@@ -821,7 +821,7 @@ export interface components {
              */
             minimise?: "" | "makespan" | "work";
             /** @default null */
-            body?: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"]) | null;
+            body?: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"]) | null;
             /** @default {} */
             settings?: components["schemas"]["RunSpec"];
             /** @default [] */
@@ -1016,7 +1016,7 @@ export interface components {
         Sequence: {
             /** @enum {unknown} */
             type: "seq";
-            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
+            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"])[];
             reactive: boolean;
             source: components["schemas"]["Position"];
         };
@@ -1027,21 +1027,25 @@ export interface components {
         Selector: {
             /** @enum {unknown} */
             type: "sel";
-            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
+            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"])[];
             reactive: boolean;
             source: components["schemas"]["Position"];
         };
         /**
          * Parallel
          * @description Runs its children together until `all` succeed, `any` succeeds, one ends (`race`) or the first ends (`lead`).
+         *
+         *         In a body of a plan, with `all`, a child may have to wait for others: `after` has their indices, for each child.
          */
         Parallel: {
             /** @enum {unknown} */
             type: "par";
             /** @enum {unknown} */
             policy: "all" | "any" | "lead" | "race";
-            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"])[];
+            children: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"])[];
             source: components["schemas"]["Position"];
+            /** @default [] */
+            after?: number[][];
         };
         /**
          * Retry
@@ -1051,7 +1055,7 @@ export interface components {
             /** @enum {unknown} */
             type: "retry";
             count: number;
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1062,7 +1066,7 @@ export interface components {
             /** @enum {unknown} */
             type: "repeat";
             count: number;
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1073,7 +1077,7 @@ export interface components {
             /** @enum {unknown} */
             type: "timeout";
             seconds: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1083,7 +1087,7 @@ export interface components {
         Try: {
             /** @enum {unknown} */
             type: "try";
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1093,7 +1097,7 @@ export interface components {
         Invert: {
             /** @enum {unknown} */
             type: "invert";
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1103,7 +1107,7 @@ export interface components {
         Once: {
             /** @enum {unknown} */
             type: "once";
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1136,8 +1140,8 @@ export interface components {
             type: "if";
             condition: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
             text: string;
-            then: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
-            orelse: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"]) | null;
+            then: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"];
+            orelse: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"]) | null;
             source: components["schemas"]["Position"];
         };
         /**
@@ -1150,7 +1154,7 @@ export interface components {
             condition: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
             text: string;
             limit: number;
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1162,7 +1166,7 @@ export interface components {
             type: "for";
             variable: string;
             items: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1175,6 +1179,80 @@ export interface components {
             condition: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
             text: string;
             source: components["schemas"]["Position"];
+        };
+        /**
+         * Fail
+         * @description Fails; the reason is `text`, which has the values in it as `{name}`, and braces twice.
+         */
+        Fail: {
+            /** @enum {unknown} */
+            type: "fail";
+            text: string;
+            values: components["schemas"]["NamedValue"][];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * NamedValue
+         * @description A value in a text, by its name; `type` is None if it is not known.
+         */
+        NamedValue: {
+            name: string;
+            value: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"];
+            type: (components["schemas"]["ClassType"] | components["schemas"]["NumberType"] | components["schemas"]["VectorType"] | components["schemas"]["DirectionType"] | components["schemas"]["PlainType"] | components["schemas"]["ListType"]) | null;
+        };
+        /**
+         * ClassType
+         * @description An individual of an ontology class, given by IRI.
+         */
+        ClassType: {
+            /** @enum {unknown} */
+            type: "class";
+            iri: string;
+        };
+        /**
+         * NumberType
+         * @description A number in SI units; `dimension` is a name of the language (`Force`), `Number` without one.
+         */
+        NumberType: {
+            /** @enum {unknown} */
+            type: "number";
+            dimension: string;
+        };
+        /**
+         * VectorType
+         * @description Three numbers of one dimension in the world frame; `Number` if dimensionless.
+         */
+        VectorType: {
+            /** @enum {unknown} */
+            type: "vector";
+            dimension: string;
+        };
+        /**
+         * DirectionType
+         * @description A unit vector in the world frame.
+         */
+        DirectionType: {
+            /** @enum {unknown} */
+            type: "direction";
+        };
+        /**
+         * PlainType
+         * @description `Bool`, `Int`, `Text` or `Pose`.
+         */
+        PlainType: {
+            /** @enum {unknown} */
+            type: "plain";
+            /** @enum {unknown} */
+            name: "Bool" | "Int" | "Pose" | "Text";
+        };
+        /**
+         * ListType
+         * @description `[T]`
+         */
+        ListType: {
+            /** @enum {unknown} */
+            type: "list";
+            element: components["schemas"]["ClassType"] | components["schemas"]["NumberType"] | components["schemas"]["VectorType"] | components["schemas"]["DirectionType"] | components["schemas"]["PlainType"] | components["schemas"]["ListType"];
         };
         /**
          * Apply
@@ -1209,7 +1287,21 @@ export interface components {
             /** @enum {unknown} */
             type: "with";
             call: components["schemas"]["Call"];
-            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"];
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"];
+            source: components["schemas"]["Position"];
+        };
+        /**
+         * OnFailure
+         * @description Runs the child; if it fails, `handler` decides, in which `why` is the reason as text; None if it has no name.
+         *
+         *         `why.kind`, `why.message`, `why.skill` and `why.source` are variables of these names.
+         */
+        OnFailure: {
+            /** @enum {unknown} */
+            type: "on-failure";
+            child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"];
+            why: string | null;
+            handler: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"];
             source: components["schemas"]["Position"];
         };
         /**

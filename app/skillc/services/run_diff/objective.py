@@ -20,6 +20,7 @@ from skillc_model.tree import (
     ForEach,
     If,
     Node,
+    OnFailure,
     Parallel,
     Selector,
     Sequence,
@@ -88,6 +89,8 @@ def _describe_node(node: Node) -> str:
             return f"while {text} max {limit}"
         case WaitUntil(text=text) | If(text=text) | Check(text=text):
             return f"{_kind(node)} {text}"
+        case OnFailure(why=why):
+            return f"on failure as {why}" if why else "on failure"
         case Fail(text=text):
             return f'fail "{text}"'
         case Apply(labels=labels):

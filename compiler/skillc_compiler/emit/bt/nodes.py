@@ -27,7 +27,7 @@ from skillc_compiler.emit.bt.patterns import (
     run_while,
 )
 from skillc_dsl.descriptions.nodes import DECORATOR_OF
-from skillc_model.conditions import Arithmetic, Expression, Literal
+from skillc_model.conditions import Arithmetic, Expression, Literal, Variable
 from skillc_model.skills import Post
 from skillc_model.traversal import find_calls, free_variables_in_order, walk
 from skillc_model.tree import (
@@ -40,6 +40,7 @@ from skillc_model.tree import (
     If,
     Node,
     Once,
+    OnFailure,
     Parallel,
     Selector,
     Sequence,
@@ -48,7 +49,9 @@ from skillc_model.tree import (
     While,
     With,
     kind_of,
+    name_failure,
 )
+from skillc_rdf.vocabulary.types import PlainType
 
 COUNTS = {"all": ("-1", "1"), "any": ("1", "-1"), "race": ("1", "1")}
 MAX_MILLISECONDS = 2**32 - 1
@@ -76,6 +79,8 @@ class NodeWriter(TreeWriter):
                 return run_after(before, Element("Sleep", msec=self._milliseconds(seconds, 0, before)))
             case Fail(text=text, source=source):
                 return Element("AlwaysFailure", _description=f"{source}: {text}")
+            case OnFailure():
+                return self._on_failure(node)
             case Once(child=child):
                 return self._once(child)
             case WaitUntil() | If() | While() | ForEach() | Check() | Apply() | Call() | With():
@@ -149,6 +154,19 @@ class NodeWriter(TreeWriter):
         variables = list(dict.fromkeys(name for each in read for name in free_variables_in_order(each)))
         path = (*self.owner, f"still{self.number('still')}")
         return [self.reading("Condition", path, variables, f"Still: {'; '.join(relied)}", child.source)]
+
+    def _on_failure(self, node: OnFailure) -> Element:
+        """Return a fallback; a tree of BehaviorTree.CPP does not tell why a node failed, so the parts are that text."""
+        around = self.bound
+        block = self.node(node.child)
+        after, self.bound = self.bound, around
+        read = {each.name for each in walk(node.handler) if isinstance(each, Variable)}
+        parts = [name for name in (name_failure(node.why) if node.why is not None else ()) if name in read]
+        script = "; ".join(f"{self.bind(name, PlainType('Text')).entry} := '{name}'" for name in parts)
+        handler = self.node(node.handler)
+        self.bound = {**self.bound, **after}
+        told = run_after([Element("Script", code=script)] if parts else [], handler)
+        return with_children(Element("Fallback", _description=str(node.source)), block, told)
 
     def _once(self, child: Node) -> Element:
         entry = self.entry("once")

@@ -6,7 +6,7 @@ from typing import Literal, cast
 
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.building.conditions import ConditionBuilder
-from skillc_dsl.parsing.building.places import Child, MemberPart, children_of_type, find_part, keyword_at
+from skillc_dsl.parsing.building.places import Child, MemberPart, children_of_type, find_part, first_of_type, keyword_at
 from skillc_dsl.parsing.tokens import Token
 
 BlockKind = Literal["seq", "sel", "reactive seq", "reactive sel", "par all", "par any", "par race", "par lead"]
@@ -15,10 +15,23 @@ BlockKind = Literal["seq", "sel", "reactive seq", "reactive sel", "par all", "pa
 class NodeBuilder(ConditionBuilder):
     """Builds nodes; the braces of a node are tokens among the children of its rule."""
 
-    def block(self, children: list[Child]) -> s.Block:
+    def block(self, children: list[Child]) -> s.Node:
         """`seq { }`, `par lead { }` and their like"""
         words = [child.value for child in children if isinstance(child, Token) and child.type not in _BRACES]
-        return s.Block(cast(BlockKind, " ".join(words)), self.nodes(children), self.over(children))
+        kind, own = cast(BlockKind, " ".join(words)), _without_handler(children)
+        return self._handled(s.Block(kind, self.nodes(own), self.over(own)), children)
+
+    def on_failure(self, children: list[Child]) -> MemberPart:
+        """`on failure as why { }` after a block"""
+        return self.part("on_failure", children)
+
+    def _handled(self, node: s.Block | s.With, children: list[Child]) -> s.Node:
+        """Return a node with what is done on failure, if that is among its parts."""
+        handler = find_part(children, "on_failure")
+        if handler is None:
+            return node
+        why = first_of_type(handler.children, s.Name)
+        return s.OnFailure(node, why, self.nodes(handler.children), self.over(children))
 
     def decorator(self, children: list[Child]) -> s.Decorator:
         """`try { }`, `retry N { }`, `timeout Q { }` and their like"""
@@ -105,12 +118,13 @@ class NodeBuilder(ConditionBuilder):
             return s.Argument(children[0], s.NameReference(children[0], span), span)
         return s.Argument(self.label(children[0]), self.value(children[1]), span)
 
-    def with_(self, children: list[Child]) -> s.With:
+    def with_(self, children: list[Child]) -> s.Node:
         """`with CALL { }`"""
         call = children[1]
         if not isinstance(call, s.CallSkill):
             raise TypeError(f"a call was expected, not {call!r}")
-        return s.With(call, self.nodes(children[2:]), self.over(children))
+        own = _without_handler(children)
+        return self._handled(s.With(call, self.nodes(own[2:]), self.over(own)), children)
 
     def nodes(self, children: list[Child] | tuple[Child, ...]) -> tuple[s.Node, ...]:
         """Return the nodes among `children`."""
@@ -121,6 +135,10 @@ class NodeBuilder(ConditionBuilder):
         if not isinstance(child, s.Number):
             raise TypeError(f"a number was expected, not {child!r}")
         return child
+
+
+def _without_handler(children: list[Child]) -> list[Child]:
+    return [child for child in children if not isinstance(child, MemberPart)]
 
 
 _BRACES = ("LBRACE", "RBRACE")

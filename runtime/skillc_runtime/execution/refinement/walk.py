@@ -101,8 +101,13 @@ class Walk:
             case _:
                 yield from self._control(node, here, scope)
 
-    def _control(self, node: tree.While | tree.Decorator, here: Situation, scope: Scope) -> Iterator[Situation]:
+    def _control(
+        self, node: tree.While | tree.OnFailure | tree.Decorator, here: Situation, scope: Scope
+    ) -> Iterator[Situation]:
         """Go on through a node that only controls when its child runs."""
+        if isinstance(node, tree.OnFailure):
+            yield from self._on_failure(node, here, scope)
+            return
         if not isinstance(node, tree.While):
             yield from self.go(node.child, here, scope)
             if DECORATOR_OF[tree.kind_of(node)].on_failure != "success":
@@ -134,6 +139,12 @@ class Walk:
             return
         for after in self.go(nodes[0], here, scope):
             yield from self._at_once(nodes[1:], after, scope, (*done, after.motions[len(here.motions) :]))
+
+    def _on_failure(self, node: tree.OnFailure, here: Situation, scope: Scope) -> Iterator[Situation]:
+        yield from self.go(node.child, here, scope)
+        self.stuck_in = None
+        told = dict.fromkeys(tree.name_failure(node.why), "") if node.why is not None else {}
+        yield from self.go(node.handler, here, replace(scope, values={**scope.values, **told}))
 
     def _branch(self, node: tree.If, here: Situation, scope: Scope) -> Iterator[Situation]:
         holds = self._holds(node.condition, here, scope)

@@ -75,6 +75,9 @@ class _Preflight:
                 return ()
             case tree.Call():
                 return self._check_call(node, scope)
+            case tree.OnFailure(child=child):
+                self._foresight.optional(partial(self.check, child, scope))
+                return ()
             case tree.If():
                 return self._check_if(node, scope)
             case tree.ForEach():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import assert_never
 
 from msgspec.structs import replace
@@ -23,7 +24,7 @@ from skillc_runtime.execution.tree.nodes.parallel import (
     ParallelNode,
     ParallelRace,
 )
-from skillc_runtime.execution.tree.nodes.selector import ReactiveSelectorNode, SelectorNode
+from skillc_runtime.execution.tree.nodes.selector import OnFailureNode, ReactiveSelectorNode, SelectorNode
 from skillc_runtime.execution.tree.nodes.sequence import ReactiveSequenceNode, SequenceNode
 from skillc_runtime.execution.tree.nodes.with_node import WithNode
 from skillc_runtime.execution.tree.undo_stack import UndoStack
@@ -33,6 +34,14 @@ _PARALLEL: dict[str, type[ParallelNode]] = {
     "any": ParallelAny,
     "race": ParallelRace,
     "lead": ParallelLead,
+}
+
+_LEAVES: dict[type[tree.Node], Callable[..., Node]] = {
+    tree.Wait: WaitNode,
+    tree.WaitUntil: WaitUntilNode,
+    tree.Check: CheckNode,
+    tree.Fail: FailNode,
+    tree.Apply: ApplyNode,
 }
 
 
@@ -46,19 +55,14 @@ def build_node(node: tree.Node, context: TreeContext, scope: LexicalScope) -> No
         case tree.ForEach(child=child):
             frame: Frame = {}
             return ForEachNode(context, node, build_node(child, context, replace(scope, frame=frame)), scope, frame)
-        case tree.Wait():
-            return WaitNode(context, node, scope)
-        case tree.WaitUntil():
-            return WaitUntilNode(context, node, scope)
-        case tree.Check():
-            return CheckNode(context, node, scope)
-        case tree.Fail():
-            return FailNode(context, node, scope)
-        case tree.Apply():
-            return ApplyNode(context, node, scope)
+        case tree.Wait() | tree.WaitUntil() | tree.Check() | tree.Fail() | tree.Apply():
+            return _LEAVES[type(node)](context, node, scope)
         case tree.If(then=then, orelse=orelse):
             otherwise = build_node(orelse, context, scope) if orelse is not None else None
             return IfNode(context, node, build_node(then, context, scope), otherwise, scope)
+        case tree.OnFailure(child=child, handler=handler):
+            pair = (build_node(child, context, scope), build_node(handler, context, scope))
+            return OnFailureNode(context, node, pair, scope)
         case tree.Call():
             return CallNode(context, node, scope, build_node)
         case tree.With(call=call, child=child):

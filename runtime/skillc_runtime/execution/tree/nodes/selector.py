@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+from skillc_model import tree
 from skillc_runtime.execution.tree.active_path import ActivePath
+from skillc_runtime.execution.tree.context import TreeContext
+from skillc_runtime.execution.tree.lexical_scope import LexicalScope
 from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING, SUCCESS, Node
 from skillc_runtime.primitives.primitive import Status
@@ -55,6 +58,53 @@ class SelectorNode(Node):
             self._current = self.children[self._index]
             status = self._current.start()
         return RUNNING if status is RUNNING else self.succeed()
+
+
+class OnFailureNode(Node):
+    """Runs a block, and another one if it fails, which can read why."""
+
+    kind: ClassVar[str] = "on failure"
+    __slots__ = ("_current", "frame", "node")
+
+    def __init__(
+        self, context: TreeContext, node: tree.OnFailure, children: tuple[Node, Node], scope: LexicalScope
+    ) -> None:
+        super().__init__(context, node.source, children)
+        self.node = node
+        self.frame = scope.frame
+
+    def foresee(self, freed: Holders) -> Status:
+        status = self.children[0].dry_start(freed)
+        return RUNNING if status is FAILURE else status  # what is done then may read why
+
+    def on_start(self) -> Status:
+        self._current = self.children[0]
+        return self.on_child_ended(self._current.start())
+
+    def active_leaf(self) -> Node:
+        return self._current.active_leaf()
+
+    def remains_satisfied(self) -> bool:
+        return self.status is SUCCESS and self._current.remains_satisfied()
+
+    def on_child_ended(self, status: Status) -> Status:
+        block, handler = self.children
+        if status is FAILURE and self._current is block:
+            self._tell(block.failure)
+            self._current = handler
+            status = handler.start()
+        if status is not FAILURE:
+            return RUNNING if status is RUNNING else self.succeed()
+        causes = tuple(each.failure for each in (handler, block) if each.failure is not None)
+        message = causes[0].message if causes else f"{self.name} failed"
+        return self.fail(Failure(kind="body", message=message, source=self.source, causes=causes))
+
+    def _tell(self, failure: Failure | None) -> None:
+        """Give the block that follows the reason, as texts."""
+        if failure is not None and self.node.why is not None:
+            source = "" if failure.source is None else str(failure.source)
+            told = (failure.message, failure.kind, failure.message, failure.skill, source)
+            self.frame.update(zip(tree.name_failure(self.node.why), told, strict=True))
 
 
 class ReactiveSelectorNode(Node):
