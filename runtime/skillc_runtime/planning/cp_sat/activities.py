@@ -46,15 +46,19 @@ class Activities(msgspec.Struct, frozen=True):
 
     @property
     def at_most_once(self) -> bool:
-        """Whether some shortest schedule does each activity at most once.
+        """Whether the least makespan is one of a schedule that does each activity at most once.
 
         So it is if no effect takes away what the goal or another activity needs: what is done again can be left out.
+        What is needed must not hold at first, and be an effect of one activity only: another one that makes it again
+        need not wait for those that need it, but does in the model.
         """
         needs = [frozenset(list_literals(each.need)) for each in self.activities]
         users = Counter(literal for need in needs for literal in need)
         users.update(frozenset(list_literals(self.goal)))
+        makers = Counter(effect for each in self.activities for effect in each.effects)
+        makers.update(self.true)
         return all(
-            users[-effect] == (-effect in need)
+            users[-effect] == (-effect in need) and (makers[effect] == 1 or not users[effect])
             for activity, need in zip(self.activities, needs, strict=True)
             for effect in activity.effects
         )
