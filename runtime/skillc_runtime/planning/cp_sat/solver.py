@@ -36,6 +36,8 @@ GRACE_S = 1.0
 """How long before the time is up the program is told to end, so that it can write down what it knows."""
 MAX_S = 86_400.0
 """The longest time that it is given."""
+LISTING_SHARE = 0.3
+"""The share of the time for listing what may be done; a problem that takes longer would be too large to search."""
 MOST_WORKERS = 8
 """The most threads of a search, however many cores there are."""
 MOST_PAIRS = 400_000
@@ -70,13 +72,13 @@ class CpSat:
         Activities may be repeated as often as in `first`, then once more, until that does not shorten the schedule.
         """
         try:
-            activities = list_activities(problem, cancel)
+            activities = list_activities(problem, cancel.share(LISTING_SHARE))
             with make_workplace() as folder:
                 return _Search(activities, self._command, self._limits, Path(folder), cancel, report).run(first)
         except NotSchedulable as why:
             return GaveUp(f"CP-SAT does not support the problem: {why}; the planners for --minimise work do")
         except Cancelled as why:
-            return GaveUp(f"CP-SAT gave up: {why}")
+            return GaveUp(f"CP-SAT gave up: {why} before it knew all steps")
         except OSError as error:
             return GaveUp(f"CP-SAT cannot use its working folder: {error.filename}: {error.strerror}")
 
