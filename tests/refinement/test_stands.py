@@ -10,8 +10,9 @@ from click.testing import CliRunner
 from simulation.cells import LAB, world
 from skillc.cli.main import skillc
 from skillc_ontology import catalogue
+from skillc_runtime.collision.solid_geoms import find_overlap_m
 from skillc_runtime.execution.refinement.situation import begin_at_home
-from skillc_runtime.execution.refinement.standing import FAR_M, SAMPLES, _overlap_m, list_stands
+from skillc_runtime.execution.refinement.standing import FAR_M, SAMPLES, list_stands
 from skillc_runtime.primitives.space_needs import Stand
 from skillc_runtime.world.space.frames import pose
 
@@ -48,7 +49,7 @@ def test_stands_are_near_the_first_is_the_wanted_one_and_none_is_in_furniture() 
         at = pose(each.state, robot)
         assert np.allclose(at.position, wanted.apply(np.array([stand.x_m, stand.y_m, 0.0])), atol=1e-6)
         assert 0.0 < np.linalg.norm(at.position - wanted.position) <= FAR_M * np.sqrt(2)
-        assert _overlap_m(each.state, robot) == 0.0
+        assert find_overlap_m(each.state, robot) == 0.0
     far = [np.hypot(each.stands[0].x_m, each.stands[0].y_m) for each in found[1:]]
     assert far[0] < 0.15 and np.mean(far[:8]) < np.mean(far[-8:])
     assert [each.stands for each in found] == [

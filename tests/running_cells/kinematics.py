@@ -17,7 +17,6 @@ import numpy as np
 from running_cells.test_reality import BOARD, SORTING, make_settings, reality
 from skillc.cells.geometry_reader import read_geometry
 from skillc.cells.host import open_cell
-from skillc.cells.samples import list_numbers
 from skillc.contract.geometry import CellModel
 from skillc.contract.sample import ArmSample, PoseNumbers, Sample
 from skillc.services.reporting.reporter import SilentReporter
@@ -65,13 +64,13 @@ def _place(model: Any, data: Any, geometry: CellModel, rng: np.random.Generator)
     mujoco.mj_normalizeQuat(model, data.qpos)
     data.mocap_quat /= np.linalg.norm(data.mocap_quat, axis=1, keepdims=True)
     mujoco.mj_kinematics(model, data)
-    poses = tuple(list_numbers(Pose.of(data.xpos[each], data.xquat[each])) for each in range(model.nbody))
+    poses = tuple(Pose.of(data.xpos[each], data.xquat[each]).numbers for each in range(model.nbody))
     return _sample(model, data, geometry), poses
 
 
 def _sample(model: Any, data: Any, geometry: CellModel) -> Sample:
     own = {name for arm in geometry.arms.values() for name in arm.joints}
-    placed = {iri: list_numbers(pose) for iri, pose in _find_poses(data, geometry)}
+    placed = {iri: pose.numbers for iri, pose in _find_poses(data, geometry)}
     angles = dict(_find_angles(model, data))
     arms = {
         iri: ArmSample(tuple(angles[each] for each in arm.joints), (), placed[iri], placed[iri])

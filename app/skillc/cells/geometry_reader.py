@@ -9,7 +9,6 @@ import msgspec
 import mujoco
 import numpy as np
 
-from skillc.cells.samples import list_numbers
 from skillc.contract.geometry import (
     CellModel,
     JointKind,
@@ -182,7 +181,7 @@ def _read_individual(drawing: Drawing, live: LiveSignals, truth: GroundTruth | N
     positions, quaternions = (np.frombuffer(read()) for read in (live.bodies.positions, live.bodies.quaternions))
     there = Pose.of(positions[3 * body : 3 * body + 3], quaternions[4 * body : 4 * body + 4])
     frame = there.inverse() @ _find_pose(live, truth, iri, drawn.kind, there)
-    return ModelIndividual(drawn.label, drawn.kind, body, list_numbers(frame), drawn.movable)
+    return ModelIndividual(drawn.label, drawn.kind, body, frame.numbers, drawn.movable)
 
 
 def _find_pose(live: LiveSignals, truth: GroundTruth | None, iri: str, kind: IndividualKind, body: Pose) -> Pose:

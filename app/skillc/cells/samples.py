@@ -11,7 +11,7 @@ import numpy as np
 
 from skillc.contract.sample import ArmSample, ForceSample, PoseNumbers, Sample, Vector
 from skillc_runtime.devices.live import LiveArm, LiveSensors
-from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
+from skillc_runtime.motion.pose import Array, Pose, rotation_from_quaternion
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.backend import Backend
@@ -46,7 +46,7 @@ class Sampler:
             cell=self._name,
             time_s=self._backend.clock.now,
             arms={each.individual: self._sample_arm(each) for each in live_arms},
-            things={each: list_numbers(read()) for each, read in self._poses.items()} | dict(self._sample_drawn()),
+            things={each: read().numbers for each, read in self._poses.items()} | dict(self._sample_drawn()),
             joints={name: positions[address] for name, address in self._joints.items()},
             forces={} if self._live is None else dict(_sample_forces(self._live.sensors)),
         )
@@ -86,13 +86,13 @@ class Sampler:
         joints, speeds = np.frombuffer(arm.measured()).reshape(2, arm.joints).tolist()
         wrench = None if arm.wrench is None else tuple(np.frombuffer(arm.wrench()).tolist())
         driver = self._backend.cell.arm(arm.individual)
-        poses = list_numbers(arm.base()), list_numbers(driver.measured.pose)
+        poses = arm.base().numbers, driver.measured.pose.numbers
         velocities = _list_vector(driver.measured.velocity), _list_vector(driver.motion.reference.twist)
         force = driver.compliance.commanded_force
         pushed = None if np.isnan(force).any() else _list_vector(force)
         control = None if arm.control is None else arm.control()
         is_commanded = control is not None and control.state == "in-control"
-        reference = list_numbers(driver.motion.reference.pose) if is_commanded else None
+        reference = driver.motion.reference.pose.numbers if is_commanded else None
         return ArmSample(tuple(joints), tuple(speeds), *poses, wrench, *velocities, pushed, reference, control)
 
 
@@ -130,9 +130,3 @@ def _sample_forces(sensors: LiveSensors) -> Iterator[tuple[str, ForceSample]]:
             inward = -force * rotation_from_quaternion(values[first + 4 : first + 8])[:, 2]
             fx, fy, fz = inward.tolist()
             yield tool, ForceSample((fx, fy, fz), (x, y, z))
-
-
-def list_numbers(pose: Pose) -> PoseNumbers:
-    """Return the numbers of a pose."""
-    x, y, z = pose.position.tolist()
-    return (x, y, z, *quaternion_from_rotation(pose.rotation).tolist())

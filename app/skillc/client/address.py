@@ -41,7 +41,7 @@ def find_address(url: str | None, token: str | None, state: Path | None) -> Serv
     parts = urlsplit(server)
     if parts.scheme not in ("http", "https") or not parts.hostname or parts.query or parts.fragment:
         raise RequestError(f"`{server}` is no address of a server; write one such as {DEFAULT_URL}")
-    is_local = _is_local(parts.hostname)
+    is_local = is_loopback(parts.hostname)
     if parts.scheme == "http" and not is_local:
         raise RequestError(f"{server} would get a token in the clear; a server on another machine needs https")
     return ServerAddress(server + PREFIX, is_local, token or _find_token(server, is_local, folder))
@@ -82,7 +82,8 @@ def _find_token(server: str, is_local: bool, state: Path) -> str:
     )
 
 
-def _is_local(host: str) -> bool:
+def is_loopback(host: str) -> bool:
+    """Whether a host is this machine."""
     try:
         return ip_address(host).is_loopback
     except ValueError:

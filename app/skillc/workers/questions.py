@@ -123,14 +123,13 @@ def list_devices(known: CellSnapshot) -> tuple[Device, ...]:
 
 def list_poses(known: CellSnapshot) -> dict[str, PoseNumbers]:
     """List the poses in the world that the facts give, by IRI, but not of the individuals of data sheets."""
-    from skillc.cells.samples import list_numbers
     from skillc_runtime.world.space.frame_tree import FrameError
     from skillc_runtime.world.space.frames import pose
 
     found = dict[str, PoseNumbers]()
     for each in sorted(known.state.individuals - _find_shipped(known)):
         with suppress(FrameError):
-            found[each] = list_numbers(pose(known.state, each))
+            found[each] = pose(known.state, each).numbers
     return found
 
 

@@ -15,6 +15,7 @@ from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import PropertyWrite, RelationWrite, Write, write_of, written_condition
 from skillc_compiler.analysis.paths import EndStates, Path, StatePaths, path_length
+from skillc_compiler.analysis.summaries import is_any_individual
 from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s
@@ -76,7 +77,7 @@ def undeclared_writes(
     found = set()
     for write in run.summaries.all_writes(implementation):
         condition = written_condition(write) if isinstance(write, RelationWrite | PropertyWrite) else None
-        if condition is None or any(_is_made_up(part) for part in walk(condition)):
+        if condition is None or any(is_any_individual(part) for part in walk(condition)):
             if not _is_declared(run, implementation, write):
                 found.add(write)
             continue
@@ -115,10 +116,6 @@ def _is_declared(run: Exploration, implementation: Implementation, write: Write)
         if isinstance(own, PropertyWrite) and isinstance(write, PropertyWrite) and own.property == write.property:
             return own.subject == write.subject and own.value is not None
     return False
-
-
-def _is_made_up(part: object) -> bool:
-    return isinstance(part, Variable) and part.name.startswith("?")
 
 
 def _check_post(

@@ -200,14 +200,14 @@ def _substitute_write(write: Write, values: Mapping[str, Expression]) -> Write:
             return RelationWrite(_substitute_term(subject, values), relation, _substitute_term(object_, values), value)
         case PropertyWrite(subject=subject, property=iri, value=value, cleared=cleared):
             new = values.get(value.name) if isinstance(value, Variable) else value
-            known = new if isinstance(new, Literal | Variable | Individual) and not _is_any_individual(new) else None
+            known = new if isinstance(new, Literal | Variable | Individual) and not is_any_individual(new) else None
             return PropertyWrite(_substitute_term(subject, values), iri, known, cleared)
         case OutputWrite() | OnceWrite():
             return write
 
 
 def _substitute_term(term: Term, values: Mapping[str, Expression]) -> Term:
-    if not isinstance(term, Variable) or _is_any_individual(term):
+    if not isinstance(term, Variable) or is_any_individual(term):
         return term
     found = values.get(term.name, any_individual(THING))
     return found if isinstance(found, Variable | Individual | Anything) else any_individual(THING)
@@ -219,5 +219,6 @@ def hide_names(writes: Iterable[Write], visible: Iterable[str]) -> frozenset[Wri
     return frozenset(_substitute_write(write, names) for write in writes)
 
 
-def _is_any_individual(term: object) -> bool:
+def is_any_individual(term: object) -> bool:
+    """Whether a term stands for any individual, since its own name is not visible."""
     return isinstance(term, Variable) and term.name.startswith("?")

@@ -24,10 +24,8 @@ READS = Reads.DECLARATION
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each relation that cannot be made true."""
     conflicts = Conflicts(program.vocabulary)
-    for skill in program.skills.values():
-        yield from _check_posts(conflicts, skill.requirements, ())
-    for implementation in program.implementations:
-        yield from _check_posts(conflicts, implementation.requirements, implementation.skill.requirements)
+    for own, given in program.list_requirements():
+        yield from _check_posts(conflicts, own, given)
 
 
 def _check_posts(

@@ -29,10 +29,8 @@ MOST_CONFLICTS = 20
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield the problems of the posts of each skill, and of those that an implementation adds."""
     conflicts = Conflicts(program.vocabulary)
-    for skill in program.skills.values():
-        yield from _check_posts(conflicts, skill.requirements, ())
-    for implementation in program.implementations:
-        yield from _check_posts(conflicts, implementation.requirements, implementation.skill.requirements)
+    for own, given in program.list_requirements():
+        yield from _check_posts(conflicts, own, given)
 
 
 def _check_posts(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal as OneOf
@@ -301,6 +301,11 @@ class Program:
     def called(self) -> dict[str, tuple[Implementation, ...]]:
         """The implementations of the skills that a body calls, by its key, as far as they have been looked up."""
         return {}
+
+    def list_requirements(self) -> Iterator[tuple[Sequence[Requirement], Sequence[Requirement]]]:
+        """Yield the requirements of each skill, then those of each implementation; with each those that it is given."""
+        yield from ((skill.requirements, ()) for skill in self.skills.values())
+        yield from ((each.requirements, each.skill.requirements) for each in self.implementations)
 
     def candidates(self, call: Call) -> tuple[Implementation, ...]:
         """Return the implementations that may be selected for a call."""

@@ -233,6 +233,11 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
         editions = range(1, max(self.since.values(), default=1))
         return {each: frozenset(iri for iri, since in self.since.items() if since > each) for each in editions}
 
+    @property
+    def terms(self) -> Iterator[str]:
+        """The IRIs of all classes, relations and properties."""
+        yield from (*self.classes, *self.relations, *self.properties)
+
     def is_computed(self, term: str) -> bool:
         """Whether a relation or property is computed from other facts."""
         known = self.relations.get(term) or self.properties.get(term)

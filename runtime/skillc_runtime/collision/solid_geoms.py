@@ -6,7 +6,9 @@ from collections.abc import Iterable, Sequence
 from typing import Any, assert_never
 
 from skillc_runtime.motion.pose import quaternion_from_rotation
+from skillc_runtime.world.space.occupants import near_pairs, read_occupants
 from skillc_runtime.world.space.shape.solids import Solid
+from skillc_runtime.world.state.world_state import WorldState
 
 FAR_M = 1.0
 """Beyond this distance no distance is computed."""
@@ -64,3 +66,9 @@ def overlap_depths(pairs: Sequence[tuple[Iterable[Solid], Iterable[Solid]]]) -> 
         return -float(mujoco.mj_geomDistance(model, data, one, other, FAR_M, None))
 
     return [max(0.0, *(depth(one, other) for one in ones for other in others)) for ones, others in groups]
+
+
+def find_overlap_m(state: WorldState, individual: str) -> float:
+    """Return how deep a thing or a base lies inside any other thing, in m; 0 if it does not."""
+    pairs = (pair for pair in near_pairs(read_occupants(state)) if individual in {each.individual for each in pair})
+    return max(overlap_depths([(one.solids, other.solids) for one, other in pairs]), default=0.0)

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from math import atan2, cos, hypot, sin, sqrt
+from typing import TypeAlias
 
 import msgspec
 
 from skillc_runtime.motion.arrays import Array as Array
 from skillc_runtime.motion.arrays import Matrix, Vector, np
+
+PoseNumbers: TypeAlias = tuple[float, float, float, float, float, float, float]
 
 
 class Pose(msgspec.Struct, frozen=True):
@@ -27,6 +30,12 @@ class Pose(msgspec.Struct, frozen=True):
     def apply(self, point: Array) -> Array:
         """Return a point (3,) in m of this frame in the parent frame."""
         return self.rotation @ point + self.position
+
+    @property
+    def numbers(self) -> PoseNumbers:
+        """The position (x, y, z) in m and the quaternion (w, x, y, z)."""
+        x, y, z = self.position.tolist()
+        return (x, y, z, *quaternion_from_rotation(self.rotation).tolist())
 
     @staticmethod
     def of(position: Array | tuple[float, ...], quaternion: Array | tuple[float, ...] = (1.0, 0.0, 0.0, 0.0)) -> Pose:

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from skillc_model.read_write import FactPattern
-from skillc_runtime.motion.pose import Pose, log
+from skillc_runtime.motion.pose import log
 from skillc_runtime.planning.world_changes import find_changed_facts
-from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.space.frames import find_pose
 from skillc_runtime.world.state.terms import (
     ANCHOR,
     ANGLES,
@@ -46,7 +45,7 @@ def stands_elsewhere(fact: FactPattern, before: WorldState, after: WorldState) -
         return True
     if fact.term not in WHERE or fact.subject is None or _is_reserved(fact.subject, before, after):
         return False
-    one, other = _find_pose(before, fact.subject), _find_pose(after, fact.subject)
+    one, other = find_pose(before, fact.subject), find_pose(after, fact.subject)
     if one is None or other is None:
         return one is not other
     between = log(other.rotation @ one.rotation.T)
@@ -61,11 +60,3 @@ def _is_reserved(individual: str, *states: WorldState) -> bool:
 def has_moved(before: WorldState, after: WorldState) -> bool:
     """Whether anything stands elsewhere, or is held by another, in a version of the world than in an earlier one."""
     return any(stands_elsewhere(each, before, after) for each in find_changed_facts(before, after))
-
-
-def _find_pose(state: WorldState, individual: str) -> Pose | None:
-    """Return where something is, None if that is not known."""
-    try:
-        return pose(state, individual)
-    except FrameError:
-        return None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -23,7 +23,7 @@ class TermUse(NamedTuple):
 
 def group_foreign_terms(unknown: Iterable[TermUse], vocabulary: Vocabulary) -> Mapping[str, Sequence[TermUse]]:
     """Return the uses of unknown terms by namespace, if they are several terms of one that no vocabulary knows."""
-    known = {namespace_of(iri) for iri in _terms(vocabulary)}
+    known = {namespace_of(iri) for iri in vocabulary.terms}
     found: dict[str, list[TermUse]] = defaultdict(list)
     for use in unknown:
         if namespace_of(use.iri) not in known:
@@ -35,14 +35,10 @@ def report_foreign_terms(namespace: str, uses: Sequence[TermUse], vocabulary: Vo
     """Return the problem of the terms of a namespace, at the first of them; another one may have all of them."""
     names = {local_name(use.iri) for use in uses}
     there: dict[str, set[str]] = defaultdict(set)
-    for iri in _terms(vocabulary):
+    for iri in vocabulary.terms:
         there[namespace_of(iri)].add(local_name(iri))
     meant = [each for each, found in there.items() if names <= found]
     help_ = f"did you mean <{meant[0]}>?" if len(meant) == 1 else "declare them in a .skill file or in an ontology"
     first, *others = uses
     labels = tuple(Label(other.place, "also here") for other in others[:MOST])
     return Diagnostic("unknown-prefix", first.place, f"nothing declares terms of <{namespace}>", help_, labels=labels)
-
-
-def _terms(vocabulary: Vocabulary) -> Iterator[str]:
-    yield from (*vocabulary.classes, *vocabulary.relations, *vocabulary.properties)

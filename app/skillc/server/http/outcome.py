@@ -11,6 +11,7 @@ from typing import assert_never
 
 from msgspec import structs
 
+from skillc.contract.cell import CellStatus
 from skillc.contract.messages import Message, Refused
 from skillc.contract.operation import OperationRequest
 from skillc.server.access.leases import LeaseHeld
@@ -37,6 +38,13 @@ async def command_cell(call: ApiCall, cell: CellSupervisor, message: Message) ->
     """Give a command of a client to a cell, and wait until it is done and durable; ApiRefusal if it is refused."""
     check_lease(call, cell)
     raise_refused(await cell.request(message))
+
+
+async def command_named_cell(call: ApiCall, message: Message) -> CellStatus:
+    """Do so with the cell that a request is about; return its status."""
+    cell = call.server.find_cell(call.path["cell"])
+    await command_cell(call, cell, message)
+    return cell.status
 
 
 def raise_refused(answer: Refused | bytes) -> bytes:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from skillc.contract.cell import CellStatus
-from skillc.contract.messages import Acknowledge, Message, SetPace
+from skillc.contract.messages import Acknowledge, SetPace
 from skillc.server.http.api_call import ApiCall
-from skillc.server.http.outcome import command_cell
+from skillc.server.http.outcome import command_named_cell
 
 
 async def list_cells(call: ApiCall) -> tuple[CellStatus, ...]:
@@ -17,20 +17,14 @@ async def show_cell(call: ApiCall) -> CellStatus:
 
 
 async def set_pace(call: ApiCall) -> CellStatus:
-    return await _request(call, SetPace(factor=call.body.factor))
+    return await command_named_cell(call, SetPace(factor=call.body.factor))
 
 
 async def acknowledge_fault(call: ApiCall) -> CellStatus:
-    return await _request(call, Acknowledge())
+    return await command_named_cell(call, Acknowledge())
 
 
 async def stop_cell(call: ApiCall) -> CellStatus:
     cell = call.server.find_cell(call.path["cell"])
     cell.stop(f"{call.client.name}: {call.body.shown}")
-    return cell.status
-
-
-async def _request(call: ApiCall, message: Message) -> CellStatus:
-    cell = call.server.find_cell(call.path["cell"])
-    await command_cell(call, cell, message)
     return cell.status

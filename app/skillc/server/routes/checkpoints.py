@@ -8,17 +8,17 @@ from http import HTTPStatus
 
 from skillc.cells.journal.reading import find_checkpoint
 from skillc.contract.cell import CellCheckpoint, CellStatus
-from skillc.contract.messages import CheckpointCommand, Forget, Reset, Restore, Save
+from skillc.contract.messages import Forget, Reset, Restore, Save
 from skillc.errors import RequestError
 from skillc.server.context import open_journal
 from skillc.server.http.api_call import ApiCall
-from skillc.server.http.outcome import command_cell
+from skillc.server.http.outcome import command_named_cell
 from skillc.server.problems import ApiRefusal
 from skillc.server.supervisor import CellSupervisor
 
 
 async def reset_cell(call: ApiCall) -> CellStatus:
-    return await _command(call, Reset(who=call.client.name, why=call.body.why))
+    return await command_named_cell(call, Reset(who=call.client.name, why=call.body.why))
 
 
 async def list_checkpoints(call: ApiCall) -> tuple[CellCheckpoint, ...]:
@@ -26,24 +26,18 @@ async def list_checkpoints(call: ApiCall) -> tuple[CellCheckpoint, ...]:
 
 
 async def save_cell(call: ApiCall) -> CellCheckpoint:
-    await _command(call, Save(name=call.body.name, who=call.client.name))
+    await command_named_cell(call, Save(name=call.body.name, who=call.client.name))
     return await _find_checkpoint(call, call.body.name)
 
 
 async def restore_cell(call: ApiCall) -> CellStatus:
     found = await _find_checkpoint(call, call.path["checkpoint"])
-    return await _command(call, Restore(name=found.name, who=call.client.name, why=call.body.why))
+    return await command_named_cell(call, Restore(name=found.name, who=call.client.name, why=call.body.why))
 
 
 async def remove_checkpoint(call: ApiCall) -> None:
     found = await _find_checkpoint(call, call.path["checkpoint"])
-    await _command(call, Forget(name=found.name))
-
-
-async def _command(call: ApiCall, command: CheckpointCommand) -> CellStatus:
-    cell = call.server.find_cell(call.path["cell"])
-    await command_cell(call, cell, command)
-    return cell.status
+    await command_named_cell(call, Forget(name=found.name))
 
 
 def _read_checkpoints(cell: CellSupervisor) -> tuple[CellCheckpoint, ...]:

@@ -17,7 +17,7 @@ from skillc_rdf.vocabulary.conflicts import Conflict
 from skillc_rdf.vocabulary.graph import Graph
 from skillc_rdf.vocabulary.iris import KINDS, OWL, RDFS, SUBCLASS, SUBPROPERTY
 from skillc_rdf.vocabulary.reading import read_ontologies
-from skillc_rdf.vocabulary.types import Vocabulary, local_name
+from skillc_rdf.vocabulary.types import local_name
 
 _LABELS = (f"{RDFS}label", *(f"http://www.w3.org/2004/02/skos/core#{name}" for name in ("prefLabel", "altLabel")))
 _PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
@@ -52,7 +52,7 @@ def propose_alignment(opened: OpenOntologies, described: Sequence[OntologyDescri
     named = read_ontologies(opened.sources[path] for path in opened.named).value
     graph = Graph(triple for each in named for triple in each.triples)
     unlinked = {name: kind for each in described for name, kind in each.unlinked.items()}
-    terms = {opened.vocabulary.short(iri): iri for iri in _all_terms(opened.vocabulary)}
+    terms = {opened.vocabulary.short(iri): iri for iri in opened.vocabulary.terms}
     found: list[Proposal] = []
     for name, kind in sorted(unlinked.items()):
         iri = terms.get(name)
@@ -77,10 +77,6 @@ def format_proposals(proposals: Sequence[Proposal], prefixes: Mapping[str, str])
         ground = f"{each.ground}; {each.why_not}" if each.why_not else each.ground
         lines.append(f"{'# ' if each.why_not else ''}{said}  # {ground}")
     return "\n".join(lines) + "\n"
-
-
-def _all_terms(vocabulary: Vocabulary) -> Iterator[str]:
-    yield from (*vocabulary.classes, *vocabulary.relations, *vocabulary.properties)
 
 
 def _by_name(graph: Graph, opened: OpenOntologies) -> Mapping[Kind, Mapping[str, dict[str, str]]]:

@@ -7,9 +7,9 @@ from itertools import product
 
 from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
-from skillc_runtime.collision.solid_geoms import overlap_depths
+from skillc_runtime.collision.solid_geoms import find_overlap_m
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.occupants import near_pairs, read_occupants
+from skillc_runtime.world.space.occupants import read_occupants
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.terms import OFFSET, POSITION
@@ -40,11 +40,11 @@ def _find_place(state: WorldState, things: Iterable[str], goes: Callable[[WorldS
     thing = next((each for each in things if each in rooms and any(_numbers(state, each))), None)
     if thing is None:
         return ""
-    short, before_m = state.vocabulary.short(thing), _overlap_m(state, thing)
+    short, before_m = state.vocabulary.short(thing), find_overlap_m(state, thing)
     for distance_m, (name, stated_m), sign in product(DISTANCES_M, tuple(_numbers(state, thing)), (1.0, -1.0)):
         to_m = round(stated_m + sign * distance_m, 4)
         there = _moved(state, thing, name, to_m)
-        if there is not None and _overlap_m(there, thing) <= before_m and _goes_about(there, thing, goes):
+        if there is not None and find_overlap_m(there, thing) <= before_m and _goes_about(there, thing, goes):
             return f"with {short} moved by {distance_m:g} m, to {local_name(name)} {to_m:g}, all steps go"
     return ""
 
@@ -74,9 +74,3 @@ def _moved(state: WorldState, thing: str, name: str, to_m: float) -> WorldState 
         return WorldModel(state).commit([SetProperty(thing, name, to_m)]).after
     except (WorldError, FrameError):
         return None
-
-
-def _overlap_m(state: WorldState, thing: str) -> float:
-    """Return how deep a thing lies inside any other one, in m."""
-    pairs = [pair for pair in near_pairs(read_occupants(state)) if thing in (pair[0].individual, pair[1].individual)]
-    return max(overlap_depths([(one.solids, other.solids) for one, other in pairs]), default=0.0)

@@ -8,10 +8,10 @@ from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import partial
-from ipaddress import ip_address
 from typing import Any
 from urllib.parse import urlsplit
 
+from skillc.client.address import is_loopback
 from skillc.errors import RequestError, ServiceError
 from skillc.extras import naming_extras, require
 from skillc.services.reporting.reporter import Reporter
@@ -64,17 +64,10 @@ def _connect(address: str, reporter: Reporter) -> Iterator[Executor]:
 def _require_secret(address: str, who: str) -> None:
     """Raise RequestError for an address beyond this machine without TLS: what travels is code."""
     parts = urlsplit(address if "://" in address else f"tcp://{address}")
-    if parts.scheme in ("tls", "wss", "inproc") or _is_loopback(parts.hostname or ""):
+    if parts.scheme in ("tls", "wss", "inproc") or is_loopback(parts.hostname or ""):
         return
     secret = f"tls://{parts.netloc}"
     raise RequestError(
         f"{who} is on another machine, and what is sent there is code: use TLS, {secret}, with the certificates in the "
         "configuration of Dask, `distributed.comm.tls`"
     )
-
-
-def _is_loopback(host: str) -> bool:
-    try:
-        return ip_address(host).is_loopback
-    except ValueError:
-        return host == "localhost"

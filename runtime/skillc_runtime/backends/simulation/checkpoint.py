@@ -6,9 +6,8 @@ import msgspec
 
 from skillc_runtime.devices.backend import BackendStart
 from skillc_runtime.devices.checkpoints import CheckpointError
-from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
+from skillc_runtime.motion.pose import Pose, PoseNumbers
 
-PoseNumbers = tuple[float, float, float, float, float, float, float]
 """A pose: position in m, then the unit quaternion (w, x, y, z)."""
 
 
@@ -69,12 +68,6 @@ def decode_checkpoint(encoded: bytes) -> Checkpoint:
 def read_checkpoint(start: BackendStart) -> Checkpoint | None:
     """Return from where a cell goes on; CheckpointError if that cannot be read."""
     return None if start.saved is None else decode_checkpoint(start.saved)
-
-
-def list_numbers(of: Pose) -> PoseNumbers:
-    """Return a pose as numbers."""
-    x, y, z = of.position.tolist()
-    return (x, y, z, *quaternion_from_rotation(of.rotation).tolist())
 
 
 def make_pose(numbers: PoseNumbers) -> Pose:

@@ -10,12 +10,12 @@ import mujoco
 import numpy as np
 
 from skillc_runtime.backends.simulation.bases.base import SimulatedBase
-from skillc_runtime.backends.simulation.checkpoint import Checkpoint, PoseNumbers, list_numbers, make_pose
+from skillc_runtime.backends.simulation.checkpoint import Checkpoint, make_pose
 from skillc_runtime.backends.simulation.hands.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
 from skillc_runtime.motion.coverage import CoverageMap
-from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.motion.pose import Array, Pose, PoseNumbers
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose, relocation_changes
 from skillc_runtime.world.state.world_state import WorldState
@@ -51,7 +51,7 @@ def save_cell(
     return Checkpoint(
         places=_list_places(scene),
         joints={name: tuple(data.qpos[span].tolist()) for name, span in _list_joints(model)},
-        bases={robot: list_numbers(each.pose) for robot, each in bases.items()},
+        bases={robot: each.pose.numbers for robot, each in bases.items()},
         grippers={gripper: each.save() for gripper, each in grippers.items()},
         time_s=float(data.time),
         worked={surface: zlib.compress(dose.astype("<f4").tobytes(), 1) for surface, dose in doses.items()},
@@ -82,8 +82,8 @@ def _list_places(scene: SceneSpec) -> dict[str, PoseNumbers]:
     """Return where all things of a scene are believed to be, what carries others before that."""
     fixed = sorted((each for each in scene.bodies if not each.movable), key=lambda each: each.slide is not None)
     kinds = (scene.bases, fixed, scene.fixtures, scene.surfaces, scene.movable, scene.tools)
-    things = {each.individual: list_numbers(each.pose) for kind in kinds for each in kind}
-    return things | {each.individual: list_numbers(each.base) for each in scene.arms}
+    things = {each.individual: each.pose.numbers for kind in kinds for each in kind}
+    return things | {each.individual: each.base.numbers for each in scene.arms}
 
 
 def read_posture(saved: Checkpoint | None, arm: str, start: Array) -> Array:

@@ -16,7 +16,7 @@ from skillc_runtime.evaluation.report.result import PlacementResult
 from skillc_runtime.motion.pose import Pose, log
 from skillc_runtime.recording.history.history import RecordedCall, RunHistory
 from skillc_runtime.world.space.frame_tree import FrameError, frame_tree_of
-from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.space.frames import find_pose, pose
 from skillc_runtime.world.state.evidence import DecidingWrite, describe_evidence
 from skillc_runtime.world.state.facts import PropertyFact, RelationFact
 from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledPose
@@ -135,7 +135,7 @@ def _measure(
 ) -> PlacementResult:
     thing, along = move.thing, move.thing != move.moved
     holder = min(state.subjects(CONTAIN, thing), default=None)
-    vocabulary, believed, true = state.vocabulary, _believed(state, thing), _true(truth, thing)
+    vocabulary, believed, true = state.vocabulary, find_pose(state, thing), _true(truth, thing)
     contained = None if holder is None else world.deciding_write(RelationFact(holder, CONTAIN, thing))
     off = None if believed is None or true is None else believed.inverse() @ true
     is_held = holder is not None and state.is_a(holder, END_EFFECTOR)
@@ -175,13 +175,6 @@ def _with_carriers(state: WorldState, thing: str) -> Iterator[str]:
         while at is not None and state.is_a(at, MANIPULATABLE):
             yield at
             at = frame_tree_of(state).carrier(at)
-
-
-def _believed(state: WorldState, thing: str) -> Pose | None:
-    try:
-        return pose(state, thing)
-    except FrameError:
-        return None
 
 
 def _true(truth: GroundTruth | None, thing: str) -> Pose | None:

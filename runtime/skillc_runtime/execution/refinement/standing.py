@@ -6,14 +6,13 @@ from collections.abc import Iterator
 from dataclasses import replace
 from math import hypot
 
-from skillc_runtime.collision.solid_geoms import overlap_depths
+from skillc_runtime.collision.solid_geoms import find_overlap_m
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.situation import BaseDrive, ChosenStand, ChosenWay, Situation
 from skillc_runtime.primitives.space_needs import Stand
 from skillc_runtime.world.space.base_ways import BaseWay, BlockedWay, describe_blocked, find_base_way
 from skillc_runtime.world.space.floor_plan import FloorPlan
 from skillc_runtime.world.space.frames import placement_changes, pose
-from skillc_runtime.world.space.occupants import near_pairs, read_occupants
 from skillc_runtime.world.space.stands import read_stand, stand_changes, standing_pose
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.labels.labelling import label
@@ -70,11 +69,11 @@ def _list_rooms(need: Stand, here: Situation) -> Iterator[Situation]:
     """Yield the situations with a base where a workstation wants it, then at places nearby where it has room."""
     stated = read_stand(here.state, need.to)
     yield here if stated is None else _place(here, need)
-    depth_m = _overlap_m(_place(here, need).state, need.robot)
+    depth_m = find_overlap_m(_place(here, need).state, need.robot)
     for x_m, y_m, yaw_rad in _sample():
         chosen = here.with_changes([*stand_changes(need.to, x_m, y_m, yaw_rad)])
         there = _place(chosen, need)
-        if _overlap_m(there.state, need.robot) <= depth_m:
+        if find_overlap_m(there.state, need.robot) <= depth_m:
             robot, place = (label(each, here.state.vocabulary) for each in (need.robot, need.to))
             stand = ChosenStand(robot, place, x_m, y_m, yaw_rad)
             yield replace(there, stands=(*there.stands, stand))
@@ -91,9 +90,3 @@ def _sample() -> list[tuple[float, float, float]]:
     shares = [[2.0 * ((0.5 + number * each) % 1.0) - 1.0 for each in RATIOS] for number in range(1, SAMPLES + 1)]
     places = [(round(FAR_M * x, 3), round(FAR_M * y, 3), round(TURNED_RAD * turn, 3)) for x, y, turn in shares]
     return sorted(places, key=lambda each: hypot(each[0], each[1]) + RAD_AS_M * abs(each[2]))
-
-
-def _overlap_m(state: WorldState, robot: str) -> float:
-    """Return how deep a base lies inside any other thing, in m."""
-    pairs = [pair for pair in near_pairs(read_occupants(state)) if robot in (pair[0].individual, pair[1].individual)]
-    return max(overlap_depths([(one.solids, other.solids) for one, other in pairs]), default=0.0)

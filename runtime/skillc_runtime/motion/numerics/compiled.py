@@ -7,7 +7,6 @@ takes ten times as long to compile, an assignment to a slice half a second.
 
 from __future__ import annotations
 
-import gc
 import logging
 import os
 import sys
@@ -20,6 +19,7 @@ from inspect import get_annotations
 from threading import RLock
 from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar
 
+from skillc_dsl.garbage import gc_disabled
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.numerics.code_key import CALLABLE, key_of
 from skillc_runtime.motion.numerics.machine_code import MachineCode, link, load_stored, store_code
@@ -175,7 +175,7 @@ def _make(function: Callable[..., Any]) -> MachineCode:
     code = load_stored(key)
     if code is None:
         _announce()
-        with _telling(), _without_collection():
+        with _telling(), gc_disabled():
             emission: Any = import_module("skillc_runtime.motion.numerics.emission")
             emission.let_be_called(CALLABLE)
             code = emission.emit(function, key)
@@ -198,18 +198,6 @@ def _telling() -> Iterator[None]:
     finally:
         for tell in listeners:
             tell(-1)
-
-
-@contextmanager
-def _without_collection() -> Iterator[None]:
-    """Collecting garbage would walk through all that numba keeps, again and again."""
-    enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if enabled:
-            gc.enable()
 
 
 def _flattening(function: Callable[..., Any], call: Callable[..., Any]) -> Callable[..., Any]:

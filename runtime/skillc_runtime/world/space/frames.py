@@ -38,6 +38,14 @@ def pose(state: WorldState, individual: str) -> Pose:
     return frame_tree_of(state).pose(individual)
 
 
+def find_pose(state: WorldState, individual: str) -> Pose | None:
+    """Return the pose of an object in the world, None if it is not known."""
+    try:
+        return pose(state, individual)
+    except FrameError:
+        return None
+
+
 def relative_pose(state: WorldState, viewer: str, individual: str) -> Pose:
     """Return the pose of an object in the frame of another, the viewer; FrameError as for `pose`."""
     return pose(state, viewer).inverse() @ pose(state, individual)

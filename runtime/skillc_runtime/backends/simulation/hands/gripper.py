@@ -10,7 +10,7 @@ import numpy as np
 
 from skillc_runtime.backends.simulation.arms.arm import ModelledArm
 from skillc_runtime.backends.simulation.bases.base import BaseStep
-from skillc_runtime.backends.simulation.checkpoint import SavedGrip, SavedGripper, list_numbers, make_pose
+from skillc_runtime.backends.simulation.checkpoint import SavedGrip, SavedGripper, make_pose
 from skillc_runtime.backends.simulation.contacts import Contacts
 from skillc_runtime.backends.simulation.hands.finger_sensor import FingerSensor
 from skillc_runtime.backends.simulation.hands.gripper_geoms import find_handles, find_pads
@@ -161,11 +161,11 @@ class ModelledGripper(ABC):
             opening_m=self._true_opening_m,
             force_n=self._limit_n,
             carried=self._carried,
-            in_palm=list_numbers(in_palm),
+            in_palm=in_palm.numbers,
             grip=self._save_grip() if carried else None,
             counted=self._holding,
             counted_at_m=float(self._held[HELD_AT]),
-            in_tool_centre=list_numbers(self._in_tool_centre),
+            in_tool_centre=self._in_tool_centre.numbers,
             mass_kg=self._payload_kg,
         )
 
@@ -173,7 +173,7 @@ class ModelledGripper(ABC):
         """Take the state of an earlier gripper, once positions are computed; it does not hold what has no body here."""
         self._restore_fingers(saved.opening_m, saved.force_n)
         if saved.carried in self._things:
-            self._place(saved.carried)[:] = list_numbers(self._pose(self._palm) @ make_pose(saved.in_palm))
+            self._place(saved.carried)[:] = (self._pose(self._palm) @ make_pose(saved.in_palm)).numbers
             mujoco.mj_fwdPosition(self._model, self._data)
             self._fix(saved.carried, make_pose(saved.in_palm), saved.grip)
         if saved.counted in self._things:
@@ -241,7 +241,7 @@ class ModelledGripper(ABC):
         """Move a carried object with the base of the arm."""
         if self._carried:
             place = self._place(self._carried)
-            place[:] = list_numbers(step.motion @ Pose.of(place[:3], place[3:]))
+            place[:] = (step.motion @ Pose.of(place[:3], place[3:])).numbers
 
     @property
     @abstractmethod
