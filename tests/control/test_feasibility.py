@@ -12,7 +12,7 @@ import skillc_ontology
 from skillc_runtime.control.feasibility import SlowedTrajectory, slow_to_feasible
 from skillc_runtime.control.laws.virtual_arm import VirtualArm, load_virtual_model
 from skillc_runtime.devices.arm import ArmLimits
-from skillc_runtime.devices.arm_driver import Infeasible
+from skillc_runtime.devices.motion_interface import Infeasible
 from skillc_runtime.motion.paths.path import path_through
 from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Array, Pose, exp

@@ -23,7 +23,8 @@ from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable, St
 from skillc_runtime.motion.paths.path import path_through
 from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.recording.mcap.signal_tap import SampledBlock, SignalTap
+from skillc_runtime.recording.mcap.sample_layout import SampledBlock
+from skillc_runtime.recording.mcap.signal_tap import SignalTap
 
 pytestmark = pytest.mark.robot
 SCENE = "iiwa_table"

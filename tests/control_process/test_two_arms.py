@@ -16,7 +16,8 @@ from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmD
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.devices.backend import BackendBroken
-from skillc_runtime.recording.mcap.signal_tap import SampledBlock, SignalTap
+from skillc_runtime.recording.mcap.sample_layout import SampledBlock
+from skillc_runtime.recording.mcap.signal_tap import SignalTap
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import SKILLC

@@ -11,7 +11,7 @@ from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.supervision.safety import Workspace
-from skillc_runtime.devices.arm_driver import Infeasible
+from skillc_runtime.devices.motion_interface import Infeasible
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.move import MoveJoints, MoveLinear
 from skillc_runtime.primitives.overlay import OverlayCircle

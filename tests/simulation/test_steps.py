@@ -18,7 +18,8 @@ from skillc_runtime.motion.overlays import Circle, Spiral
 from skillc_runtime.motion.paths.path import path_through
 from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose, rotation_from_quaternion
-from skillc_runtime.recording.mcap.signal_tap import SampledBlock, SignalTap
+from skillc_runtime.recording.mcap.sample_layout import SampledBlock
+from skillc_runtime.recording.mcap.signal_tap import SignalTap
 from skillc_runtime.world.state.model import WorldModel
 
 pytestmark = pytest.mark.skipif(not COMPILES, reason="nothing is compiled here")

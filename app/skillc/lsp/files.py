@@ -10,14 +10,9 @@ from pathlib import Path
 
 from skillc.errors import DiagnosticsError
 from skillc.services.library import files as library_files
-from skillc.services.library.files import (
-    SHIPPED,
-    LibraryFiles,
-    find_library,
-    read_vocabularies,
-    user_vocabularies,
-)
+from skillc.services.library.files import SHIPPED, LibraryFiles, find_library
 from skillc.services.library.ontology_imports import follow_imports
+from skillc.services.library.source_files import is_vocabulary_beside, read_vocabularies, user_vocabularies
 from skillc.services.project import project as projects
 from skillc.services.project.loading import find_project
 from skillc_dsl.diagnostics import Outcome
@@ -70,7 +65,7 @@ def is_rdf(file: Path) -> bool:
 def read_own_vocabularies(root: Root, around: LibraryFiles) -> tuple[Source, ...]:
     """Return the vocabularies in a library's folder, in the user's ontology folders, and those `around` the library."""
     candidates = _below(root) if root.whole else root.folder.glob("*")
-    own = sorted(file for file in candidates if library_files.is_vocabulary_beside(file, around.project))
+    own = sorted(file for file in candidates if is_vocabulary_beside(file, around.project))
     stated = {**user_vocabularies(), **{_relative(file, root): file for file in own}}
     home = library_files.Home(around.name, root.folder, around.project)
     read = read_vocabularies(sorted(follow_imports(stated, library_files.imports_of(home)).items()))

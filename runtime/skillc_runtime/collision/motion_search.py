@@ -17,7 +17,7 @@ from skillc_runtime.collision.collision_checker import Collision, CollisionCheck
 from skillc_runtime.collision.collision_model import build_collision_model
 from skillc_runtime.collision.path_planning import JointSpace, NoPath, find_motion_collision, plan_joint_path
 from skillc_runtime.collision.scenery import Numbers, Scenery, SolidObstacle
-from skillc_runtime.devices.arm_driver import Infeasible, MotionModel, ToolMotion
+from skillc_runtime.devices.motion_interface import Infeasible, MotionModel, ToolMotion
 from skillc_runtime.motion.paths.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Trajectory

@@ -7,7 +7,7 @@ import numpy as np
 
 from skillc_runtime.control.laws.virtual_arm import VirtualArm
 from skillc_runtime.devices.arm import ArmLimits
-from skillc_runtime.devices.arm_driver import Infeasible
+from skillc_runtime.devices.motion_interface import Infeasible
 from skillc_runtime.kinematics.chain import pack
 from skillc_runtime.kinematics.sweep import ERROR_M, ERROR_RAD, FAR_M, FAR_RAD, MARGIN, JointLoad, follow
 from skillc_runtime.motion.pose import Array, Pose

@@ -6,7 +6,7 @@ import numpy as np
 
 from skillc_runtime.control.arm_task import ArmTask
 from skillc_runtime.control.motion_model import ArmMotionModel
-from skillc_runtime.devices.arm_driver import ToolMotion
+from skillc_runtime.devices.motion_interface import ToolMotion
 from skillc_runtime.motion.paths.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory

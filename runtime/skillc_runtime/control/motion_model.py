@@ -11,7 +11,7 @@ from skillc_runtime.control.kinematics import Kinematics
 from skillc_runtime.control.supervision.safety import Workspace
 from skillc_runtime.control.supervision.workspace_check import check_motion_inside, sample_times
 from skillc_runtime.devices.arm import ArmLimits, ArmState
-from skillc_runtime.devices.arm_driver import ToolMotion
+from skillc_runtime.devices.motion_interface import ToolMotion
 from skillc_runtime.motion.paths.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Trajectory

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar
 
-from skillc_runtime.devices.arm_driver import Infeasible
+from skillc_runtime.devices.motion_interface import Infeasible
 from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.primitives.computation import Computing
 from skillc_runtime.primitives.compute_here import compute_here

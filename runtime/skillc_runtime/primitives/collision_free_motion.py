@@ -19,7 +19,7 @@ from skillc_runtime.collision.collision_checker import Collision
 from skillc_runtime.collision.motion_search import JointGoals, Surroundings, find_joint_motion, find_tool_motion
 from skillc_runtime.collision.path_planning import JointSpace, NoPath
 from skillc_runtime.collision.scenery import read_scenery
-from skillc_runtime.devices.arm_driver import Infeasible
+from skillc_runtime.devices.motion_interface import Infeasible
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Trajectory
 from skillc_runtime.primitives.arm_motion import raise_fault

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from msgspec.structs import replace
 
-from skillc_runtime.devices.arm_driver import MotionModel
+from skillc_runtime.devices.motion_interface import MotionModel
 from skillc_runtime.kinematics.inverse import APART_RAD
 from skillc_runtime.motion.paths.path import Path, join_segments, path_through
 from skillc_runtime.motion.paths.segments import MotionLimits, segment_between

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from skillc_runtime.devices.arm_driver import Infeasible
+from skillc_runtime.devices.motion_interface import Infeasible
 from skillc_runtime.motion.overlays import Circle, Lissajous, Spiral
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay

@@ -21,7 +21,8 @@ from skillc.lsp.messages import MalformedMessage, MessageReader, MessageWriter
 from skillc.server.http.requests import decode_body
 from skillc.server.problems import ApiRefusal
 from skillc.services.library import compiled_libraries
-from skillc.services.library.files import SHIPPED, find_library, is_vocabulary
+from skillc.services.library.files import SHIPPED, find_library
+from skillc.services.library.source_files import is_vocabulary
 from skillc.services.project.manifest import read_manifest
 from skillc.services.project.toml_text import LONGEST as LONGEST_TOML
 from skillc.services.robot_import.reader import read_robot

@@ -3,33 +3,35 @@
 from __future__ import annotations
 
 import os
-import re
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple, NoReturn
+from typing import NamedTuple
 
 from skillc.errors import RequestError
 from skillc.services.library.ontology_imports import follow_imports
+from skillc.services.library.source_files import (
+    is_vocabulary_beside,
+    list_files_below,
+    list_files_in,
+    read_content,
+    read_source,
+    read_vocabularies,
+    user_vocabularies,
+)
 from skillc.services.project import project as projects
 from skillc.services.project.loading import find_project
 from skillc.services.project.project import SYMBOLIC, Project
 from skillc.services.reporting.files import inspect_path
-from skillc_compiler.emit.headers import is_generated
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.editions import FIRST, NEWEST
-from skillc_dsl.encoding import MOST_BYTES, decode, read_file, unpack
+from skillc_dsl.encoding import decode
 from skillc_dsl.source import Source, Span
 from skillc_ontology import catalogue
 
 SHIPPED = projects.SHIPPED
 _STDIN = Path("stdin.skill")
-_IN_TURTLE = re.compile(
-    r"^(?:<[^>\n]*>|[^#<\n])*?(?:owl:Ontology\b|<[^>\n]*owl#Ontology>)|^\s*Ontology\s*[:(]\s*<", re.MULTILINE
-)
-_NOT_TURTLE = ("<?xml", "<!", "<rdf:", "{", "[")
-_ELSEWHERE = re.compile(r"(?:owl:|owl#|&owl;)Ontology[\"\s/>]|\bontologyIRI=")
 
 
 class LibraryFiles(NamedTuple):
@@ -93,7 +95,7 @@ def find_library(path: Path) -> LibraryFiles:
         return _read_folder(path)
     if path.suffix != ".skill":
         raise RequestError(f"{path} is not a .skill file")
-    return read_single_file(path, _bytes(path))
+    return read_single_file(path, read_content(path))
 
 
 def _find_by_name(name: Path) -> Path:
@@ -114,11 +116,11 @@ def _find_by_name(name: Path) -> Path:
 def _read_folder(folder: Path) -> LibraryFiles:
     project = find_project(folder)
     root = project.root if project else folder
-    files = _files_below(root)
+    files = list_files_below(root)
     sources = {shown: file for shown, file in files.items() if shown.endswith(".skill")}
     if not sources:
         raise RequestError(f"there is no .skill file in {root}")
-    texts = tuple(_read(file, shown) for shown, file in sources.items())
+    texts = tuple(read_source(file, shown) for shown, file in sources.items())
     beside = {shown: file for shown, file in files.items() if is_vocabulary_beside(file, project)}
     name = project.name if project else root.resolve().name
     return _library(Home(name, root, project), texts, sources, {}, beside)
@@ -131,7 +133,7 @@ def read_single_file(path: Path | None, content: bytes) -> LibraryFiles:
     neighbours = {file.name: (file.name, file) for file in others}
     source = decode(path.name, content)
     project = find_project(path.parent)
-    files = _files_below(project.root) if project else _files_in(path.parent)
+    files = list_files_below(project.root) if project else list_files_in(path.parent)
     beside = {shown: file for shown, file in files.items() if is_vocabulary_beside(file, project)}
     home = Home(project.name if project else path.resolve().parent.name, path.parent, project)
     return _library(home, (source,), {path.name: path}, neighbours, beside)
@@ -166,44 +168,6 @@ def find_scene(scene: Path, folders: Sequence[Path] = ()) -> Path:
         here = " or in ".join(("here", *map(str, folders)))
         missing = f"there is no file {scene} {here}, and {error}"
         raise RequestError(missing if found.kind == "missing" else f"{scene} {found.is_what}") from error
-
-
-def user_vocabularies() -> dict[str, Path]:
-    """Return the ontologies in the folders of `--ontology` and SKILLC_ONTOLOGY, by displayed path.
-
-    RequestError for a folder that does not exist.
-    """
-    for folder in catalogue.user_folders():
-        found = inspect_path(folder)
-        if found.kind == "missing":
-            raise RequestError(f"{catalogue.VARIABLE} names {folder}, which does not exist")
-        if found.kind != "folder":
-            raise RequestError(f"{catalogue.VARIABLE} names {folder}, which {found.is_what}")
-    return dict(catalogue.user_files())
-
-
-def is_vocabulary(path: Path) -> bool:
-    """Whether a file is a vocabulary: it declares an owl:Ontology, which scenes do not, and skillc did not write it.
-
-    In functional and Manchester syntax, and in OWL/XML, a vocabulary is an ontology with a name.
-    """
-    if not path.name.endswith(catalogue.ENDINGS):
-        return False
-    try:
-        content = read_file(path)
-    except OSError:
-        return False
-    try:
-        text = unpack(content).decode("utf-8", errors="replace")
-    except OSError:
-        return True  # who reads it says what is wrong
-    written = _ELSEWHERE if text.lstrip("\ufeff \t\r\n").startswith(_NOT_TURTLE) else _IN_TURTLE
-    return bool(written.search(text)) and not is_generated(text)
-
-
-def read_vocabularies(files: Iterable[tuple[str, Path]]) -> tuple[Source, ...]:
-    """Read files; RequestError for one that cannot be read."""
-    return tuple(decode(shown, _bytes(path, most=-1)) for shown, path in files)
 
 
 class Home(NamedTuple):
@@ -242,7 +206,7 @@ def _library(
     written_in = {wanted: editions[wanted.partition("/")[0]] for wanted in of_dependencies}
     written_in |= dict.fromkeys(neighbours, edition)
     texts = {
-        wanted: _read(file, shown)._replace(edition=written_in.get(wanted, NEWEST))
+        wanted: read_source(file, shown)._replace(edition=written_in.get(wanted, NEWEST))
         for wanted, (shown, file) in sorted(importable.items())
     }
     own = tuple(each._replace(edition=edition) for each in sources)
@@ -278,7 +242,7 @@ def use_modules(folders: Iterable[Path]) -> None:
 
 def _of_dependencies(others: Iterable[Project]) -> dict[str, tuple[str, Path]]:
     """Return the skill files of other libraries by the name that imports them, with their displayed paths."""
-    every = ((f"{each.name}/{shown}", file) for each in others for shown, file in _files_below(each.root).items())
+    every = ((f"{each.name}/{shown}", file) for each in others for shown, file in list_files_below(each.root).items())
     return {shown: (shown, file) for shown, file in every if shown.endswith(".skill")}
 
 
@@ -287,15 +251,9 @@ def _vocabularies_of(others: Iterable[Project]) -> dict[str, Path]:
     return {
         f"{each.name}/{shown}": file
         for each in others
-        for shown, file in _files_below(each.root).items()
+        for shown, file in list_files_below(each.root).items()
         if is_vocabulary_beside(file, each)
     }
-
-
-def is_vocabulary_beside(file: Path, project: Project | None) -> bool:
-    """Whether a file is a vocabulary that is not in an ontology folder of the project, whose files are read anyway."""
-    folders = project.ontologies if project else ()
-    return is_vocabulary(file) and not any(file.is_relative_to(folder) for folder in folders)
 
 
 def _shipped() -> dict[str, tuple[str, Path]]:
@@ -303,39 +261,3 @@ def _shipped() -> dict[str, tuple[str, Path]]:
     files = sorted(SHIPPED.glob("*/*.skill"))
     named = ((file, f"{file.parent.name}/{file.name}") for file in files)
     return {file.name if file.parent.name == "std" else shown: (shown, file) for file, shown in named}
-
-
-def _files_below(folder: Path) -> dict[str, Path]:
-    """Return the files below a folder, in order, by their paths from there.
-
-    Hidden folders, links, other projects and virtual environments below it are not entered.
-    """
-    found: dict[str, Path] = {}
-    for name, folders, names in os.walk(folder, onerror=refuse_unreadable):
-        place = Path(name)
-        visible = (each for each in folders if not each.startswith("."))
-        folders[:] = [each for each in visible if not projects.is_nested_project(place / each)]
-        above = "" if place == folder else f"{place.relative_to(folder).as_posix()}/"
-        found |= {f"{above}{each}": place / each for each in names}
-    return dict(sorted(found.items(), key=lambda item: item[0].split("/")))
-
-
-def _files_in(folder: Path) -> dict[str, Path]:
-    """Return what is in a folder, in order, by name."""
-    return {file.name: file for file in sorted(folder.glob("*"))}
-
-
-def refuse_unreadable(error: OSError) -> NoReturn:
-    """Raise RequestError for a folder that cannot be read."""
-    raise RequestError(f"{error.filename} cannot be read: {error.strerror}") from error
-
-
-def _read(file: Path, name: str) -> Source:
-    return decode(name, _bytes(file))
-
-
-def _bytes(file: Path, most: int = MOST_BYTES) -> bytes:
-    try:
-        return unpack(read_file(file, most))
-    except OSError as error:
-        raise RequestError(f"{file} cannot be read: {error.strerror}") from error

@@ -6,12 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache, lru_cache, partial
 from typing import TypeAlias
 
-from skillc.services.library.files import (
-    LibraryFiles,
-    read_vocabularies,
-    user_vocabularies,
-)
+from skillc.services.library.files import LibraryFiles
 from skillc.services.library.ontology_imports import follow_imports
+from skillc.services.library.source_files import read_vocabularies, user_vocabularies
 from skillc_compiler import pipeline
 from skillc_compiler.diagnostics.fixes import keep_useful_fixes
 from skillc_compiler.problems import find_problems

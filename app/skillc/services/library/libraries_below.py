@@ -6,7 +6,8 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from skillc.services.library.files import LibraryFiles, find_library, refuse_unreadable
+from skillc.services.library.files import LibraryFiles, find_library
+from skillc.services.library.source_files import refuse_unreadable
 from skillc.services.project.loading import find_project
 from skillc.services.project.project import MANIFEST, VIRTUAL_ENVIRONMENT
 from skillc.services.reporting.files import inspect_path

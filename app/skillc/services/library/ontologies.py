@@ -14,9 +14,10 @@ from urllib.parse import unquote
 import msgspec
 
 from skillc.errors import RequestError
-from skillc.services.library.files import LibraryFiles, read_vocabularies
+from skillc.services.library.files import LibraryFiles
 from skillc.services.library.libraries import find_named_terms, load_vocabulary_with, shipped_sources
 from skillc.services.library.ontology_imports import follow_imports
+from skillc.services.library.source_files import read_vocabularies
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source, Span
 from skillc_rdf.formats.detect import detect_format

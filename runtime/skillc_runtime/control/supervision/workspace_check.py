@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from skillc_runtime.control.supervision.safety import Workspace
-from skillc_runtime.devices.arm_driver import Infeasible
+from skillc_runtime.devices.motion_interface import Infeasible
 from skillc_runtime.motion.pose import Array
 
 SAMPLE_S, MAX_SAMPLES = 0.02, 1000

@@ -23,9 +23,10 @@ from skillc_runtime.recording.mcap.contents import (
     make_block_schema,
 )
 from skillc_runtime.recording.mcap.foxglove_types import make_foxglove_schema
+from skillc_runtime.recording.mcap.sample_layout import SampledBlock
 from skillc_runtime.recording.mcap.sample_messages import PICTURES, SampleMessages
 from skillc_runtime.recording.mcap.signal_block import FORMAT
-from skillc_runtime.recording.mcap.signal_tap import RecordedCell, SampledBlock
+from skillc_runtime.recording.mcap.signal_tap import RecordedCell
 
 CHUNK_BYTES = 1 << 20
 

@@ -13,7 +13,8 @@ from typing import TypeAlias
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.mcap.contents import CLOSE_S, RunContents
 from skillc_runtime.recording.mcap.mcap_stream import McapStream, Metadata
-from skillc_runtime.recording.mcap.signal_tap import RecordedCell, SampledBlock
+from skillc_runtime.recording.mcap.sample_layout import SampledBlock
+from skillc_runtime.recording.mcap.signal_tap import RecordedCell
 
 MAX_EVENTS, MAX_BLOCKS = 100_000, 200
 """How many items, and how many blocks of samples among them, may wait for the disk; with more the recording ends."""

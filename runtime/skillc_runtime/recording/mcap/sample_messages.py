@@ -11,8 +11,9 @@ from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.recording.mcap.contents import SIGNALS
 from skillc_runtime.recording.mcap.foxglove import FIXED, FORCES, MOVING, SCENE, ScenePicture, describe_forces
 from skillc_runtime.recording.mcap.foxglove_types import FrameTransforms, SceneUpdate
+from skillc_runtime.recording.mcap.sample_layout import SampledBlock
 from skillc_runtime.recording.mcap.signal_block import SignalBlock, encode_columns
-from skillc_runtime.recording.mcap.signal_tap import RecordedCell, SampledBlock
+from skillc_runtime.recording.mcap.signal_tap import RecordedCell
 
 PICTURES: Mapping[type[msgspec.Struct], tuple[str, ...]] = {
     FrameTransforms: (FIXED, MOVING),

@@ -10,7 +10,7 @@ from skillc_runtime.control.kinematics import Kinematics
 from skillc_runtime.control.motion_model import ArmMotionModel
 from skillc_runtime.control.supervision.safety import SafetyLimits
 from skillc_runtime.devices.arm import ArmLimits
-from skillc_runtime.devices.arm_driver import ToolMotion
+from skillc_runtime.devices.motion_interface import ToolMotion
 from skillc_runtime.motion.paths.joint import JointTrajectory
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.reference import Overlay, Reference, Trajectory
