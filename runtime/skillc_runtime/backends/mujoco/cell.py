@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterator
 from functools import cached_property, partial
 
@@ -12,6 +13,7 @@ from skillc_runtime.backends.mujoco.parts import Drive, HalfStep, SlipWatch
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.mujoco.stillness import lie_still
 from skillc_runtime.backends.simulation.arms.brakes import Brakes
+from skillc_runtime.backends.simulation.cameras.image_camera import ImageCamera
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_checkpoint
 from skillc_runtime.backends.simulation.parts import HeldTool
@@ -21,8 +23,12 @@ from skillc_runtime.backends.simulation.steps import ForItself, OnMemory
 from skillc_runtime.backends.simulation.truth.observer import Carrier
 from skillc_runtime.backends.simulation.variation.variation import Variation, draw_variation
 from skillc_runtime.devices.backend import BackendStart
+from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.motion.numerics.program import Part
+from skillc_runtime.platforms.gl import RenderingError
 from skillc_runtime.world.state.model import WorldModel
+
+_log = logging.getLogger("skillc")
 
 
 def make_backend(world: WorldModel, start: BackendStart) -> SimulatedCell:
@@ -80,6 +86,18 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         """Whether nothing that no hand holds falls, rolls, tips or slides; nothing moves once the cell is broken."""
         held = [each.carries for each in self._hands.values()]
         return self._broken is not None or lie_still(self.scene, held, self.model, self.data)
+
+    def _make_inspection_camera(self) -> Camera:
+        """Return a camera whose images are rendered if the scene has one and GL is there, or else the usual one."""
+        spec = self.scene.image_camera
+        if spec is None:
+            return super()._make_inspection_camera()
+        try:
+            seed = self.variation.seed
+            return ImageCamera(spec, self.drawing, self.coverage, self.scene.names, self._world, seed)
+        except (RenderingError, ModuleNotFoundError) as error:
+            _log.warning("no image is rendered, and Inspect reads the map of the simulator (idealised): %s", error)
+            return super()._make_inspection_camera()
 
     def _prepare(self) -> None:
         self.physics.prepare()

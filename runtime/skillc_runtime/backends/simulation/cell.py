@@ -46,6 +46,7 @@ from skillc_runtime.devices.device_map import DeviceMap
 from skillc_runtime.devices.device_states import DeviceStates
 from skillc_runtime.devices.device_stopper import DeviceStopper
 from skillc_runtime.devices.ground_truth import GroundTruth
+from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.numerics.compiled import bind
 from skillc_runtime.motion.numerics.program import Part
@@ -110,7 +111,6 @@ class ModelledCell(ABC, Generic[A, G]):
         self._observers = {
             tool.individual: ToolObserver(tool, names, self.model, self.data, self.coverage) for tool in scene.tools
         }
-        self._camera = self._make_inspection_camera()
         self._cameras = DeviceMap("camera", self._make_cameras(), names)
         self.watchdog = HeartbeatWatchdog()
         self._buttons = DeviceMap("button", make_buttons(scene.fixtures, variation.fixtures, names, self.data), names)
@@ -124,6 +124,7 @@ class ModelledCell(ABC, Generic[A, G]):
         self.stops = SimulatedStops(self._drivers, self._stopper, self._states, names)
         self.disturber = SimulatedDisturber(self, scene, self.model, self.data, self._hands, self.stops)
         self.drawing = ModelDrawing(scene, variation, self.model, self.data)
+        self._camera = self._make_inspection_camera()
         self.live = make_live_signals(scene, self.period_s, self.arms, self._drivers, self.model, self.data)
         self.capabilities = BackendCapabilities(
             lock_step=self, judge=self, truth=self.ground_truth, drawing=self.drawing, disturber=self.disturber,
@@ -195,7 +196,7 @@ class ModelledCell(ABC, Generic[A, G]):
         """Return a camera that estimates poses; KeyError if the cell has no such camera."""
         return self._cameras[individual]
 
-    def camera(self) -> SimulatedCamera:
+    def camera(self) -> Camera:
         """Return the camera that inspects surfaces."""
         return self._camera
 
@@ -343,7 +344,7 @@ class ModelledCell(ABC, Generic[A, G]):
     def _step_gripper(self, gripper: G, now: float) -> None:
         gripper.step(self._timestep)
 
-    def _make_inspection_camera(self) -> SimulatedCamera:
+    def _make_inspection_camera(self) -> Camera:
         """Return the camera that inspects surfaces; its errors follow from the seed."""
         return SimulatedCamera(self.coverage, self.scene.inspection, self.variation.seed)
 

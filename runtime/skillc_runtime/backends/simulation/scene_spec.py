@@ -10,6 +10,7 @@ import msgspec
 
 from skillc_runtime.backends.simulation.cameras.camera import EXACT_INSPECTION, InspectionSpec, read_inspection_camera
 from skillc_runtime.backends.simulation.cameras.camera_spec import CameraSpec, read_cameras
+from skillc_runtime.backends.simulation.cameras.image_camera_spec import ImageCameraSpec, read_image_camera
 from skillc_runtime.backends.simulation.displacement import DisplacementRange, read_displacement_ranges
 from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec, read_fixtures
 from skillc_runtime.backends.simulation.friction import read_friction_range
@@ -181,6 +182,7 @@ class SceneSpec(msgspec.Struct, frozen=True):
     people: tuple[PersonSpec, ...] = ()
     cameras: tuple[CameraSpec, ...] = ()
     inspection: InspectionSpec = EXACT_INSPECTION
+    image_camera: ImageCameraSpec | None = None
     displaced: tuple[DisplacementRange, ...] = ()
 
     @property
@@ -209,6 +211,7 @@ def read_scene_spec(state: WorldState) -> SceneSpec:
         people=read_people(state),
         cameras=read_cameras(state),
         inspection=read_inspection_camera(state),
+        image_camera=read_image_camera(state),
         displaced=read_displacement_ranges(state),
     )
 

@@ -1,0 +1,78 @@
+"""The specification of a camera that takes images of surfaces, read from the facts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import msgspec
+import numpy as np
+
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.vision.inspected_surface import InspectedSurface, Markers
+from skillc_runtime.vision.lens import Lens
+from skillc_runtime.world.space.frames import moves_with, pose, size
+from skillc_runtime.world.state.data_sheet import DataSheet, SheetError, number_of, sheet_of
+from skillc_runtime.world.state.terms import INSPECTION_CAMERA, MOBILE_ROBOT, SKILLC, SURFACE
+from skillc_runtime.world.state.world_state import WorldState
+
+IMAGE_SHEET, MARKER_SIZE, FIRST_MARKER, DIRT_REMOVAL = (
+    SKILLC + name for name in ("ImageSheet", "markerSize", "firstMarker", "dirtRemoval")
+)
+
+
+class ImageCameraSpec(msgspec.Struct, frozen=True):
+    """A camera that stands still and takes images: its believed pose in the world, lens and errors.
+
+    It is really up to `mount_m` along and `mount_rad` about each axis from there. A pixel is full at `full_well`
+    electrons and is read with a noise of `read_noise`. surfaces: those with markers, by IRI; removal_s: for each of
+    them, the time in s under a pressed tool in which its dirt falls to 1/e.
+    """
+
+    individual: str
+    pose: Pose
+    lens: Lens
+    mount_m: float
+    mount_rad: float
+    full_well: float
+    read_noise: float
+    surfaces: Mapping[str, InspectedSurface]
+    removal_s: Mapping[str, float]
+
+
+def read_image_camera(state: WorldState) -> ImageCameraSpec | None:
+    """Read the first inspection camera in order of IRI if it takes images, else return None.
+
+    SheetError or FrameError if a fact is missing, or if a robot moves the camera.
+    """
+    known = {INSPECTION_CAMERA, IMAGE_SHEET} <= set(state.vocabulary.classes)
+    cameras = sorted(state.instances(INSPECTION_CAMERA)) if known else []
+    sheet = sheet_of(state, cameras[0]) if cameras else None
+    if sheet is None or sheet.individual not in state.instances(IMAGE_SHEET):
+        return None
+    short = state.vocabulary.short
+    if any(moves_with(state, cameras[0], robot) for robot in sorted(state.instances(MOBILE_ROBOT))):
+        raise SheetError(f"{short(cameras[0])} moves with a robot; only cameras that stand still take images")
+    marked = [each for each in sorted(state.instances(SURFACE)) if state.value(each, MARKER_SIZE) is not None]
+    return ImageCameraSpec(
+        individual=cameras[0],
+        pose=pose(state, cameras[0]),
+        lens=_lens(sheet),
+        mount_m=sheet.number("mountError"),
+        mount_rad=sheet.number("mountTilt"),
+        full_well=sheet.number("fullWell"),
+        read_noise=sheet.number("readNoise"),
+        surfaces={each: _surface(state, each) for each in marked},
+        removal_s={each: number_of(state, each, DIRT_REMOVAL) for each in marked},
+    )
+
+
+def _lens(sheet: DataSheet) -> Lens:
+    width, height = (round(sheet.number(name)) for name in ("imageWidth", "imageHeight"))
+    focal = sheet.number("focalPixels")
+    return Lens(width, height, focal, focal, (width - 1) / 2, (height - 1) / 2)
+
+
+def _surface(state: WorldState, surface: str) -> InspectedSurface:
+    first = round(number_of(state, surface, FIRST_MARKER, default=0.0))
+    markers = Markers(number_of(state, surface, MARKER_SIZE), first)
+    return InspectedSurface(np.array(size(state, surface)[:2]), markers=markers)

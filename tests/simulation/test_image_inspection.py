@@ -1,0 +1,126 @@
+"""A camera that takes images calls a table clean because of its pixels, and only as far as they show it."""
+
+import logging
+
+import numpy as np
+import pytest
+from cells import LAB, cell
+
+pytest.importorskip("cv2")
+
+from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.simulation.cameras import photographer
+from skillc_runtime.backends.simulation.cameras.camera import SimulatedCamera
+from skillc_runtime.backends.simulation.cameras.image_camera import PIXELS_PER_CELL, ImageCamera
+from skillc_runtime.devices.device_map import NoSuchDevice
+from skillc_runtime.motion.pose import Array
+from skillc_runtime.platforms.gl import RenderingError, make_gl_context
+from skillc_runtime.primitives.inspect import Inspect
+from skillc_runtime.vision.cell_map import CLEAN, DIRTY, DIRTY_AMOUNT, UNSEEN
+from skillc_runtime.world.state.changes import ClearProperty, SetProperty
+from skillc_runtime.world.state.terms import COVERAGE, IS_CLEAN, SKILLC
+
+pytestmark = pytest.mark.slow
+TABLE = LAB + "Table-1"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def gl() -> None:
+    """Skip where no GL library draws off screen."""
+    try:
+        _, context = make_gl_context(16, 16)
+    except RenderingError as error:
+        pytest.skip(str(error))
+    context.free()
+
+
+def eye(there: SimulatedCell) -> ImageCamera:
+    camera = there.camera()
+    assert isinstance(camera, ImageCamera)
+    return camera
+
+
+def true_cells(camera: ImageCamera) -> Array:
+    fine = camera.true_amounts(TABLE)
+    rows, columns = (each // PIXELS_PER_CELL for each in fine.shape)
+    return fine.reshape(rows, PIXELS_PER_CELL, columns, PIXELS_PER_CELL).mean(axis=(1, 3))
+
+
+def inspect(there: SimulatedCell) -> None:
+    primitive = Inspect(there, surface=TABLE)
+    primitive.start()
+    primitive.tick()
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_the_map_of_pixels_is_that_of_the_dirt(seed: int) -> None:
+    there = cell("iiwa_watched", seed)
+    dose = there.coverage[TABLE].dose
+    dose[10:70, 5:50] = 1.0  # well rubbed
+    dose[:10, :20] = 0.1  # dirt falls to a third of what it was, which is still dirty
+    camera = eye(there)
+    seen, dirty = camera.look(TABLE), true_cells(camera) >= DIRTY_AMOUNT
+    assert dirty[:4, :8].all()
+    found = seen.state == DIRTY
+    assert (found & dirty).sum() > 300
+    assert (found & dirty).sum() >= 0.98 * found.sum(), "precision"
+    assert (found & dirty).sum() >= 0.98 * (dirty & (seen.state != UNSEEN)).sum(), "recall"
+    assert (seen.state == CLEAN).sum() > 500
+
+
+def test_inspect_is_sensed_and_counts_only_what_is_seen() -> None:
+    there = cell("iiwa_watched", 0)
+    inspect(there)
+    state = there.world.snapshot()
+    assert state.value(TABLE, IS_CLEAN) is False
+    assert state.value(TABLE, COVERAGE) < 0.02
+    there.coverage[TABLE].dose[:] = 1.0
+    inspect(there)
+    state = there.world.snapshot()
+    assert state.value(TABLE, IS_CLEAN) is True
+    assert there.camera().evidence == "sensed"
+
+
+def test_an_arm_over_the_table_hides_what_is_below_it() -> None:
+    there = cell("iiwa_watched", 0)
+    there.coverage[TABLE].dose[:] = 1.0
+    camera = eye(there)
+    assert camera.look(TABLE).seen_share > 0.95
+    there.data.qpos[:7] = (0.1, 1.1, 0.0, -1.0, 0.0, 1.0, 0.0)
+    there.refresh()
+    seen = camera.look(TABLE)
+    assert seen.seen_share < 0.9
+    assert (seen.state != DIRTY).mean() > 0.99
+
+
+def test_nothing_is_claimed_of_a_table_without_markers_or_out_of_view() -> None:
+    there = cell("iiwa_watched", 0)
+    with pytest.raises(KeyError):
+        there.camera().inspect(LAB + "Elsewhere")
+    there.world.commit([SetProperty(TABLE, "http://rvmi.aau.dk/ontologies/skiros.owl#PositionX", 0.9)])
+    with pytest.raises(NoSuchDevice, match=r"does not show where lab:Table-1 is: .* from where it is believed to be"):
+        there.camera().inspect(TABLE)
+    there.world.commit([ClearProperty(TABLE, SKILLC + "markerSize")])
+    with pytest.raises(NoSuchDevice, match="rubbed"):
+        there.camera().rubbed_share(TABLE, 1.0)
+
+
+def test_without_a_gl_library_inspection_is_idealised_and_says_why(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    def refuse(width: int, height: int) -> None:
+        raise RenderingError("no GL library draws off screen; on Debian: apt install libegl1")
+
+    monkeypatch.setattr(photographer, "make_gl_context", refuse)
+    with caplog.at_level(logging.WARNING, "skillc"):
+        camera = cell("iiwa_watched").camera()
+    assert isinstance(camera, SimulatedCamera)
+    assert camera.evidence == "idealised"
+    assert "apt install libegl1" in caplog.text
+    assert "idealised" in caplog.text
+
+
+def test_the_same_seed_gives_the_same_image() -> None:
+    first, again, other = (eye(cell("iiwa_watched", seed)).take_photo(TABLE).image for seed in (3, 3, 4))
+    assert (first == again).all()
+    assert np.abs(first.astype(int) - other).mean() > 1
