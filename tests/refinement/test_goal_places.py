@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
+from click.testing import CliRunner, Result
 
 from refinement.mat_cell import SCENE
 from skillc.cli.main import skillc
@@ -38,30 +38,29 @@ def write_boxes(folder: Path, *fixed: tuple[str, tuple[float, ...], tuple[float,
     return path
 
 
-def ask(command: str, scene: Path, *options: str) -> tuple[int, str]:
+def ask(command: str, scene: Path, *options: str) -> Result:
     asked = [command, "--library", "sorting", "--scene", str(scene), "--goal", BOTH, *options]
-    ran = CliRunner().invoke(skillc, asked)
-    return ran.exit_code, ran.output
+    return CliRunner().invoke(skillc, asked)
 
 
 @pytest.mark.slow
 def test_of_two_places_that_are_blocked_both_are_named(tmp_path: Path) -> None:
     scene = write_boxes(tmp_path, LUMP, BOARD)
     for command, options in (("plan", ("--no-plan-cache",)), ("run", ("--no-film",))):
-        exit_code, told = ask(command, scene, *options)
-        assert exit_code == 3
-        assert f"lab:Part-A {FREE} lab:Box-A is clear of lab:Board" in told
-        assert f"lab:Part-B {FREE} lab:Box-B is clear of lab:Lump" in told
+        ran = ask(command, scene, *options)
+        assert ran.exit_code == 3
+        assert f"lab:Part-A {FREE} lab:Box-A is clear of lab:Board" in ran.output
+        assert f"lab:Part-B {FREE} lab:Box-B is clear of lab:Lump" in ran.output
 
 
 @pytest.mark.slow
 def test_a_place_that_is_free_is_not_named(tmp_path: Path) -> None:
-    exit_code, told = ask("plan", write_boxes(tmp_path, LUMP), "--no-plan-cache")
-    assert exit_code == 3 and told.count("cannot be put down") == 1
-    assert f"lab:Part-B {FREE} lab:Box-B is clear of lab:Lump" in told
+    ran = ask("plan", write_boxes(tmp_path, LUMP), "--no-plan-cache")
+    assert ran.exit_code == 3 and ran.output.count("cannot be put down") == 1
+    assert f"lab:Part-B {FREE} lab:Box-B is clear of lab:Lump" in ran.output
 
 
 @pytest.mark.slow
 def test_a_plan_is_as_it_was(tmp_path: Path) -> None:
-    exit_code, told = ask("plan", write_boxes(tmp_path), "--no-plan-cache", "--json")
-    assert exit_code == 0 and json.loads(told)["space"]["checked"] == 4
+    ran = ask("plan", write_boxes(tmp_path), "--no-plan-cache", "--json")
+    assert ran.exit_code == 0 and json.loads(ran.stdout)["space"]["checked"] == 4
