@@ -121,7 +121,9 @@ class Body:
         random = self.writer.random
         if depth == 0 or self.left <= 0 or random.random() < 0.25:
             return self.leaf()
-        kind = random.choice(("seq", "seq", "seq", "sel", "par", "reactive", "around", "around", "loop", "if", "with"))
+        kind = random.choice(
+            ("seq", "seq", "seq", "sel", "par", "reactive", "around", "around", "loop", "if", "with", "handled")
+        )
         match kind:
             case "seq" | "sel":
                 return f"{kind} {self.nodes(depth, 1, 4)}"
@@ -137,6 +139,8 @@ class Body:
             case "if":
                 otherwise = f" else {self.nodes(depth, 1, 2)}" if random.random() < 0.5 else ""
                 return f"if {self.condition()} {self.nodes(depth, 1, 2)}{otherwise}"
+            case "handled":
+                return f"seq {self.nodes(depth, 1, 3)} on failure {self.nodes(depth, 1, 2)}"
             case _:
                 return f"with Setup({self.arguments()}) {self.nodes(depth, 1, 2)}"
 
