@@ -29,7 +29,7 @@ from skillc_runtime.backends.control_process.link import (
 from skillc_runtime.backends.control_process.memory_plan import TIME, MemoryPlan
 from skillc_runtime.backends.control_process.periods.controlled_arm import ControlledArm
 from skillc_runtime.backends.control_process.periods.pacing import CycleClock
-from skillc_runtime.backends.control_process.periods.publisher import Publisher
+from skillc_runtime.backends.control_process.periods.publisher import StatePublisher
 from skillc_runtime.backends.control_process.remote.host import ControlProcess
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
 from skillc_runtime.devices.guarded_push import GuardedPush, Travel
@@ -111,7 +111,7 @@ def measure_costs(scene: str, periods: int = 3000) -> None:
     arm.begin(measured, 0.0)
     arm.driver.motion.hold_position()
     plan = MemoryPlan(facts.home.size)
-    publisher = Publisher(plan, np.zeros(plan.size), arm, measured, CycleClock(PERIOD_S))
+    publisher = StatePublisher(plan, np.zeros(plan.size), arm, measured, CycleClock(PERIOD_S))
     parts: dict[str, Any] = {
         "model": lambda now: arm.arm.measure(measured, now),
         "model, law, limits": lambda now: arm.step(measured, now),

@@ -9,19 +9,19 @@ import numpy as np
 
 from skillc.services.run.dry_runs import write_commands
 from skillc_runtime.devices.arm import ArmLimits, Mode
-from skillc_runtime.devices.command_record import ArmCommands
+from skillc_runtime.devices.command_record import RecordedCommands
 
 ONES = np.ones(2)
 LIMITS = ArmLimits(np.array([[-1.0, 1.0], [-1.0, 1.0]]), ONES, ONES, ONES)
 
 
 class Record:
-    def commands(self) -> tuple[ArmCommands, ...]:
+    def commands(self) -> tuple[RecordedCommands, ...]:
         return (sent("lab:A", "position", ("pan", "lift")), sent("lab:B", "torque", ("pan", "elbow")))
 
 
-def sent(arm: str, mode: Mode, joints: tuple[str, ...]) -> ArmCommands:
-    return ArmCommands(arm, mode, joints, LIMITS, np.array([0.0, 0.5]), np.array([[0.1, 0.2], [0.3, 0.4]]), 0)
+def sent(arm: str, mode: Mode, joints: tuple[str, ...]) -> RecordedCommands:
+    return RecordedCommands(arm, mode, joints, LIMITS, np.array([0.0, 0.5]), np.array([[0.1, 0.2], [0.3, 0.4]]), 0)
 
 
 def test_the_commands_of_several_arms_are_one_table(tmp_path: Path) -> None:

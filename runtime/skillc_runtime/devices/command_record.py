@@ -13,7 +13,7 @@ from skillc_runtime.motion.pose import Array
 UNITS: dict[Mode, str] = {"torque": "N m", "position": "rad", "velocity": "rad/s"}
 
 
-class ArmCommands(msgspec.Struct, frozen=True):
+class RecordedCommands(msgspec.Struct, frozen=True):
     """The commands of one arm: `values` (n, nv) in N m, rad or rad/s at `times_s` (n,); `altered` by limits were so
     many."""
 
@@ -42,6 +42,6 @@ class ArmCommands(msgspec.Struct, frozen=True):
 class CommandRecord(Protocol):
     """Keeps what would be sent."""
 
-    def commands(self) -> tuple[ArmCommands, ...]:
+    def commands(self) -> tuple[RecordedCommands, ...]:
         """Return the commands of all arms, in the order of their names."""
         ...

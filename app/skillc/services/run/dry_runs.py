@@ -11,7 +11,7 @@ from skillc.services.run.connecting import connected_devices
 from skillc.services.run.unstarted_runs import CannotBegin
 from skillc_runtime.backends.control_process.dry_cell import DryCell
 from skillc_runtime.devices.backend import Backend
-from skillc_runtime.devices.command_record import UNITS, ArmCommands, CommandRecord
+from skillc_runtime.devices.command_record import UNITS, CommandRecord, RecordedCommands
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
@@ -53,7 +53,7 @@ def write_commands(record: CommandRecord, folder: Path) -> None:
         raise ServiceError(f"{folder / COMMANDS} cannot be written: {error.strerror}") from error
 
 
-def _list_rows(sent: ArmCommands) -> Iterator[dict[str, str]]:
+def _list_rows(sent: RecordedCommands) -> Iterator[dict[str, str]]:
     """Yield a row for each command of an arm."""
     about = {"arm": sent.arm, "kind": sent.mode, "unit": UNITS[sent.mode]}
     for time_s, values in zip(sent.times_s, sent.values, strict=True):

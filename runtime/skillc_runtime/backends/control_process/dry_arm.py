@@ -11,7 +11,7 @@ from skillc_runtime.backends.control_process.periods.facts import read_rate_limi
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.devices.arm import ArmState, Command, Mode, command_values
-from skillc_runtime.devices.command_record import ArmCommands
+from skillc_runtime.devices.command_record import RecordedCommands
 from skillc_runtime.motion.numerics.program import Rows
 from skillc_runtime.motion.pose import Array
 
@@ -45,11 +45,11 @@ class CommandKeeper:
         self.values.append(limited)
         return type(command)(limited)
 
-    def collect(self, arm: SimulatedArm, name: str) -> ArmCommands:
+    def collect(self, arm: SimulatedArm, name: str) -> RecordedCommands:
         """Return what was kept."""
         mode: Mode = arm.interface
         values = np.array(self.values).reshape(len(self.values), len(self.joints))
-        return ArmCommands(name, mode, self.joints, arm.limits, np.array(self.times_s), values, self.altered)
+        return RecordedCommands(name, mode, self.joints, arm.limits, np.array(self.times_s), values, self.altered)
 
 
 class DryArm(SimulatedArm):

@@ -12,7 +12,7 @@ from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
 from skillc_runtime.backends.simulation.arms.start_postures import find_overlap
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
-from skillc_runtime.devices.command_record import ArmCommands
+from skillc_runtime.devices.command_record import RecordedCommands
 from skillc_runtime.devices.observed import ObservedArm, ObservedCell
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -36,7 +36,7 @@ class DryCell(SimulatedCell):
         super().__init__(world, seed, STEP_S, max(1, round(period_s / STEP_S)))
         self.capabilities = replace(self.capabilities, checkpoints=None, commands=self)
 
-    def commands(self) -> tuple[ArmCommands, ...]:
+    def commands(self) -> tuple[RecordedCommands, ...]:
         """Return the commands of all arms."""
         return tuple(arm.keeper.collect(arm, name) for name, arm in sorted(self._kept.items()))
 

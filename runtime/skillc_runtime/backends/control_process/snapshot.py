@@ -53,7 +53,7 @@ def _count(size: str, joints: int) -> int:
 
 
 @dataclass(frozen=True, slots=True)
-class Snapshot:
+class ControlSnapshot:
     """A copy of what a control process has published."""
 
     layout: FieldLayout

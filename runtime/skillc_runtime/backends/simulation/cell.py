@@ -26,7 +26,7 @@ from skillc_runtime.backends.simulation.model.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.model.model_builder import build_model
 from skillc_runtime.backends.simulation.model.mujoco_warnings import log_warnings
 from skillc_runtime.backends.simulation.names import part_name
-from skillc_runtime.backends.simulation.parts import ControlledArm, Listening
+from skillc_runtime.backends.simulation.parts import ArmPart, Listening
 from skillc_runtime.backends.simulation.saved_cell import read_posture, restore_cell, save_cell
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
 from skillc_runtime.backends.simulation.steps import Due, ForItself, InPython, OnMemory, Steps, is_due
@@ -321,7 +321,7 @@ class ModelledCell(ABC, Generic[A, G]):
     def _control_part(self, individual: str) -> Part:
         """Return what runs the control periods of an arm."""
         is_lost = partial(self._stopper.lost.__contains__, individual)
-        return ControlledArm(self.arms[individual], self._drivers[individual], is_lost)
+        return ArmPart(self.arms[individual], self._drivers[individual], is_lost)
 
     def _device_parts(self) -> Iterator[Part]:
         """Yield what acts in each step: grippers, motors, people."""

@@ -12,7 +12,7 @@ from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.motion.numerics.program import IDLE, Part, Rows, join, row_of
 
 
-class ControlledArm:
+class ArmPart:
     """A control period of one arm: its driver measures, computes and commands, unless the arm was lost."""
 
     def __init__(self, arm: ModelledArm, driver: CompliantArmDriver, is_lost: Callable[[], bool]) -> None:

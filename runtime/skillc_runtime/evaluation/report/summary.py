@@ -8,7 +8,7 @@ from typing import Any, Literal, cast
 from msgspec import structs
 
 from skillc_runtime.devices.backend import Backend
-from skillc_runtime.devices.command_record import ArmCommands
+from skillc_runtime.devices.command_record import RecordedCommands
 from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets, measure_placements
 from skillc_runtime.evaluation.report.result import (
     ChoiceResult,
@@ -99,7 +99,7 @@ def summarise_recording(start: TaskResult, history: RunHistory, wall_time_s: flo
     return _add_history(_add_times(result, history.last, wall_time_s), history)
 
 
-def _summarise_commands(sent: ArmCommands) -> CommandsResult:
+def _summarise_commands(sent: RecordedCommands) -> CommandsResult:
     joint = int(sent.shares.argmax())
     return CommandsResult(
         arm=sent.arm,

@@ -14,7 +14,7 @@ from skillc_runtime.evaluation.trials import dask_worker
 from skillc_runtime.evaluation.trials.hosting import (
     Case,
     Prepare,
-    Refused,
+    SeriesRefused,
     TrialAnswer,
     Tried,
     end_idle_children,
@@ -104,7 +104,7 @@ def _read(seed: int, future: Future[TrialAnswer]) -> Tried:
     match answer:
         case Tried():
             return answer
-        case Refused(why):
+        case SeriesRefused(why):
             raise ExecutorError(why)
         case _:
             assert_never(answer)

@@ -73,13 +73,13 @@ class Tried:
 
 
 @dataclass(frozen=True, slots=True)
-class Refused:
+class SeriesRefused:
     """A worker runs no trials of this series; `why` is a sentence about it."""
 
     why: str
 
 
-TrialAnswer: TypeAlias = Tried | Refused
+TrialAnswer: TypeAlias = Tried | SeriesRefused
 
 
 def make_order(prepare: Prepare, limit_s: float) -> TrialOrder:
@@ -93,10 +93,12 @@ def run_trial(order: TrialOrder, case: Case) -> TrialAnswer:
     A trial that raises an exception, takes too long, or of which ATTEMPTS processes die has crashed.
     """
     if identify_skillc() != order.skillc:
-        return Refused(f"{_here()} has skillc {identify_skillc()}, here it is {order.skillc}; install the same on both")
+        return SeriesRefused(
+            f"{_here()} has skillc {identify_skillc()}, here it is {order.skillc}; install the same on both"
+        )
     for attempt in range(1, ATTEMPTS + 1):
         child = _take_child(order)
-        if isinstance(child, Refused):
+        if isinstance(child, SeriesRefused):
             return child
         began = time.monotonic()
         result = child.answer(case, order, order.limit_s)
@@ -116,7 +118,7 @@ def run_trial(order: TrialOrder, case: Case) -> TrialAnswer:
                 return Tried(_crashed(case.seed, f"it took longer than {order.limit_s:g} s"), took_s)
             case _:
                 break
-    return Refused("nobody wants the trial")
+    return SeriesRefused("nobody wants the trial")
 
 
 class _Child:
@@ -173,7 +175,7 @@ def end_idle_children() -> None:
         child.end()
 
 
-def _take_child(order: TrialOrder) -> _Child | Refused:
+def _take_child(order: TrialOrder) -> _Child | SeriesRefused:
     """Return a process that is prepared."""
     while (child := _pop_idle()) is not None:
         if child.program == order.program:
@@ -186,13 +188,13 @@ def _take_child(order: TrialOrder) -> _Child | Refused:
                 return child
             case Raised(why):
                 child.end()
-                return Refused(f"{_here()} cannot run the trials: {why}")
+                return SeriesRefused(f"{_here()} cannot run the trials: {why}")
             case Died(why) if attempt == ATTEMPTS:
-                return Refused(f"{_here()} cannot run the trials: {why}")
+                return SeriesRefused(f"{_here()} cannot run the trials: {why}")
             case Died():
                 pass
             case None:
-                return Refused(f"{_here()} cannot run the trials: it took longer than {PREPARATION_LIMIT_S:g} s")
+                return SeriesRefused(f"{_here()} cannot run the trials: it took longer than {PREPARATION_LIMIT_S:g} s")
             case other:
                 assert_never(other)
     raise AssertionError("the last attempt returns")

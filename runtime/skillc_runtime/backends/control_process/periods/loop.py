@@ -20,7 +20,7 @@ from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
 from skillc_runtime.backends.control_process.periods.call_desk import CallDesk
 from skillc_runtime.backends.control_process.periods.controlled_arm import ControlledArm
 from skillc_runtime.backends.control_process.periods.pacing import CycleClock
-from skillc_runtime.backends.control_process.periods.publisher import Publisher
+from skillc_runtime.backends.control_process.periods.publisher import StatePublisher
 from skillc_runtime.backends.control_process.snapshot import Phase
 from skillc_runtime.control.measured import is_still
 from skillc_runtime.devices.arm import ArmLoad
@@ -49,7 +49,7 @@ class ControlLoop:
         self._link, self._arm, self._mailbox, self._desk = link, arm, mailbox, CallDesk(arm)
         self._beat, self._patience = plan.beat(memory), patience
         self._measured, self._clock = make_state(plan.layout.joints), CycleClock(link.period_s)
-        self._publisher = Publisher(plan, memory, arm, self._measured, self._clock)
+        self._publisher = StatePublisher(plan, memory, arm, self._measured, self._clock)
         self._phase: Phase = "connected"
         self._condition: DeviceCondition | None = None
         self._seen = self._rested = monotonic()

@@ -16,7 +16,7 @@ SLOW_S = 0.01
 """What only skills read is computed this often, and after each call."""
 
 
-class Publisher:
+class StatePublisher:
     """Publishes one arm, once a cycle and after each call; `memory` is of a `MemoryPlan`."""
 
     def __init__(

@@ -20,7 +20,7 @@ from skillc_runtime.backends.control_process.link import CALL_S
 from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
 from skillc_runtime.backends.control_process.message_socket import MessageSocket
 from skillc_runtime.backends.control_process.shared_memory import SharedRecord, SharedRing, make_memory, map_memory
-from skillc_runtime.backends.control_process.snapshot import FieldLayout, Snapshot
+from skillc_runtime.backends.control_process.snapshot import ControlSnapshot, FieldLayout
 from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable
 from skillc_runtime.motion.arrays import OutVector
 from skillc_runtime.platforms.processes import INHERITS_SOCKETS
@@ -71,11 +71,11 @@ class ControlProcess:
         """The number of joints."""
         return self._plan.layout.joints
 
-    def read(self) -> Snapshot:
+    def read(self) -> ControlSnapshot:
         """Return a copy of what was published last; its arrays are read-only."""
         values = self._record.read()
         values.flags.writeable = False
-        return Snapshot(self._plan.layout, values)
+        return ControlSnapshot(self._plan.layout, values)
 
     def call(self, part: Part, name: str, *arguments: Any, wait_s: float = ANSWER_S) -> Any:
         """Return what a call returns, or raise what it raises; BackendBroken if there is no answer."""

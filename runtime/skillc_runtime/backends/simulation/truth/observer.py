@@ -13,8 +13,8 @@ from skillc_runtime.backends.simulation.names import contact_sensor_name, face_s
 from skillc_runtime.backends.simulation.scene_spec import ToolSpec
 from skillc_runtime.backends.simulation.truth.recorder import (
     RecordedSteps,
-    Recorder,
     SampledReference,
+    ToolRecorder,
     put_reference,
     record,
 )
@@ -134,7 +134,7 @@ class ToolObserver:
         name = names[facts.individual]
         first = int(model.sensor(face_sensor_name(name, "touch")).adr[0])
         truth = data.sensordata[first : first + 11]
-        self.recorder, self.peak_force, self._steps = Recorder(truth), PeakForce(name, model, data), np.zeros(1)
+        self.recorder, self.peak_force, self._steps = ToolRecorder(truth), PeakForce(name, model, data), np.zeros(1)
         self._greatest = np.zeros(1)
         size, reach = np.array(facts.size[:2]), float(np.hypot(*facts.size[:2])) / 2
         rest = truth, size, reach, STEPS_PER_UPDATE * model.opt.timestep, self._greatest, self._steps

@@ -72,7 +72,7 @@ def put_reference(sampled: SampledReference, time: float) -> None:
     sampled.greatest[0] = 0.0
 
 
-class Recorder:
+class ToolRecorder:
     """Records one row per step for one tool, and the reference, which is smooth, at a lower rate."""
 
     def __init__(self, truth: Array, expected_steps: int = 1 << 16) -> None:
