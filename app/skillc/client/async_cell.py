@@ -13,7 +13,6 @@ from skillc.client.async_operation import AsyncOperation
 from skillc.client.calls import CellCalls
 from skillc.client.experiments import run_job
 from skillc.client.feed import follow_samples
-from skillc.client.requests import describe_operation, describe_order
 from skillc.contract.api.endpoints import (
     ADD_ORDER,
     DISTURB_CELL,
@@ -31,7 +30,8 @@ from skillc.contract.api.endpoints import (
 )
 from skillc.contract.cell import CellStatus, Disturbance, PaceSetting
 from skillc.contract.job import FILM, Job, PlanResult, RunResult, TaskResult, TrialsResult
-from skillc.contract.order import Order
+from skillc.contract.operation import OperationRequest
+from skillc.contract.order import Missed, Order, OrderRequest
 from skillc.contract.plan import PlanPreview, PlanRequest
 from skillc.contract.rehearsal import RehearsalRequest
 from skillc.contract.runs.history import HistoryPage
@@ -48,6 +48,7 @@ from skillc.contract.world import (
     WorldWrite,
     WritePage,
 )
+from skillc.errors import RequestError
 from skillc.values.arguments import (
     optional_seconds,
     optional_text,
@@ -57,6 +58,7 @@ from skillc.values.arguments import (
     require_count,
     require_text,
 )
+from skillc.values.keywords import read_keywords
 from skillc.values.run_keywords import OperationKeywords, OrderKeywords
 from skillc.values.trials import Trials
 
@@ -78,7 +80,7 @@ class AsyncCell(CellCalls):
         primitive or a wait if it has not ended `step_deadline_s` s after its start. It pauses before its first call
         with `step`, and before each SKILL or FILE:LINE of `breakpoints`. The same `key` twice is one operation.
         """
-        request = describe_operation(task, settings, OperationKeywords)
+        request = _describe_operation(task, settings, OperationKeywords)
         status = await self._connection.call(SUBMIT_OPERATION, self.name, body=request, key=key or str(uuid4()))
         return AsyncOperation(self._connection, status)
 
@@ -91,7 +93,7 @@ class AsyncCell(CellCalls):
         the last one that was missed is submitted as soon as it is, or none with `missed="skip"`. The other parameters
         are those of `start`.
         """
-        order = describe_order(describe_operation(task, settings, OrderKeywords), at, settings)
+        order = _describe_order(_describe_operation(task, settings, OrderKeywords), at, settings)
         return await self._connection.call(ADD_ORDER, self.name, body=order, key=key or str(uuid4()))
 
     async def remove_order(self, order: str) -> None:
@@ -240,3 +242,20 @@ class AsyncCell(CellCalls):
     def samples(self, rate_hz: float = 10.0) -> AsyncGenerator[Sample, None]:
         """Yield what moves in it, `rate_hz` times a second at most, up to 50; who takes them slowly gets fewer."""
         return follow_samples(self._connection, self.name, rate_hz)
+
+
+def _describe_operation(task: str | None, settings: Mapping[str, Any], known: type) -> OperationRequest:
+    """Return a request for exactly one of a task, a goal and a skill call, as keyword arguments say."""
+    request = read_keywords(OperationRequest, settings, known, task)
+    if [request.task, request.goal, request.call].count(None) != 2:
+        raise RequestError("name exactly one of a task, a goal and a skill call")
+    return request
+
+
+def _describe_order(request: OperationRequest, at: datetime, times: OrderKeywords) -> OrderRequest:
+    """Return a request to submit something at a time, once or repeatedly."""
+    until, missed = times.get("until"), times.get("missed", "run-once")
+    if at.tzinfo is None or (until is not None and until.tzinfo is None):
+        raise RequestError("`at` and `until` need their offset from UTC, such as `datetime.now(UTC)` has")
+    choice, every_s = require_choice(missed, Missed, "`missed`"), optional_seconds(times.get("every_s"), "`every_s`")
+    return OrderRequest(request, at, every_s, until, times.get("count"), choice)

@@ -25,10 +25,8 @@ from skillc.contract.api.endpoints import (
     SUBMIT_OPERATION,
 )
 from skillc.contract.commands import Command
-from skillc.contract.job import RunResult, TaskResult
-from skillc.contract.operation import ENDS, ContactState, Decision, OperationRequest, OperationStatus, State
-from skillc.contract.report import ReportRequest
-from skillc.contract.stopping import StopReason
+from skillc.contract.job import ReportRequest, RunResult, TaskResult
+from skillc.contract.operation import ENDS, ContactState, Decision, OperationRequest, OperationStatus, State, StopReason
 from skillc.errors import RequestError
 from skillc.events import Envelope, Prompt, StateChanged, TaskEnded
 

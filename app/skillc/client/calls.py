@@ -49,21 +49,18 @@ from skillc.contract.api.endpoints import (
 )
 from skillc.contract.api.version import VersionInfo
 from skillc.contract.audit import AuditEntry, AuditPage
-from skillc.contract.cell import CellCheckpoint, CellStatus, CheckpointName, ResetReason
+from skillc.contract.cell import CellCheckpoint, CellStatus, CheckpointName, Lease, LeaseRequest, ResetReason
 from skillc.contract.device import DeviceStatus
 from skillc.contract.geometry import CellModel, SurfaceCoverage
 from skillc.contract.job import Job, JobEvent, JobEventPage, JobPage, JobResult
-from skillc.contract.lease import Lease, LeaseRequest
 from skillc.contract.library import LibraryDescription, LibraryStatus
-from skillc.contract.operation import OperationStatus
+from skillc.contract.operation import OperationStatus, QueueOrder, StopReason
 from skillc.contract.order import Order
-from skillc.contract.queue import QueueOrder
 from skillc.contract.runs.explanation import Question, RunExplanation
 from skillc.contract.runs.run_diff import OtherRun, RunDiff
 from skillc.contract.runs.run_tree import OperationTree
 from skillc.contract.runs.signals import SignalPage, SignalRows
 from skillc.contract.source import SourceChange, SourceInfo, SourcePath, SourceText
-from skillc.contract.stopping import StopReason
 from skillc.contract.world import PlacedThing, WorldPlacement
 
 

@@ -10,14 +10,18 @@ from typing import Any, Literal, Unpack
 from skillc.client.async_cell import OPERATIONS, PLANNING_S, TRIALS, WRITES
 from skillc.client.operation import ServerOperation
 from skillc.client.waiting import WaitingCell
-from skillc.contract.cell import CellCheckpoint, CellStatus, Disturbance
+from skillc.contract.cell import (
+    CellCheckpoint,
+    CellStatus,
+    Disturbance,
+    Lease,
+)
 from skillc.contract.device import DeviceStatus
 from skillc.contract.geometry import CellModel, SurfaceCoverage
 from skillc.contract.job import (
     Job,
     TaskResult,
 )
-from skillc.contract.lease import Lease
 from skillc.contract.library import LibraryDescription
 from skillc.contract.operation import OperationStatus
 from skillc.contract.order import Order

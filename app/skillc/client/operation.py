@@ -9,7 +9,11 @@ from skillc.client.async_operation import Depth
 from skillc.client.waiting import WaitingOperation
 from skillc.contract.commands import Command
 from skillc.contract.job import TaskResult
-from skillc.contract.operation import Decision, OperationStatus, State
+from skillc.contract.operation import (
+    Decision,
+    OperationStatus,
+    State,
+)
 from skillc.contract.runs.explanation import RunExplanation
 from skillc.contract.runs.run_diff import RunDiff
 from skillc.contract.runs.run_tree import OperationTree

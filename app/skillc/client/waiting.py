@@ -9,8 +9,7 @@ from skillc.client.async_cell import AsyncCell
 from skillc.client.async_operation import AsyncOperation
 from skillc.client.async_server import AsyncServer
 from skillc.client.loop_thread import LoopThread
-from skillc.contract.cell import CellStatus
-from skillc.contract.lease import Lease
+from skillc.contract.cell import CellStatus, Lease
 from skillc.contract.operation import ContactState, OperationStatus, State
 from skillc.events import Prompt
 

@@ -1,4 +1,4 @@
-"""Cells: how they are, how fast their time may pass, and what can happen to simulated ones that no skill does."""
+"""Cells: how they are, how fast their time may pass, who alone commands them, and what happens to simulated ones."""
 
 from __future__ import annotations
 
@@ -74,3 +74,21 @@ class PaceSetting(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """How fast the cell's time may pass: `factor` times real time; null for as fast as it computes."""
 
     factor: Annotated[float, msgspec.Meta(ge=SLOWEST, le=MAX_PACE)] | None
+
+
+class Lease(msgspec.Struct, frozen=True):
+    """The lease of a cell: who has it, and for how long yet, in s of wall time; nobody if `owner` is None."""
+
+    cell: str
+    owner: str | None
+    remaining_s: float
+
+
+MAX_LEASE_S = 3600.0
+
+
+class LeaseRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """For how long a client wants to command a cell alone, in s; `takeover` ends the lease of another client."""
+
+    duration_s: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_LEASE_S)] = 60.0
+    takeover: bool = False

@@ -9,9 +9,18 @@ import msgspec
 from skillc.contract.api.problem import ProblemDetails
 from skillc.contract.plan import PlanPreview, PlanRequest
 from skillc.contract.rehearsal import RehearsalRequest
-from skillc.contract.report import ReportRequest
 from skillc.contract.trials import Series, TrialReplayRequest, TrialsRequest
 from skillc_runtime.evaluation.report.result import TaskResult as TaskResult
+
+
+class ReportRequest(
+    msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="report", forbid_unknown_fields=True
+):
+    """An operation that has ended, to make a report of: without a `film` it takes a fraction of the time."""
+
+    operation: str
+    film: bool = True
+
 
 JobRequest: TypeAlias = PlanRequest | RehearsalRequest | TrialsRequest | TrialReplayRequest | ReportRequest
 """What a job is to do; `kind` says which it is."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
 import msgspec
 
@@ -16,6 +16,9 @@ from skillc_runtime.recording.run_spec import RunRequest
 from skillc_runtime.recording.states import ENDS as ENDS
 from skillc_runtime.recording.states import Decision as Decision
 from skillc_runtime.recording.states import State as State
+
+MAX_REASON = 500
+OperationId: TypeAlias = Annotated[str, msgspec.Meta(max_length=200)]
 
 
 class OperationRequest(RunRequest, frozen=True, kw_only=True):
@@ -78,3 +81,20 @@ class OperationStatus(msgspec.Struct, frozen=True, kw_only=True):
     def is_sound(self) -> bool:
         """Whether it succeeded, and the simulator contradicts nothing that the world model claimed at its end."""
         return self.state == "succeeded" and not self.false_claims
+
+
+class StopReason(msgspec.Struct, frozen=True):
+    """Why an operation, or everything, is stopped. A long reason is cut, and what else a body has is ignored."""
+
+    reason: str = "stopped"
+
+    @property
+    def shown(self) -> str:
+        """The reason as it is recorded."""
+        return self.reason if len(self.reason) <= MAX_REASON else f"{self.reason[:MAX_REASON]} .."
+
+
+class QueueOrder(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The ids of the operations that come first among those that wait in a cell, in this order."""
+
+    first: Annotated[tuple[OperationId, ...], msgspec.Meta(min_length=1, max_length=200)]

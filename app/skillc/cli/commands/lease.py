@@ -12,7 +12,7 @@ from skillc.cli.server_completions import complete_cell
 from skillc.cli.server_connection import connect_server, server_options
 
 if TYPE_CHECKING:
-    from skillc.contract.lease import Lease
+    from skillc.contract.cell import Lease
 
 CELL = click.argument("cell", required=False, shell_complete=complete_cell)
 

@@ -14,7 +14,16 @@ from skillc.contract.access import LoginCode, MadeToken, NewToken, SessionInfo, 
 from skillc.contract.api.endpoint import Endpoint, Stream
 from skillc.contract.api.version import VersionInfo
 from skillc.contract.audit import AuditEntry, AuditPage
-from skillc.contract.cell import CellCheckpoint, CellStatus, CheckpointName, Disturbance, PaceSetting, ResetReason
+from skillc.contract.cell import (
+    CellCheckpoint,
+    CellStatus,
+    CheckpointName,
+    Disturbance,
+    Lease,
+    LeaseRequest,
+    PaceSetting,
+    ResetReason,
+)
 from skillc.contract.commands import OperatorCommand
 from skillc.contract.device import DeviceStatus
 from skillc.contract.geometry import CellModel, Coverage, Poses
@@ -28,12 +37,10 @@ from skillc.contract.job import (
     JobRequest,
     JobResult,
 )
-from skillc.contract.lease import Lease, LeaseRequest
 from skillc.contract.library import LibraryDescription, LibraryStatus
 from skillc.contract.messages import Happened, StatusChanged
-from skillc.contract.operation import OperationRequest, OperationStatus
+from skillc.contract.operation import OperationRequest, OperationStatus, QueueOrder, StopReason
 from skillc.contract.order import Order, OrderRequest
-from skillc.contract.queue import QueueOrder
 from skillc.contract.runs.explanation import Question, RunExplanation
 from skillc.contract.runs.history import EventPage, EventsHello, HistoryPage
 from skillc.contract.runs.run_diff import OtherRun, RunDiff
@@ -41,7 +48,6 @@ from skillc.contract.runs.run_tree import OperationTree
 from skillc.contract.runs.signals import SignalPage, SignalRows
 from skillc.contract.sample import Sample, SampleHello
 from skillc.contract.source import LanguageHello, SourceChange, SourceInfo, SourcePath, SourceText
-from skillc.contract.stopping import StopReason
 from skillc.contract.world import (
     DocumentForm,
     FactPage,

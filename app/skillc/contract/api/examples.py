@@ -9,13 +9,11 @@ import msgspec
 from skillc.contract import commands
 from skillc.contract.access import NewToken
 from skillc.contract.api import endpoints
-from skillc.contract.cell import PaceSetting
-from skillc.contract.lease import LeaseRequest
-from skillc.contract.operation import OperationRequest
+from skillc.contract.cell import LeaseRequest, PaceSetting
+from skillc.contract.operation import OperationRequest, StopReason
 from skillc.contract.order import OrderRequest
 from skillc.contract.rehearsal import RehearsalRequest
 from skillc.contract.source import SourceChange
-from skillc.contract.stopping import StopReason
 from skillc.contract.world import WorldEdit, WorldPlacement, WorldQuery
 from skillc_runtime.devices.disturbances import PushArm
 

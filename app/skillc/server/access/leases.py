@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from skillc.contract.lease import Lease
+from skillc.contract.cell import Lease
 
 
 class LeaseHeld(Exception):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from http import HTTPStatus
 
-from skillc.contract.lease import Lease, LeaseRequest
+from skillc.contract.cell import Lease, LeaseRequest
 from skillc.server.access.leases import LeaseHeld
 from skillc.server.access.roles import includes
 from skillc.server.http.api_call import ApiCall

@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from skillc.cells.operations.recording_files import recording_file
-from skillc.contract.job import RunResult
-from skillc.contract.report import ReportRequest
+from skillc.contract.job import ReportRequest, RunResult
 from skillc.server.asking import take_snapshot
 from skillc.server.http.api_call import ApiCall
 from skillc.server.jobs.kind import JobKind, PreparedJob
