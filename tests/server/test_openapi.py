@@ -61,8 +61,8 @@ def test_examples_are_what_the_server_takes() -> None:
 
 
 def test_the_tag_is_the_innermost_resource() -> None:
-    paths = ("/cells/{cell}/pace", "/cells/{cell}/world/edits", "/operations/{operation}/report", "/metrics")
-    assert [find_tag(each) for each in paths] == ["cells", "world", "operations", "server"]
+    paths = ("/cells/{cell}/pace", "/cells/{cell}/world/edits", "/jobs/{job}/result", "/metrics")
+    assert [find_tag(each) for each in paths] == ["cells", "world", "jobs", "server"]
 
 
 def test_tuples_of_different_items_take_any_of_them() -> None:
