@@ -36,7 +36,7 @@ GRACE_S = 1.0
 """How long before the time is up the program is told to end, so that it can write down what it knows."""
 MAX_S = 86_400.0
 """The longest time that it is given."""
-LISTING_SHARE = 0.3
+LISTING_SHARE = 0.5
 """The share of the time for listing what may be done; a problem that takes longer would be too large to search."""
 MOST_WORKERS = 8
 """The most threads of a search, however many cores there are."""
