@@ -59,8 +59,7 @@ class ImpedanceMemory(msgspec.Struct, frozen=True):
     limits (5, nv): see `TorqueLimit`. inertia (6, 6): of the tool along C, kg and kg m^2; floor (6,): least damping,
     N s/m and N m s/rad. rest (nv,): rad, posture to which a redundant arm is pulled with rest_stiffness N m/rad.
     torque_rate N m/s: greatest change of a joint torque; force_n N, power_w W: limits of springs, dampers and brakes.
-    damping (6,): N s/m and N m s/rad, follows its design with command_time s. age (1,): s since that was computed;
-    manipulability (1,): of the last period.
+    damping (6,): N s/m and N m s/rad, follows its design with command_time s. age (1,): s since that was computed.
     """
 
     task: TaskError
@@ -76,7 +75,6 @@ class ImpedanceMemory(msgspec.Struct, frozen=True):
     damping: OutVector
     command_time: float
     age: OutVector
-    manipulability: OutVector
     delay_s: float
 
 
@@ -102,7 +100,6 @@ class Impedance:
             damping=floor.copy(),
             command_time=gains.command_time,
             age=np.full(1, INERTIA_PERIOD_S),
-            manipulability=np.full(1, np.inf),
             delay_s=delay_s,
         )
 
@@ -245,9 +242,7 @@ def impedance_torque(
     tool_torque(tau, memory, state, compliance)
     if q.size > 6:
         posture = np.empty(q.size)
-        memory.manipulability[0] = posture_torque(
-            posture, q, dq, J, memory.rest, memory.rest_stiffness, memory.manipulability[0]
-        )
+        posture_torque(posture, q, dq, J, memory.rest, memory.rest_stiffness)
         tau += posture
     limit_torque(tau_out, memory.limits, tau, q, state.bias, memory.torque_rate * period)
 

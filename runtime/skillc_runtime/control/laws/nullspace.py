@@ -11,49 +11,64 @@ from math import sqrt
 
 import numpy as np
 
-from skillc_runtime.motion.arrays import Matrix, OutVector, Vector
+from skillc_runtime.motion.arrays import Matrix, OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
-from skillc_runtime.motion.numerics.linear import cholesky, cholesky_solve, product, times, transposed_times
+from skillc_runtime.motion.numerics.linear import (
+    cholesky,
+    cholesky_solve,
+    copy_matrix,
+    product,
+    times,
+    transposed_times,
+)
 
 REGULARISATION = 1e-6
 """lam^2 away from singularities."""
 
 SINGULAR_BELOW, SINGULAR_REGULARISATION = 5e-3, 1e-2
-"""Manipulability sqrt(det J J^T) below which lam^2 rises, and what it rises to."""
+"""Manipulability sqrt(det(J J^T + REGULARISATION I)) below which lam^2 rises, and what it rises to."""
 
 
 @inlined
 def regularisation(manipulability: float) -> float:
-    """Return lam^2 for the manipulability of the period before; both have no unit."""
+    """Return lam^2 for a manipulability; both have no unit."""
     near = max(0.0, 1 - manipulability / SINGULAR_BELOW)
     return REGULARISATION + SINGULAR_REGULARISATION * near * near
 
 
 @compiled
-def posture_torque(
-    tau: OutVector, q: Vector, dq: Vector, J: Matrix, rest: Vector, stiffness: float, manipulability: float
-) -> float:
-    """Compute tau_null, damped as for unit inertia. Return the manipulability now.
+def posture_torque(tau: OutVector, q: Vector, dq: Vector, J: Matrix, rest: Vector, stiffness: float) -> float:
+    """Compute tau_null, damped as for unit inertia. Return lam^2, which has no unit.
 
-    It is the product of the Cholesky factor's diagonal.
+    The manipulability is the product of the diagonal of the Cholesky factor.
     tau: (nv,) in N m; tau_null is written there.
     q: (nv,) in rad.
     dq: (nv,) in rad/s.
     J: (6, nv), m and rad per rad, base axes.
     rest: (nv,) in rad.
     stiffness: N m/rad.
-    manipulability: no unit, that of the period before.
     """
-    damping, lam_square = 2 * sqrt(stiffness), regularisation(manipulability)
+    damping = 2 * sqrt(stiffness)
     for j in range(tau.size):
         tau[j] = stiffness * (rest[j] - q[j]) - damping * dq[j]
-    gram, wrench, y, part = np.empty((6, 6)), np.empty(6), np.empty(6), np.empty(tau.size)
+    gram, factor = np.empty((6, 6)), np.empty((6, 6))
     product(J, J.T, gram)
-    for i in range(6):
-        gram[i, i] += lam_square
-    cholesky(gram)
+    factorise(gram, REGULARISATION, factor)
+    lam_square = regularisation(factor[0, 0] * factor[1, 1] * factor[2, 2] * factor[3, 3] * factor[4, 4] * factor[5, 5])
+    if lam_square > REGULARISATION:
+        factorise(gram, lam_square, factor)
+    wrench, y, part = np.empty(6), np.empty(6), np.empty(tau.size)
     times(J, tau, wrench)
-    cholesky_solve(gram, wrench, y)
+    cholesky_solve(factor, wrench, y)
     transposed_times(J, y, part)
     tau -= part
-    return float(gram[0, 0] * gram[1, 1] * gram[2, 2] * gram[3, 3] * gram[4, 4] * gram[5, 5])
+    return lam_square
+
+
+@inlined
+def factorise(gram: Matrix, lam_square: float, factor: OutMatrix) -> None:
+    """Fill in the Cholesky factor (6, 6) of gram (6, 6) + lam_square I; without units."""
+    copy_matrix(gram, factor)
+    for i in range(6):
+        factor[i, i] += lam_square
+    cholesky(factor)
