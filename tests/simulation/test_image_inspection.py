@@ -17,6 +17,7 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.platforms.gl import RenderingError, make_gl_context
 from skillc_runtime.primitives.inspect import Inspect
 from skillc_runtime.vision.cell_map import CLEAN, DIRTY, DIRTY_AMOUNT, UNSEEN
+from skillc_runtime.world.space.surfaces import surface_layout
 from skillc_runtime.world.state.changes import ClearProperty, SetProperty
 from skillc_runtime.world.state.terms import COVERAGE, IS_CLEAN, SKILLC
 
@@ -79,6 +80,28 @@ def test_inspect_is_sensed_and_counts_only_what_is_seen() -> None:
     state = there.world.snapshot()
     assert state.value(TABLE, IS_CLEAN) is True
     assert there.camera().evidence == "sensed"
+
+
+def test_what_an_image_shows_dirty_becomes_patches_until_it_is_clean() -> None:
+    there = cell("iiwa_watched", 0)
+    dose = there.coverage[TABLE].dose
+    dose[:] = 1.0
+    dose[70:, :20] = 0.0  # 10 cm square, at the corner with the least x and the greatest y
+    dose[:20, 40:] = 0.0  # another one, at the opposite corner
+    inspect(there)
+    layout = surface_layout(there.world.snapshot(), TABLE)
+    assert len(layout.patches) == 2
+    inside = layout.work_mask(there.coverage[TABLE].x, there.coverage[TABLE].y)
+    assert inside[70:, :20].all() and inside[:20, 40:].all()
+    assert inside.mean() < 0.3
+    dose[70:, :20] = 1.0
+    inspect(there)
+    assert len(surface_layout(there.world.snapshot(), TABLE).patches) == 1
+    dose[:] = 1.0
+    inspect(there)
+    state = there.world.snapshot()
+    assert state.value(TABLE, IS_CLEAN) is True
+    assert surface_layout(state, TABLE).patches == ()
 
 
 def test_an_arm_over_the_table_hides_what_is_below_it() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from skillc_runtime.motion.layout import Patch
 from skillc_runtime.world.state.facts import Evidence
 
 
@@ -18,6 +19,13 @@ class Camera(Protocol):
     def inspect(self, surface: str) -> float:
         """Return the share of a surface, by IRI, that is clean; KeyError if there is no such surface."""
         ...
+
+    def dirty_parts(self, surface: str) -> tuple[Patch, ...]:
+        """Return the rectangles, in the frame of a surface, by IRI, that the last inspection showed dirty.
+
+        Empty for a camera that only tells a share.
+        """
+        return ()
 
     def rubbed_share(self, surface: str, seconds: float) -> float:
         """Return the share of a surface that was rubbed for at least `seconds`.

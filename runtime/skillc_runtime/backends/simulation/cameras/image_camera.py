@@ -25,8 +25,10 @@ from skillc_runtime.devices.drawing import Drawing, Posture
 from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.motion.coverage import CoverageMap
+from skillc_runtime.motion.layout import Patch
 from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.vision.cell_map import CellMap
+from skillc_runtime.vision.dirty_parts import find_dirty_parts
 from skillc_runtime.vision.inspect_image import inspect_image
 from skillc_runtime.vision.locate import NotLocated
 from skillc_runtime.vision.opencv import load_opencv
@@ -65,6 +67,7 @@ class ImageCamera(Camera):
         self.true_pose = Pose(moved, exp(spec.mount_rad * wrong[3:]) @ spec.pose.rotation)
         self._light = draw_light(spec.individual, seed)
         self._before: dict[str, Array] = {}
+        self._seen: dict[str, CellMap] = {}
         self._model = self._build()
         self._data: Any = mujoco.MjData(self._model)
         self._size = spec.lens.width, spec.lens.height
@@ -72,7 +75,12 @@ class ImageCamera(Camera):
 
     def inspect(self, surface: str) -> float:
         """Return the share of a surface that an image shows to be clean; NoSuchDevice if that cannot be told."""
-        return self.look(surface).clean_share
+        self._seen[surface] = self.look(surface)
+        return self._seen[surface].clean_share
+
+    def dirty_parts(self, surface: str) -> tuple[Patch, ...]:
+        """Return the rectangles, in the frame of a surface, that the last inspection showed dirty."""
+        return find_dirty_parts(self._seen[surface]) if surface in self._seen else ()
 
     def rubbed_share(self, surface: str, seconds: float) -> float:
         """Raise NoSuchDevice: no image shows that."""
