@@ -67,7 +67,12 @@ def posture_torque(tau: OutVector, q: Vector, dq: Vector, J: Matrix, rest: Vecto
 
 @inlined
 def factorise(gram: Matrix, lam_square: float, factor: OutMatrix) -> None:
-    """Fill in the Cholesky factor (6, 6) of gram (6, 6) + lam_square I; without units."""
+    """Fill in the Cholesky factor of gram + lam_square I.
+
+    gram: (6, 6), no unit, in the axes of the Jacobian.
+    lam_square: no unit.
+    factor: (6, 6), no unit, as gram; it is written.
+    """
     copy_matrix(gram, factor)
     for i in range(6):
         factor[i, i] += lam_square
