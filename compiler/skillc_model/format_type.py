@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
 from typing import assert_never
 
 from skillc_rdf.vocabulary.types import (
@@ -29,8 +30,20 @@ SI_UNITS = {
     "Torque": "Nm",
     "Stiffness": "N/m",
     "RotationalStiffness": "Nm/rad",
+    "Energy": "J",
+    "Power": "W",
+    "Current": "A",
+    "Voltage": "V",
+    "Volume": "m3",
+    "Flow": "m3/s",
+    "Pressure": "Pa",
+    "Temperature": "K",
+    "TemperatureDifference": "K",
 }
-"""The SI unit of each dimension, as the language writes it."""
+"""The SI unit of each dimension, in which scenes and the runtime have its values."""
+
+_ZERO_CELSIUS = Decimal("273.15")
+"""0 degC in K."""
 
 
 def format_type(type_: ValueType, vocabulary: Vocabulary) -> str:
@@ -52,7 +65,14 @@ def format_type(type_: ValueType, vocabulary: Vocabulary) -> str:
             assert_never(type_)
 
 
+def in_written_unit(value: float, dimension: str) -> tuple[float, str]:
+    """Return a number in SI units as the language writes it: the number and its unit, "" for none."""
+    if dimension == "Temperature":
+        return float(Decimal(repr(float(value))) - _ZERO_CELSIUS), "degC"
+    return value, SI_UNITS.get(dimension, "")
+
+
 def format_quantity(value: float, type_: ValueType) -> str:
     """Return a number in SI units as text with the unit of its type, if it has one."""
-    unit = SI_UNITS.get(type_.dimension, "") if isinstance(type_, NumberType) else ""
-    return f"{value:g} {unit}".strip()
+    number, unit = in_written_unit(value, type_.dimension if isinstance(type_, NumberType) else "")
+    return f"{number:g} {unit}".strip()

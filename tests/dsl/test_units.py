@@ -13,6 +13,7 @@ from skillc_dsl.units import (
     UNITS,
     Dimension,
     dimension_of,
+    from_si,
     suggest_units,
     to_si,
 )
@@ -35,11 +36,23 @@ from skillc_dsl.units import (
         (50, "mm/s", 0.05, "Speed"),
         (9.81, "m/s2", 9.81, "Acceleration"),
         (8, "N", 8, "Force"),
+        (2, "Wh", 7200, "Energy"),
+        (3, "kW", 3000, "Power"),
+        (250, "mA", 0.25, "Current"),
+        (24, "V", 24, "Voltage"),
+        (5, "ml", 5e-6, "Volume"),
+        (6, "l/min", 1e-4, "Flow"),
+        (6, "bar", 6e5, "Pressure"),
+        (80, "degC", 353.15, "Temperature"),
+        (-20, "degC", 253.15, "Temperature"),
+        (5, "K", 5, "TemperatureDifference"),
+        (30, "rpm", math.pi, "AngularSpeed"),
     ],
 )
 def test_values_in_si(value: float, unit: str, si: float, dimension: str) -> None:
     assert to_si(value, unit) == pytest.approx(si)
     assert dimension_of(unit).name == dimension
+    assert from_si(si, unit) == pytest.approx(value)
 
 
 @pytest.mark.parametrize(("unit", "per_si"), [("mm", 1000), ("cm", 100), ("ms", 1000), ("g", 1000), ("mm2", 10**6)])
@@ -57,7 +70,23 @@ def test_products_and_quotients() -> None:
     assert force / DIMENSIONS["Stiffness"] == LENGTH
     assert (force / force).name == "Number"
     assert Dimension() == NUMBER
-    assert (LENGTH * LENGTH * LENGTH / TIME).name == "m^3 s^-1"
+    assert (LENGTH * LENGTH * LENGTH * MASS / TIME).name == "m^3 kg s^-1"
+
+
+def test_products_of_electricity_and_of_what_flows() -> None:
+    of = DIMENSIONS
+    assert of["Voltage"] * of["Current"] == of["Power"] == of["Force"] * of["Speed"]
+    assert of["Pressure"] * of["Flow"] == of["Power"]
+    assert of["Volume"] / TIME == of["Flow"]
+
+
+def test_a_force_times_a_length_is_a_torque_or_an_energy_and_these_differ() -> None:
+    torque, energy = DIMENSIONS["Torque"], DIMENSIONS["Energy"]
+    product = DIMENSIONS["Force"] * LENGTH
+    assert (product.join(torque), energy.join(product)) == (torque, energy)
+    assert torque.join(energy) is None and torque != energy
+    assert (product.name, (energy * NUMBER).name) == ("Torque or Energy", "Energy")
+    assert energy / LENGTH == torque / LENGTH == DIMENSIONS["Force"]
 
 
 def test_a_foreign_unit() -> None:

@@ -82,6 +82,16 @@ def test_own_names_go_before_later_ones(tmp_path: Path) -> None:
     assert "Call(skill='std_Locate'" in calls and "Call(skill='Locate'" not in calls
 
 
+@pytest.mark.parametrize("edition", EDITIONS)
+def test_a_class_goes_before_a_later_dimension(tmp_path: Path, edition: int) -> None:
+    text = OWN.replace("class Camera", "class Power < Product\nclass Camera").replace("other:  Camera", "other:  Power")
+    text = text.replace("relation on(Camera, Camera)", "relation on(Camera, Power)\nrelation on(Power, Camera)")
+    compiled = _compile(tmp_path, edition, text.replace("Locate", "Look").replace(" on", " beside"))
+    assert _errors(compiled) == set()
+    other = compiled.value.skills["Look"].parameters[1].type
+    assert other == ClassType("https://w3id.org/skillc/library/mine#Power")
+
+
 def test_in_the_edition_with_which_they_came_they_mean_the_shipped_ones(tmp_path: Path) -> None:
     found = {each.name for each in _compile(tmp_path, 2, OWN).diagnostics}
     assert {"duplicate-declaration", "redeclared-term"} <= found

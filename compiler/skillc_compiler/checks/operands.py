@@ -13,9 +13,14 @@ from skillc_compiler.program.walk import all_conditions, all_values
 from skillc_compiler.resolve.values import arithmetic_type
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
+from skillc_dsl.units import TEMPERATURE
 from skillc_model.conditions import Arithmetic, Compare
 
 NAMES = ("unlike-dimensions", "wrong-operands")
+TEMPERATURES = (
+    "a temperature is written in degC and a difference of two in K: add a difference to a temperature, subtract two "
+    "temperatures, and multiply differences only"
+)
 NEEDS = Need.TEXT
 READS = Reads.DECLARATION
 
@@ -67,6 +72,8 @@ def _problem(span: Span, operator: str, left: Type, right: Type, sides: Sequence
 
 def _suggest(left: Type, right: Type) -> str:
     match left, right:
+        case (Measure(dimension=dimension), _) | (_, Measure(dimension=dimension)) if dimension == TEMPERATURE:
+            return TEMPERATURES
         case Vector() | Direction(), Vector() | Direction():
             return "convert both vectors to one dimension: multiply one by a quantity, as in `5 cm * normal`"
         case (Vector() | Direction(), _) | (_, Vector() | Direction()):

@@ -12,9 +12,11 @@ from skillc_compiler.program.types import INT, Measure, Type
 from skillc_compiler.program.walk import all_calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
-from skillc_dsl.units import NUMBER, UNITS
+from skillc_dsl.units import NUMBER
+from skillc_model.format_type import format_quantity
 from skillc_model.rewriting import constant_number
 from skillc_model.rounding import is_above
+from skillc_rdf.vocabulary.types import NumberType
 
 NAMES = ("out-of-range", "empty-range")
 NEEDS = Need.NAMES
@@ -89,12 +91,12 @@ def _number(value: TypedExpression | None, kind: Type) -> float | None:
 
 
 def _is_same_type(given: Type, wanted: Type) -> bool:
+    match given, wanted:
+        case Measure(dimension=one), Measure(dimension=other):
+            return one.join(other) is not None
     return given == wanted or (given == INT and wanted == Measure(NUMBER))
 
 
 def _format_si(si: float, kind: Type) -> str:
-    """Return a number with its SI unit."""
-    fitting = [
-        n for n, u in UNITS.items() if isinstance(kind, Measure) and u.dimension == kind.dimension and u.in_si == 1
-    ]
-    return " ".join([f"{si:g}", *fitting[:1]])
+    """Return a number in SI units with its unit."""
+    return format_quantity(si, NumberType(kind.dimension.name)) if isinstance(kind, Measure) else f"{si:g}"

@@ -10,7 +10,7 @@ import msgspec
 
 from skillc_model.conditions import Condition
 from skillc_model.format_condition import format_condition
-from skillc_model.format_type import SI_UNITS
+from skillc_model.format_type import in_written_unit
 from skillc_rdf.vocabulary.types import NumberType, Vocabulary
 
 NAMES = frozenset(("iri", "relation", "property", "cls"))
@@ -75,5 +75,6 @@ class _Writer:
 
 
 def _format_exactly(number: float, type_: NumberType) -> str:
-    """Return a number with the SI unit of its type, with all its digits and without an exponent."""
-    return f"{Decimal(repr(number)):f} {SI_UNITS.get(type_.dimension, '')}".strip()
+    """Return a number in SI units with its unit, with all its digits and without an exponent."""
+    value, unit = in_written_unit(number, type_.dimension)
+    return f"{Decimal(repr(value)):f} {unit}".strip()

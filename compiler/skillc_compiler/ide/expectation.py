@@ -8,7 +8,7 @@ from skillc_compiler.ide.calls import OpenCall, find_open_call
 from skillc_compiler.ide.cursor_context import CursorContext
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import Measure, Thing, Type, Vector, fits, type_of
-from skillc_compiler.resolve.type_names import BUILT_IN
+from skillc_compiler.resolve.type_names import BUILT_IN, is_built_in
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.units import DIMENSIONS, TIME, UNITS
@@ -47,9 +47,9 @@ def _declared(around: CursorContext, tokens: Sequence[Token]) -> ExpectedType:
     name, *rest = tokens[labels[-1] + 1 :]
     if name.value == "Vector" and len(rest) > 1 and rest[0].type == "OF" and rest[1].value in DIMENSIONS:
         return ExpectedType(Vector(DIMENSIONS[rest[1].value]))
-    if name.value in BUILT_IN:
-        return ExpectedType(type_of(BUILT_IN[name.value]))
     iri = around.visible.term("class", name.value)
+    if is_built_in(name.value, iri is not None):
+        return ExpectedType(type_of(BUILT_IN[name.value]))
     return ExpectedType(Thing(iri)) if iri else ANYTHING
 
 

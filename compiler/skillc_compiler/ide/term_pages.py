@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from skillc_compiler.resolve.names import Kind
 from skillc_dsl.units import DIMENSIONS, UNITS, dimension_of, to_si
+from skillc_model.format_type import SI_UNITS
 from skillc_rdf.vocabulary.types import (
     THING,
     ClassTerm,
@@ -90,9 +91,8 @@ def format_bare_type(kind: ValueType) -> str:
 def quantity_page(value: float, unit: str) -> str:
     """Return the page of a quantity: its dimension and its value in SI units."""
     dimension = dimension_of(unit)
-    si = next(name for name, other in UNITS.items() if other.dimension == dimension and other.in_si == 1.0)
     written = f"{value:g} {unit}"
-    other = f"{to_si(value, unit):.6g} {si}"
+    other = f"{to_si(value, unit):.6g} {SI_UNITS[dimension.name]}"
     degrees = f" ({math.degrees(to_si(value, unit)):.4g} deg)" if unit == "rad" else ""
     return f"**{dimension.name}** `{written}`" + (f" = `{other}`" if other != written else "") + degrees
 

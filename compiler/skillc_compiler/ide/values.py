@@ -21,7 +21,7 @@ from skillc_compiler.ide.symbols import (
 from skillc_compiler.ide.visible import VisibleNames
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.resolve.names import Kind
-from skillc_compiler.resolve.type_names import BUILT_IN
+from skillc_compiler.resolve.type_names import is_built_in
 from skillc_dsl import syntax as s
 from skillc_dsl.source import Span
 
@@ -49,7 +49,7 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
             case s.OfDimension(of=of, dimension=dimension):
                 yield from self.type(of)
                 yield from self.type(dimension)
-            case s.Name(text=text, span=span) if text in BUILT_IN:
+            case s.Name(text=text, span=span) if is_built_in(text, self.visible.term("class", text) is not None):
                 yield Occurrence(span, TypeSymbol(text))
             case s.Name():
                 yield from self.term("class", written)

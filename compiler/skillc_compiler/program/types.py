@@ -88,7 +88,7 @@ def declared_as(kind: Type) -> ValueType | None:
             return ClassType(cls or THING)
         case Measure(dimension=dimension) | Vector(dimension=dimension):
             of = NumberType if isinstance(kind, Measure) else VectorType
-            return next((of(name) for name, each in DIMENSIONS.items() if each == dimension), None)
+            return next((of(name) for name, each in DIMENSIONS.items() if each.join(dimension)), None)
         case Direction():
             return DirectionType()
         case Plain(name=name):
@@ -111,6 +111,8 @@ def fits(vocabulary: Vocabulary, given: Type, wanted: Type) -> bool:
             return dimension == NUMBER
         case Plain(name="Int"), Measure(dimension=dimension):
             return dimension == NUMBER
+        case (Measure(dimension=one), Measure(dimension=other)) | (Vector(dimension=one), Vector(dimension=other)):
+            return one.join(other) is not None
         case ListOf(element=one), ListOf(element=other):
             return fits(vocabulary, one, other)
     return given == wanted

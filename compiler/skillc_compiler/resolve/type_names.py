@@ -9,7 +9,7 @@ from skillc_compiler.resolve.names import Names
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.spelling import close_names, did_you_mean
-from skillc_dsl.units import DIMENSIONS
+from skillc_dsl.units import DIMENSIONS, LATER_DIMENSIONS
 from skillc_rdf.vocabulary.types import ClassType, DirectionType, ListType, NumberType, PlainType, ValueType, VectorType
 
 UNRESOLVED_TYPE = NumberType("?")
@@ -34,6 +34,11 @@ _FOREIGN = MappingProxyType(
 """Types as other languages call them."""
 
 
+def is_built_in(text: str, is_class: bool) -> bool:
+    """Whether a name means a built-in type; the dimensions that came later give way to a class of their name."""
+    return text in BUILT_IN and not (is_class and text in LATER_DIMENSIONS)
+
+
 def resolve_type(names: Names, written: s.TypeName) -> ValueType:
     """Return the type; an unknown name is reported, and UNRESOLVED_TYPE is returned for it."""
     match written:
@@ -41,7 +46,7 @@ def resolve_type(names: Names, written: s.TypeName) -> ValueType:
             return ListType(resolve_type(names, element))
         case s.OfDimension():
             return _of_dimension(names, written)
-        case s.Name(text=text) if text in BUILT_IN:
+        case s.Name(text=text) if is_built_in(text, names.is_term("class", text)):
             return BUILT_IN[text]
         case s.Name(text=text) if ":" not in text and not names.is_term("class", text):
             return _unknown(names, written)

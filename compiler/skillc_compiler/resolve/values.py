@@ -28,7 +28,7 @@ from skillc_compiler.resolve.called_conditions import MISSING, NOTHING
 from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
-from skillc_dsl.units import NUMBER, dimension_of, to_si
+from skillc_dsl.units import NUMBER, TEMPERATURE, dimension_of, sum_dimension, to_si
 from skillc_model.conditions import Arithmetic, Individual, Invoke, Literal, PropertyOf, Variable
 from skillc_model.tree import FAILURE_PARTS
 
@@ -255,8 +255,14 @@ def arithmetic_type(operator: str, left: Type, right: Type) -> Type | None:
     if (left, right) == (INT, INT) and operator != "/":
         return INT
     match operator, _as_number_type(left), _as_number_type(right):
-        case "+" | "-", Measure() | Vector() as one, other:
-            return one if one == other else None
+        case "+" | "-", Measure(one), Measure(other):
+            joined = sum_dimension(operator, one, other)
+            return None if joined is None else Measure(joined)
+        case "+" | "-", Vector(one), Vector(other):
+            joined = sum_dimension(operator, one, other)
+            return None if joined is None else Vector(joined)
+        case _, Measure(one) | Vector(one), Measure(other) | Vector(other) if TEMPERATURE in (one, other):
+            return None
         case "*", Measure(one), Measure(other):
             return Measure(one * other)
         case "/", Measure(one), Measure(other):

@@ -16,7 +16,8 @@ export const KEYWORDS: ReadonlySet<string> = new Set([
 
 // prettier-ignore
 export const TYPES: ReadonlySet<string> = new Set([
-  "Acceleration", "Angle", "AngularSpeed", "Area", "Bool", "Direction", "Force", "Frequency", "Int",
-  "Length", "Mass", "Number", "Pose", "RotationalStiffness", "Speed", "Stiffness", "Text", "Time",
-  "Torque", "Vector",
+  "Acceleration", "Angle", "AngularSpeed", "Area", "Bool", "Current", "Direction", "Energy", "Flow",
+  "Force", "Frequency", "Int", "Length", "Mass", "Number", "Pose", "Power", "Pressure",
+  "RotationalStiffness", "Speed", "Stiffness", "Temperature", "TemperatureDifference", "Text",
+  "Time", "Torque", "Vector", "Voltage", "Volume",
 ]);

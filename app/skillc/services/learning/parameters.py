@@ -15,7 +15,7 @@ from skillc_dsl.syntax.declarations import ImplementationDeclaration, SkillDecla
 from skillc_dsl.syntax.members import Parameter as WrittenParameter
 from skillc_dsl.syntax.members import Refinement
 from skillc_dsl.syntax.values import Quantity
-from skillc_dsl.units import UNITS, to_si
+from skillc_dsl.units import UNITS, from_si, to_si
 from skillc_model.conditions import Literal
 from skillc_model.skills import Implementation, Parameter, SkillLibrary
 from skillc_rdf.vocabulary.types import NumberType
@@ -171,7 +171,7 @@ def _members_of(
 
 def _in_unit(value: float, unit: str) -> float:
     """Return a value in SI units in the author's unit, as short as it was written."""
-    return float(f"{value / UNITS[unit].in_si:.12g}") if unit else float(value)
+    return from_si(value, unit) if unit else float(value)
 
 
 def _find(learnable: Sequence[Learnable], name: str) -> Learnable:

@@ -8,7 +8,7 @@ from difflib import get_close_matches
 
 from skillc.errors import RequestError
 from skillc_dsl.units import DIMENSIONS, UNITS, dimension_of, to_si
-from skillc_model.format_type import SI_UNITS
+from skillc_model.format_type import SI_UNITS, format_quantity
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import DirectionType, NumberType, PropertyTerm, VectorType, Vocabulary, local_name
 
@@ -61,7 +61,7 @@ def _write_value(text: str, term: PropertyTerm) -> str:
     """Return a value as Turtle writes it; RequestError if it is not one of the property."""
     match term.type:
         case NumberType(dimension):
-            found, example = _QUANTITY.fullmatch(text), f"0.1 {SI_UNITS.get(dimension, '')}".strip()
+            found, example = _QUANTITY.fullmatch(text), format_quantity(0.1, term.type)
         case VectorType(dimension):
             found, example = _VECTOR.fullmatch(text), f"(0, 0, 1) {SI_UNITS.get(dimension, '')}".strip()
         case DirectionType():

@@ -18,7 +18,7 @@ from skillc_model.conditions import (
     Variable,
 )
 from skillc_model.format_type import format_type
-from skillc_rdf.vocabulary.types import ValueType, Vocabulary, local_name
+from skillc_rdf.vocabulary.types import NumberType, ValueType, Vocabulary, local_name
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.world.eval.identity_cache import IdentityCache
 from skillc_runtime.world.state.consistency.value_types import is_of_type
@@ -84,12 +84,24 @@ def type_of(expression: Expression, vocabulary: Vocabulary) -> ValueType | None:
             return None if term is None else term.type
         case Invoke(function, _):
             return vocabulary.functions[function].result if function in vocabulary.functions else None
-        case Arithmetic("+" | "-", left, right):
-            return type_of(left, vocabulary) or type_of(right, vocabulary)
+        case Arithmetic("+" | "-" as sign, left, right):
+            return _type_of_sum(sign, type_of(left, vocabulary), type_of(right, vocabulary))
         case Arithmetic() | Literal() | Variable() | Individual():
             return None
         case _:
             assert_never(expression)
+
+
+def _type_of_sum(sign: str, left: ValueType | None, right: ValueType | None) -> ValueType | None:
+    """Return the type of a sum or difference; None if it is not known whether it is a temperature or a difference."""
+    at, by = NumberType("Temperature"), NumberType("TemperatureDifference")
+    if not {at, by} & {left, right}:
+        return left or right
+    if right == at:
+        return at if sign == "+" else by
+    if left == at and (sign == "+" or right == by):
+        return at
+    return by if left == right else None
 
 
 def compile_expression(expression: Expression) -> ExpressionFunction:

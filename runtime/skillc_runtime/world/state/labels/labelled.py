@@ -23,7 +23,7 @@ class LabelledIri(msgspec.Struct, frozen=True, tag="iri"):
 
 
 class LabelledQuantity(msgspec.Struct, frozen=True, tag="quantity"):
-    """A number with its SI unit as the language writes it; the unit is empty for a pure number.
+    """A number with its SI unit, a temperature in degC; the unit is empty for a pure number.
 
     In a message `{depth:.1f mm}` shows it with one digit in mm, `{depth}` with its unit.
     """

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import assert_never, cast
 
-from skillc_model.format_type import SI_UNITS
+from skillc_model.format_type import SI_UNITS, in_written_unit
 from skillc_model.skills import Parameter
 from skillc_rdf.vocabulary.types import ClassType, ListType, NumberType, ValueType, VectorType, Vocabulary
 from skillc_rdf.vocabulary.types import local_name as local
@@ -150,7 +150,7 @@ def _number(value: float, type_: ValueType | None) -> LabelledValue:
     """Return a number with its unit."""
     if isinstance(value, int) and not isinstance(type_, NumberType):
         return value
-    unit = SI_UNITS.get(type_.dimension, "") if isinstance(type_, NumberType) else ""
+    value, unit = in_written_unit(value, type_.dimension) if isinstance(type_, NumberType) else (value, "")
     return LabelledQuantity(float(value), unit) if isfinite(value) else NotFinite(f"{value:g} {unit}".strip())
 
 
