@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from skillc.cli.main import skillc
 from symbolic.ward import write_ward
 
-TERMS = """use skiros, skillc
+TERMS = """use skiros
 prefix lab: <http://example.org/lab#>
 
 class    Oven < Product
@@ -52,16 +52,35 @@ PROPERTIES = "<https://w3id.org/skillc/library/oven#heat> 353.15 ."
 def test_kelvin_in_the_scene_and_degrees_in_skills(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, to: str, expected: str, said: str | None
 ) -> None:
+    write_oven(tmp_path, monkeypatch, TERMS.replace("TO)", f"{to})").replace("EXPECTED", expected))
+    result = CliRunner().invoke(skillc, ["test", "oven.skill"])
+    assert (result.exit_code == 0) == (said is None), result.output
+    assert said is None or said in result.output
+
+
+def test_scenes_are_edited_in_degrees(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = write_oven(
+        tmp_path, monkeypatch, TERMS.replace("TO)", "80 degC)").replace("EXPECTED", "lab:Oven-1.heat == 80 degC")
+    )
+    edit = ["scene", "edit", "ward.ttl"]
+    refused = CliRunner().invoke(skillc, [*edit, "lab:Oven-1.heat == 5 K"])
+    assert refused.exit_code and "heat is in degC, and this is in K" in refused.output
+    refused = CliRunner().invoke(skillc, [*edit, "lab:Oven-1.stored == 5 Nm"])
+    assert refused.exit_code and "stored is in J, kJ, Wh, kWh, and this is in Nm" in refused.output
+    applied = CliRunner().invoke(skillc, [*edit, "lab:Oven-1.heat == 60 degC"])
+    assert applied.exit_code == 0 and "333.15" in (folder / "ward.ttl").read_text("utf-8")
+
+
+def write_oven(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str) -> Path:
+    """Write a library with a scene, and work in its folder."""
     scene = (write_ward(tmp_path) / "ward.ttl").read_text("utf-8")
     folder = tmp_path / "oven"
     folder.mkdir()
     (folder / "ward.ttl").write_text(ovens_of(scene), "utf-8")
-    (folder / "oven.skill").write_text(TERMS.replace("TO)", f"{to})").replace("EXPECTED", expected), "utf-8")
+    (folder / "oven.skill").write_text(text, "utf-8")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.chdir(folder)
-    result = CliRunner().invoke(skillc, ["test", "oven.skill"])
-    assert (result.exit_code == 0) == (said is None), result.output
-    assert said is None or said in result.output
+    return folder
 
 
 def ovens_of(scene: str) -> str:
