@@ -1,4 +1,4 @@
-"""Scenes of surfaces that an arm can wipe, or cannot."""
+"""Scenes of surfaces that an arm can wipe, or cannot, and of two mobile bases."""
 
 from pathlib import Path
 
@@ -25,3 +25,13 @@ def write_door(folder: Path, x: float, pitch_deg: float, z: float) -> Path:
     scene = folder / "door.ttl"
     scene.write_text(tilt_desk(x, pitch_deg, z))
     return scene
+
+
+def two_bases() -> str:
+    """Return the scene of a UR5e on a base at the dock with another one, lab:Heron-2, which is at the store."""
+    text = catalogue.scene_path("ur5e_whiteboard").read_text()
+    robot = text[text.index("lab:Heron-1 a") : text.index("# --- the workstations")]
+    other = robot.replace("-1", "-2").replace("lab:Dock", "lab:Store")
+    for frame in ("heron", "ur5e_base", "wsg"):
+        other = other.replace(f'"{frame}"', f'"{frame}_2"')
+    return text.replace(robot, robot + other)

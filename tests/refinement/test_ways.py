@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from refinement.scenes import two_bases
 from simulation.cells import LAB, world
 from skillc.cli.main import skillc
 from skillc_ontology import catalogue
@@ -180,13 +181,8 @@ def test_a_blocked_way_is_refused_by_plan_run_and_check(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_base_that_stands_in_the_way_drives_off_before_the_other_one_comes(tmp_path: Path) -> None:
-    text = catalogue.scene_path("ur5e_whiteboard").read_text()
-    robot = text[text.index("lab:Heron-1 a") : text.index("# --- the workstations")]
-    other = robot.replace("-1", "-2").replace("lab:Dock", "lab:Store")
-    for frame in ("heron", "ur5e_base", "wsg"):
-        other = other.replace(f'"{frame}"', f'"{frame}_2"')
     scene = tmp_path / "cell.ttl"
-    scene.write_text(text.replace(robot, robot + other))
+    scene.write_text(two_bases())
     answer = ask("plan", scene, "--no-plan-cache")
     driving = [each["arguments"]["robot"] for each in answer["plan"] if each["skill"] == "Drive"]
     assert driving == ["lab:Heron-2", "lab:Heron-1"] and answer["space"]["checked"] == 3

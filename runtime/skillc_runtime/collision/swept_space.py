@@ -48,6 +48,16 @@ class SweptSpace:
             return False
         return bool(np.isin(self._list_cubes(mine), _grow(other._list_cubes(theirs))).any())
 
+    def is_near(self, points: Array, within_m: float, below_m: float) -> bool:
+        """Whether the box around any part comes nearer to a place on the floor than `within_m`, below a height.
+
+        points: (n, 2), the places in m in the world.
+        below_m: the height in the world.
+        """
+        low, high = (each[self._corners[0][:, 2] < below_m, :2] for each in self._corners)
+        gaps = np.maximum(np.maximum(low[:, None] - points, points - high[:, None]), 0.0)
+        return bool((np.linalg.norm(gaps, axis=2) < within_m).any())
+
     @cached_property
     def _corners(self) -> tuple[Array, Array]:
         """The lowest and the highest corners (n, 3) in m of the parts."""

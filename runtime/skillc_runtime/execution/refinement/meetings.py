@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import cached_property
-from itertools import combinations, pairwise, product
+from itertools import chain, combinations, pairwise, product
 
 import numpy as np
 
@@ -24,23 +24,53 @@ SAMPLED_M = 0.05
 """How far from each other the points are at which the ways of bases are compared."""
 
 
+class Moving:
+    """What moves in a step, or in a part of a body: `motions` of arms and `drives` of bases."""
+
+    def __init__(self, motions: Sequence[RefinedMotion], drives: Sequence[BaseDrive]) -> None:
+        self.motions, self.drives = motions, drives
+
+    @cached_property
+    def _ways(self) -> dict[str, _Way]:
+        arms = sorted({each.arm for each in self.motions})
+        return {arm: _Way([each for each in self.motions if each.arm == arm]) for arm in arms}
+
+    def find_meeting(self, other: Moving) -> tuple[str, str] | None:
+        """Return two arms or bases that would come into one place if both moved at the same time: first one of this."""
+        return next(chain(self._list_meetings(other), ((its, one) for one, its in other._list_under(self))), None)
+
+    def _list_meetings(self, other: Moving) -> Iterator[tuple[str, str]]:
+        for (one, its), (another, theirs) in product(self._ways.items(), other._ways.items()):
+            if one != another and its.meets(theirs):
+                yield one, another
+        bases = _find_meeting_bases(self.drives, other.drives)
+        if bases is not None:
+            yield bases
+        yield from self._list_under(other)
+
+    def _list_under(self, other: Moving) -> Iterator[tuple[str, str]]:
+        """Yield bases with the arms of the other that are in their way; not their own ones."""
+        for drive, (arm, way) in product(self.drives, other._ways.items()):
+            if arm not in drive.arms and way.meets_base(drive):
+                yield drive.robot, arm
+
+
 def find_steps_apart(
     library: SkillLibrary,
     state: WorldState,
     steps: Sequence[Step],
-    moving: Sequence[tuple[Sequence[RefinedMotion], Sequence[BaseDrive]]],
+    moving: Sequence[Moving],
 ) -> tuple[StepsApart, ...]:
     """Return which steps have to run one after the other although facts let them overlap.
 
-    moving: the motions of arms and the drives of bases in each.
+    moving: what moves in each.
 
     An arm sweeps its places at the begin and at the end of its motions, too. So whatever two steps do that neither wait
     for each other nor are named here, each arm may stand anywhere on its way meanwhile.
     """
-    arms, bases = {each.arm for one, _ in moving for each in one}, {each.robot for _, one in moving for each in one}
-    if max(len(arms), len(bases)) < 2:
+    if not _may_meet(moving):
         return ()
-    spaces, short = [_group_by_arm(each) for each, _ in moving], state.vocabulary.short
+    short = state.vocabulary.short
     before = [set(each) for each in _find_predecessors(library, state, steps)]
     found = list[StepsApart]()
     for late in range(len(steps)):
@@ -49,9 +79,7 @@ def find_steps_apart(
             check_current()
             if early in before[late]:
                 continue
-            meeting = _find_meeting(spaces[early], spaces[late]) or find_meeting_bases(
-                moving[early][1], moving[late][1]
-            )
+            meeting = moving[early].find_meeting(moving[late])
             if meeting is not None:
                 one, other = meeting
                 found.append(StepsApart(early + 1, late + 1, (short(one), short(other))))
@@ -59,16 +87,21 @@ def find_steps_apart(
     return tuple(found)
 
 
-def find_meeting_arms(groups: Iterable[Sequence[RefinedMotion]]) -> tuple[str, str] | None:
-    """Return two arms that come into one place in motions of different groups, which run at the same time."""
-    moving = [each for each in groups if each]
-    if len({each.arm for one in moving for each in one}) < 2:
+def find_meeting(moving: Sequence[Moving]) -> tuple[str, str] | None:
+    """Return two arms or bases that come into one place, of what moves at the same time."""
+    if not _may_meet(moving):
         return None
-    spaces = [_group_by_arm(each) for each in moving]
-    return next((arms for pair in combinations(spaces, 2) if (arms := _find_meeting(*pair)) is not None), None)
+    return next((found for one, other in combinations(moving, 2) if (found := one.find_meeting(other))), None)
 
 
-def find_meeting_bases(early: Iterable[BaseDrive], late: Iterable[BaseDrive]) -> tuple[str, str] | None:
+def _may_meet(moving: Sequence[Moving]) -> bool:
+    """Whether anything moves that another thing does not carry: a base carries its arms."""
+    bases = {each.robot for one in moving for each in one.drives}
+    carried = {arm for one in moving for each in one.drives for arm in each.arms}
+    return len(bases) + len({each.arm for one in moving for each in one.motions} - carried) > 1
+
+
+def _find_meeting_bases(early: Iterable[BaseDrive], late: Iterable[BaseDrive]) -> tuple[str, str] | None:
     """Return two bases that would come near each other on drives, which also are where they start and end."""
     for one, other in product(early, late):
         if one.robot != other.robot:
@@ -116,12 +149,9 @@ class _Way:
             return False
         return self._space.meets(other._space)
 
-
-def _group_by_arm(motions: Sequence[RefinedMotion]) -> dict[str, _Way]:
-    arms = sorted({each.arm for each in motions})
-    return {arm: _Way([each for each in motions if each.arm == arm]) for arm in arms}
-
-
-def _find_meeting(early: dict[str, _Way], late: dict[str, _Way]) -> tuple[str, str] | None:
-    pairs = product(early.items(), late.items())
-    return next(((one, other) for (one, its), (other, theirs) in pairs if one != other and its.meets(theirs)), None)
+    def meets_base(self, drive: BaseDrive) -> bool:
+        points, away_m = _sample(drive.points), drive.radius_m + CUBE_M
+        nearest = ((np.linalg.norm(points - base[:2], axis=1).min(), reach_m) for base, reach_m in self._bases)
+        if all(far_m > reach_m + away_m for far_m, reach_m in nearest):
+            return False
+        return self._space.is_near(points, away_m, drive.top_m)

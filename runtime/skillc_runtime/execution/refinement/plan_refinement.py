@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.refinement.failure import SpaceFailure
-from skillc_runtime.execution.refinement.meetings import find_steps_apart
+from skillc_runtime.execution.refinement.meetings import Moving, find_steps_apart
 from skillc_runtime.execution.refinement.scope import call_of
 from skillc_runtime.execution.refinement.siblings import find_hand
 from skillc_runtime.execution.refinement.situation import (
@@ -90,7 +90,7 @@ class _Refiner:
         found = next(self._go(steps, here, ()), None)
         if found is None:
             return self._furthest
-        moving = [(each.motions, each.drives) for each in found]
+        moving = [Moving(each.motions, each.drives) for each in found]
         apart = find_steps_apart(self._library, here.state, steps, moving)
         return PlanRefinement(found, apart=apart)
 

@@ -88,12 +88,15 @@ class ChosenWay:
 class BaseDrive:
     """A drive of a base, by IRI: straight through points (x, y) in m in the world, first where it starts.
 
-    radius_m: of the circle around its middle in which it is while it turns.
+    radius_m: of the circle around its middle in which it is while it turns; top_m: how high it is there, in the world;
+    arms: those that ride on it, by IRI.
     """
 
     robot: str
     points: tuple[tuple[float, float], ...]
     radius_m: float
+    top_m: float
+    arms: frozenset[str]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -16,7 +16,7 @@ from skillc_runtime.world.space.frames import placement_changes, pose
 from skillc_runtime.world.space.stands import read_stand, stand_changes, standing_pose
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.labels.labelling import label
-from skillc_runtime.world.state.terms import AT
+from skillc_runtime.world.state.terms import AT, HAS_ARM
 from skillc_runtime.world.state.world_state import WorldState
 
 FAR_M, TURNED_RAD = 0.45, 0.5
@@ -43,7 +43,8 @@ def list_stands(need: Stand, here: Situation) -> Iterator[Situation | SpaceFailu
         way = find_base_way(plan, start, standing_pose(there.state, need.to))
         if isinstance(way, BaseWay):
             points = tuple((float(at.position[0]), float(at.position[1])) for at in (start, *way.poses))
-            drive = BaseDrive(need.robot, points, plan.radius_m)
+            arms = frozenset(here.state.objects(need.robot, HAS_ARM))
+            drive = BaseDrive(need.robot, points, plan.radius_m, plan.top_m, arms)
             yield replace(_with_way(need, there, way), drives=(*there.drives, drive))
             continue
         yield _explain(need, here.state, way)

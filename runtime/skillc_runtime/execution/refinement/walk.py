@@ -19,10 +19,10 @@ from skillc_model.conditions import Condition
 from skillc_model.skills import Compound, Declared, Implementation, Primitive, SkillLibrary
 from skillc_runtime.cancellation import check_current
 from skillc_runtime.execution.refinement.failure import SpaceFailure
-from skillc_runtime.execution.refinement.meetings import find_meeting_arms
+from skillc_runtime.execution.refinement.meetings import Moving, find_meeting
 from skillc_runtime.execution.refinement.needs import meet
 from skillc_runtime.execution.refinement.placing import list_values
-from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation
+from skillc_runtime.execution.refinement.situation import Situation
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
 from skillc_runtime.execution.selection.select import ranked_implementations
@@ -125,20 +125,23 @@ class Walk:
             yield from self._in_order(nodes[1:], after, scope)
 
     def _at_once(
-        self, nodes: Sequence[tree.Node], here: Situation, scope: Scope, done: tuple[Sequence[RefinedMotion], ...] = ()
+        self, nodes: Sequence[tree.Node], here: Situation, scope: Scope, done: tuple[Moving, ...] = ()
     ) -> Iterator[Situation]:
-        """Go through nodes that run at the same time: none may bring an arm to where another arm is meanwhile."""
+        """Go through nodes that run at the same time: none may bring an arm or a base to where another is meanwhile."""
         if not nodes:
-            arms = find_meeting_arms(done)
-            if arms is None:
+            meeting = find_meeting(done)
+            if meeting is None:
                 yield here
             else:
-                one, other = map(here.state.vocabulary.short, arms)
+                one, other = map(here.state.vocabulary.short, meeting)
                 why = f"{one} and {other} would come into one place at the same time"
-                self._fail(SpaceFailure("in-the-way", why), here, replace(scope, within=(*scope.within, "par")))
+                both_drive = {drive.robot for each in done for drive in each.drives}.issuperset(meeting)
+                failure = SpaceFailure("in-the-way", why, in_any_posture=both_drive)
+                self._fail(failure, here, replace(scope, within=(*scope.within, "par")))
             return
         for after in self.go(nodes[0], here, scope):
-            yield from self._at_once(nodes[1:], after, scope, (*done, after.motions[len(here.motions) :]))
+            moving = Moving(after.motions[len(here.motions) :], after.drives[len(here.drives) :])
+            yield from self._at_once(nodes[1:], after, scope, (*done, moving))
 
     def _on_failure(self, node: tree.OnFailure, here: Situation, scope: Scope) -> Iterator[Situation]:
         yield from self.go(node.child, here, scope)

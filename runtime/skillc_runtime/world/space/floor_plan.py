@@ -31,7 +31,7 @@ class FloorPlan:
     Places (n, 3) are of the base in the world: x and y in m, and its heading in rad. `names` are the things (things,)
     that are as high above the floor as some part of the base. What it overlaps already where it starts is no obstacle,
     until it overlaps it more. low, high: the least and the greatest x and y (2,) in m of all things. radius_m: of the
-    circle in which the base is while it turns.
+    circle in which the base is while it turns, top_m: how high it is in the world.
     """
 
     def __init__(self, state: WorldState, robot: str, start: Pose) -> None:
@@ -58,6 +58,7 @@ class FloorPlan:
         self._reach = np.array(reach).reshape(-1, DIRECTIONS)
         self._corners = np.array([[start.inverse().apply(corner)[:2] for corner in each] for each in corners])
         self.radius_m = float(np.linalg.norm(self._corners, axis=2).max(initial=0.0))
+        self.top_m = float(heights[:, 1].max(initial=float(start.position[2])))
         here = place_of(start)
         self.low = -self._reach[:, [DIRECTIONS // 2, 3 * DIRECTIONS // 4]].max(axis=0, initial=-here[:2].min())
         self.high = self._reach[:, [0, DIRECTIONS // 4]].max(axis=0, initial=here[:2].max())
