@@ -13,7 +13,7 @@ import msgspec
 from docs.pages import ROOT
 from skillc.contract.api.endpoint import JSON, Endpoint
 from skillc.contract.api.endpoints import ENDPOINTS
-from skillc.server.http.portable_schemas import name_type
+from skillc.server.http.openapi import name_type
 
 FILE = ROOT / "studio/src/api/requests.ts"
 HEAD = """// Made from the endpoints of the contract by `python tests/accept.py`; do not edit.

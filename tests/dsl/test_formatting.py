@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from programs import programs
 
 from skillc_dsl.comments import find_comments
-from skillc_dsl.formatting.equality import equal_modulo_layout
-from skillc_dsl.formatting.formatter import format_source
+from skillc_dsl.formatting.formatter import equal_modulo_layout, format_source
 from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source

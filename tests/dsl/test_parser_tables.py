@@ -15,9 +15,8 @@ from programs import programs
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.parsing import tables
 from skillc_dsl.parsing.automaton import MisfitError, parse_tree
-from skillc_dsl.parsing.direct import build_directly
 from skillc_dsl.parsing.lexer import tokenize
-from skillc_dsl.parsing.parser import parse_with_problems
+from skillc_dsl.parsing.parser import build_directly, parse_with_problems
 from skillc_dsl.parsing.tables import grammar_text, load_tables, read_built_tables, read_or_make_tables
 from skillc_dsl.parsing.tokens import Tree
 from skillc_dsl.source import Source

@@ -7,8 +7,7 @@ from fractions import Fraction
 import pytest
 
 from skillc_model.pddl.formulas import Atom
-from skillc_runtime.planning.cp_sat.activities import Activities
-from skillc_runtime.planning.cp_sat.groups import find_groups
+from skillc_runtime.planning.cp_sat.activities import Activities, find_groups
 from skillc_runtime.planning.cp_sat.task import Activity, AllOf, AnyOf
 from skillc_runtime.planning.plan import Step
 

@@ -24,8 +24,8 @@ from skillc_runtime.film.frames import FULL_DOSE_S, FULL_SHADE, LEAST_SHADE, sha
 from skillc_runtime.film.framing import find_shots, posed
 from skillc_runtime.film.labels import load_font
 from skillc_runtime.film.picture_files import FilmError, LoopPictures
+from skillc_runtime.film.render_film import CLEAN, DUSTY, colour_surface
 from skillc_runtime.film.rendering import FILM_QUALITIES, Renderer, RenderingError, check_rendering
-from skillc_runtime.film.surface_colours import CLEAN, DUSTY, colour_surface
 from skillc_runtime.film.windows import Spheres, Window, find_window, join_spheres
 from skillc_runtime.film.workshop import find_texture, workshop_model
 from skillc_runtime.motion.coverage import CoverageMap

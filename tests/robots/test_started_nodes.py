@@ -7,7 +7,7 @@ import json
 from typing import Any
 
 from skillc.events import NodeEnded, NodeStarted
-from skillc.ros.started_nodes import PERIOD_S, StartedNodes
+from skillc.ros.cell_bridge import PERIOD_S, StartedNodes
 from skillc_dsl.position import Position
 
 PLACE = Position("a.skill", 1, 1)

@@ -12,7 +12,6 @@ from typing import TypeVar
 
 import pytest
 
-from skillc.cells.adopting import adopt_world
 from skillc.cells.database import DatabaseError
 from skillc.cells.evidence import EvidenceKeeper, read_merged
 from skillc.cells.journal.fingerprint import FINGERPRINT, make_fingerprint
@@ -21,6 +20,7 @@ from skillc.cells.journal.reading import JournalReader
 from skillc.cells.journal.schema import SCHEMA
 from skillc.cells.world import restore_world
 from skillc.contract.operation import OperationRequest
+from skillc.server.adopting import adopt_world
 from skillc_runtime.execution.cell_loop import NotDurable
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import Note

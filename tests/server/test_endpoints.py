@@ -11,7 +11,7 @@ from starlette.responses import Response
 
 from skillc.contract.api.endpoint import JSON, Endpoint
 from skillc.contract.api.endpoints import ENDPOINTS, STREAMS
-from skillc.server.handlers import find_handlers, list_modules
+from skillc.server.app import find_handlers, list_modules
 
 HANDLERS = find_handlers(ENDPOINTS)
 

@@ -18,7 +18,7 @@ from skillc.services.library.files import find_library, find_scene
 from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.scene.stores import load_world
 from skillc.workers.devices import list_devices
-from skillc.workers.libraries import describe_library
+from skillc.workers.library_check import describe_library
 
 
 def test_skills_and_tasks_are_described(server: RunningServer) -> None:

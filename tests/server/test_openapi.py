@@ -9,9 +9,7 @@ import msgspec
 
 from skillc.contract.api.endpoint import JSON, PREFIX
 from skillc.contract.api.endpoints import ENDPOINTS
-from skillc.contract.api.examples import EXAMPLES, PATH_EXAMPLES
-from skillc.server.http.openapi import find_tag, make_openapi
-from skillc.server.http.portable_schemas import name_type, simplify_arrays
+from skillc.server.http.openapi import EXAMPLES, PATH_EXAMPLES, find_tag, make_openapi, name_type, simplify_arrays
 
 DOCUMENT = msgspec.json.decode(msgspec.json.encode(make_openapi(ENDPOINTS, PREFIX)))
 OPERATIONS = [each for path in DOCUMENT["paths"].values() for each in path.values()]

@@ -11,8 +11,8 @@ from multiprocessing.synchronize import Barrier
 from pathlib import Path
 from random import Random
 
+from skillc.services.scene.stores import open_store
 from skillc_runtime.store.disk import JOURNAL, DiskStore
-from skillc_runtime.store.opening import open_store
 from skillc_runtime.store.world_from_triples import build_world
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.transactions import StoreError

@@ -7,9 +7,9 @@ from pathlib import Path
 import pyoxigraph as ox
 import pytest
 
+from skillc.services.scene.stores import open_store
 from skillc_runtime.store import facts_folder
 from skillc_runtime.store.disk import FACTS, FORMAT, JOURNAL, MARK, DiskStore
-from skillc_runtime.store.opening import open_store
 from skillc_runtime.world.state.transactions import StoreError
 from store.actors import use_as_a_guest, write_to_a_full_disk
 from store.processes import Actor

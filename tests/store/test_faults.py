@@ -11,11 +11,10 @@ from urllib.parse import urlsplit
 import pyoxigraph as ox
 import pytest
 
-from skillc.services.scene.stores import StoreChoice
+from skillc.services.scene.stores import StoreChoice, open_store
 from skillc_runtime.store import http
 from skillc_runtime.store.address import Address
 from skillc_runtime.store.http import HttpEndpoint, InvalidAnswer, RequestRefused, ServerUnreachable, find_endpoint
-from skillc_runtime.store.opening import open_store
 from skillc_runtime.store.sparql import SparqlStore
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
 from store.proxy import FAULTS, Fault, Proxy, proxy_to

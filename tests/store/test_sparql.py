@@ -7,8 +7,8 @@ from random import Random
 
 import pytest
 
+from skillc.services.scene.stores import open_store
 from skillc_runtime.store.http import HttpEndpoint
-from skillc_runtime.store.opening import open_store
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.transactions import StoreError
 from store.actors import write

@@ -12,7 +12,6 @@ import msgspec
 
 from skillc.api.boundary import NoticeList, api_call
 from skillc.api.picture import Figure, Film
-from skillc.api.signal_frame import read_signal_frame
 from skillc.errors import RequestError, ServiceError
 from skillc.services.recording.recordings import (
     answer_question,
@@ -21,21 +20,51 @@ from skillc.services.recording.recordings import (
     is_mcap,
     read_envelopes,
     read_result,
+    read_signals,
 )
 from skillc.services.recording.story_text import format_answer, format_overview
 from skillc.services.replaying.playback import play_paced
+from skillc.services.run.signal_files import read_signal_dictionary
 from skillc.values.arguments import AnyPath, require_choice, require_path, require_text
 from skillc.values.flat_rows import make_flat_row
-from skillc.values.frames import make_frame, make_table
+from skillc.values.frames import import_pandas, make_frame, make_table
 from skillc_runtime.evaluation.report.result import PlacementResult, StepResult, TaskResult, WipingResult, WorkResult
 from skillc_runtime.evaluation.report.write import REPORT
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.history.history_builder import read_history
 from skillc_runtime.recording.known_facts import format_false_claim
+from skillc_runtime.recording.signals.files import DICTIONARY
+from skillc_runtime.recording.signals.signal import CLOCK
 from skillc_runtime.world.state.labels.labelled_text import format_value
 
 if TYPE_CHECKING:
     import pandas as pd
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def read_signal_frame(folder: Path | None, recording: Path | None) -> pd.DataFrame:
+    """Return the signals that were recorded in a folder, by the time of the cell in s, with their units in `attrs`.
+
+    Without them it is the signals of a recording, an MCAP file. RequestError if there are none; ServiceError if they
+    cannot be read, or pandas is not installed.
+    """
+    if recording is not None and (folder is None or not (folder / DICTIONARY).exists()):
+        table, pandas = read_signals(recording), import_pandas()
+        index = pandas.Index(table.time_s, name=CLOCK.column)
+        frame = pandas.DataFrame(table.rows, index, [each.column for each in table.signals])
+        frame.attrs["units"] = {each.column: each.unit for each in table.signals}
+        return frame
+    dictionary = read_signal_dictionary(folder)
+    assert folder is not None, "a folder with signals"
+    file, pandas = folder / dictionary.file, import_pandas()
+    try:
+        frame = pandas.read_parquet(file) if file.suffix == ".parquet" else pandas.read_csv(file)
+    except (OSError, ValueError, ImportError) as error:
+        raise ServiceError(f"{file} cannot be read: {error}") from error
+    frame.attrs["units"] = {each.column: each.unit for each in dictionary.signals}
+    return frame.set_index(CLOCK.column)
+
 
 Part = Literal["events", "steps", "signals", "wipings", "works", "placements", "touches"]
 STEP_COLUMNS = (

@@ -16,13 +16,73 @@ import click
 from skillc.cli import streams
 from skillc.cli.command import Group
 from skillc.cli.console import print_error
-from skillc.cli.defaults import WITH_DEFAULTS, read_defaults
 from skillc.cli.interrupts import Interrupted, raising_on_signals
 from skillc.cli.options import WITH_ONTOLOGY, add_ontology_option
-from skillc.cli.usage_errors import print_click_error
-from skillc.errors import OutputError
+from skillc.errors import DiagnosticsError, OutputError, ServiceError
+from skillc.services.project.loading import find_project
 from skillc.services.reporting import crash_reports
 from skillc_runtime.platforms.python_modules import defer_import
+
+
+def print_click_error(error: click.ClickException) -> None:
+    """Print an error to stderr; one in the options of a command with the usage of that."""
+    context = getattr(error, "ctx", None)
+    if context is None:
+        print_error(_format_message(error))
+        return
+    with context.scope(cleanup=False):
+        print_error(_format_message(error))
+    click.echo(f"\n{context.get_usage()}\nFor more information, try `{context.command_path} --help`.", err=True)
+
+
+def _format_message(error: click.ClickException) -> str:
+    """Return the message of an error without capital letter and full stop, as all messages of skillc are written."""
+    if isinstance(error, click.NoSuchOption):
+        renamed = _find_renamed(error)
+        near = f"did you mean `{error.possibilities[0]}`?" if error.possibilities else ""
+        hint = f"it is called `{renamed}` now" if renamed else near
+        return f"there is no option `{error.option_name}`{hint and f'; {hint}'}"
+    text = error.format_message().removesuffix(".")
+    return text[:1].lower() + text[1:] if text[1:2].islower() else text
+
+
+def _find_renamed(error: click.NoSuchOption) -> str | None:
+    """Return how an option of earlier versions is called now, if the command has it."""
+    from skillc_runtime.recording.run_spec import RENAMED
+
+    word = RENAMED.get(error.option_name.lstrip("-").replace("-", "_"), "").replace("_", "-")
+    known = error.ctx.command.get_params(error.ctx) if error.ctx is not None else []
+    return next((option for each in known for option in each.opts if word and option == f"--{word}"), None)
+
+
+WITH_DEFAULTS = ("run", "plan", "trials")
+"""The commands that have a table of defaults."""
+
+
+def read_defaults(command: str) -> dict[str, Any]:
+    """Return the defaults of a command's options by parameter; exit with 1 if the manifest has errors.
+
+    Plans are made for the back end of runs.
+    """
+    try:
+        project = find_project(Path())
+    except DiagnosticsError as error:
+        from skillc.cli.console import Terminal
+
+        Terminal().show(error.diagnostics, error.texts)
+        sys.exit(error.exit_code)
+    except ServiceError as error:
+        raise click.UsageError(str(error)) from error
+    if project is None:
+        return {}
+    import msgspec
+
+    settings = msgspec.structs.asdict(getattr(project.manifest.tool, command))
+    if command == "plan":
+        settings["backend"] = project.manifest.tool.run.backend
+    set_ones = {name: value for name, value in settings.items() if value is not None}
+    return {name: str(project.root / value) if name == "out" else value for name, value in set_ones.items()}
+
 
 COMMANDS = Path(__file__).parent / "commands"
 GARBAGE = 50_000

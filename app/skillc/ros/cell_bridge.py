@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import TimeoutError as Late
 from contextlib import aclosing
 from functools import partial
@@ -17,10 +17,48 @@ from skillc.client.async_server import AsyncServer
 from skillc.contract.cell import CellStatus
 from skillc.contract.operation import ENDS, OperationStatus
 from skillc.errors import SkillcError
+from skillc.events import Event, NodeEnded, NodeStarted
 from skillc.ros.cell_topics import CellTopics
 from skillc.ros.orders import CellOrder, OrderAnswer, carry_out, read_order
-from skillc.ros.started_nodes import StartedNodes
 from skillc_runtime.backends.ros2.session import plain_name
+
+PERIOD_S = 0.2
+"""How often a tree that changes is published at most, in s."""
+
+
+class StartedNodes:
+    """The nodes of one operation; call it in an event loop, whose time decides when they are published."""
+
+    def __init__(self, operation: str, publish: Callable[[bytes], None]) -> None:
+        self._operation, self._publish = operation, publish
+        self._nodes: dict[int, dict[str, Any]] = {}
+        self._loop, self._due_s = asyncio.get_running_loop(), 0.0
+        self._later: asyncio.TimerHandle | None = None
+
+    def take(self, event: Event) -> None:
+        """Take what has happened; a change is published at once, or when a period is over since the last one."""
+        match event:
+            case NodeStarted(node=node, parent=parent, kind=kind, name=name):
+                self._nodes[node] = {"id": node, "parent": parent, "kind": kind, "name": name, "status": "running"}
+            case NodeEnded(node=node, status=ended) if node in self._nodes:
+                self._nodes[node]["status"] = ended
+            case _:
+                return
+        if self._later is None:
+            self._later = self._loop.call_at(max(self._due_s, self._loop.time()), self.show)
+
+    def show(self) -> None:
+        """Publish the nodes as they are now."""
+        self.close()
+        self._due_s = self._loop.time() + PERIOD_S
+        self._publish(msgspec.json.encode({"operation": self._operation, "nodes": list(self._nodes.values())}))
+
+    def close(self) -> None:
+        """Publish no change any more that is waiting for its time."""
+        if self._later is not None:
+            self._later.cancel()
+            self._later = None
+
 
 RATE_HZ = 50.0
 ANSWER_S = 20.0

@@ -5,41 +5,83 @@ from __future__ import annotations
 import sqlite3
 import time
 from collections import Counter
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Iterable, Mapping
 from functools import partial
 from http import HTTPStatus
-from types import NoneType
+from importlib import import_module
+from pkgutil import iter_modules
+from types import ModuleType, NoneType
 from typing import Any
+from urllib.parse import urlsplit
 
 import msgspec
 from starlette.applications import Starlette
+from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import BaseRoute, Route, WebSocketRoute
-from starlette.types import ASGIApp
+from starlette.types import ASGIApp, Receive, Scope, Send
 
 from skillc.cells.database import DatabaseError
 from skillc.contract.api.endpoint import PREFIX, Endpoint
 from skillc.contract.api.endpoints import ENDPOINTS, STREAMS, UNAVAILABLE
+from skillc.server import routes
 from skillc.server.access.rates import TokenBuckets
 from skillc.server.access.roles import includes
 from skillc.server.access.tokens import Client
 from skillc.server.context import ServerContext
-from skillc.server.handlers import find_handlers
-from skillc.server.http.api_call import ApiCall
+from skillc.server.http.api_call import ApiCall, Handler
 from skillc.server.http.audited_request import AuditedRequest
 from skillc.server.http.authentication import find_cookie, find_known_client, read_session
 from skillc.server.http.event_stream import stream_events
-from skillc.server.http.guard import Guard
 from skillc.server.http.openapi import make_openapi
 from skillc.server.http.proxy import ProxiedRequests
 from skillc.server.http.requests import decode_body, read_body, read_key, read_query, wait_until_gone
 from skillc.server.http.sample_stream import stream_samples
 from skillc.server.language.stream import stream_language
 from skillc.server.log import log
-from skillc.server.problems import MEDIA_TYPE, ApiRefusal
+from skillc.server.problems import MEDIA_TYPE, ApiRefusal, send_refusal
 from skillc.server.studio_page import STUDIO_FILES, StudioPage
+
+
+class Guard:
+    """Lets requests pass whose `Host` is one of `hosts`, and whose `Origin`, if there is one, is a page of that host.
+
+    So a page that a browser has from elsewhere can send nothing here, also not by a name that leads to this machine
+    (DNS rebinding).
+    """
+
+    def __init__(self, app: ASGIApp, hosts: frozenset[str]) -> None:
+        self._app, self._hosts = app, hosts
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve a request (ASGI)."""
+        if scope["type"] == "lifespan" or (refused := self._find_refusal(Headers(scope=scope))) is None:
+            await self._app(scope, receive, send)
+        else:
+            await send_refusal(refused, scope, receive, send)
+
+    def _find_refusal(self, headers: Headers) -> ApiRefusal | None:
+        hosts = headers.getlist("host")
+        if len(hosts) != 1 or hosts[0].lower() not in self._hosts:
+            return ApiRefusal(HTTPStatus.MISDIRECTED_REQUEST, "this server has another name; see --host")
+        origin = headers.get("origin")
+        if origin is not None and urlsplit(origin).netloc.lower() != hosts[0].lower():
+            return ApiRefusal(HTTPStatus.FORBIDDEN, "requests of pages from elsewhere are refused")
+        return None
+
+
+def find_handlers(endpoints: Iterable[Endpoint[Any]]) -> Mapping[str, Handler]:
+    """Return the handlers of endpoints by name; KeyError if one has none."""
+    known = {name: each for module in list_modules() for name, each in vars(module).items()}
+    return {each.name: known[each.name] for each in endpoints}
+
+
+def list_modules() -> list[ModuleType]:
+    """Return the modules with handlers."""
+    return [import_module(f"{routes.__name__}.{each.name}") for each in iter_modules(routes.__path__)]
+
 
 REQUESTS_PER_S, BURST = 200.0, 400.0
 """How many requests a client may make; stops are not counted."""

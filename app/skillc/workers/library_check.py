@@ -16,19 +16,65 @@ import msgspec
 from msgspec import structs
 
 from skillc.cells.library import encode_library
-from skillc.contract.library import LibraryDescription
+from skillc.contract.library import (
+    ImplementationDescription,
+    LibraryDescription,
+    ParameterDescription,
+    SkillDescription,
+    TaskDescription,
+)
 from skillc.errors import DiagnosticsError, ServiceError
 from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import LibraryFiles, find_library
 from skillc.services.library.modules import find_modules, module_of
 from skillc.services.project.loading import find_project
-from skillc.workers.libraries import describe_library
 from skillc_dsl.encoding import decode, read_file
-from skillc_model.skills import Primitive
+from skillc_model import conditions
+from skillc_model.format_type import format_type
+from skillc_model.skills import Implementation, Parameter, Primitive, Requirement, Skill, SkillLibrary, Task
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.platforms.memory import limit_memory
 from skillc_runtime.platforms.python_modules import SHIPPED
+
+
+def describe_library(library: SkillLibrary) -> LibraryDescription:
+    """Return the description of a library; skills and tasks are in the order of their names."""
+    skills = tuple(_describe_skill(each, library) for _, each in sorted(library.skills.items()))
+    tasks = tuple(_describe_task(each, library.vocabulary) for _, each in sorted(library.tasks.items()))
+    return LibraryDescription(library.name, library.hash, skills, tasks)
+
+
+def _describe_skill(skill: Skill, library: SkillLibrary) -> SkillDescription:
+    return SkillDescription(
+        skill.name,
+        skill.doc,
+        _describe_parameters(skill.parameters, library.vocabulary),
+        _texts(skill.pre),
+        tuple(each.text for each in skill.post),
+        tuple(_describe_implementation(each, skill) for each in library.implementations_of(skill.name)),
+        float(skill.duration.value) if isinstance(skill.duration, conditions.Literal) else None,
+    )
+
+
+def _describe_implementation(implementation: Implementation, skill: Skill) -> ImplementationDescription:
+    own = tuple(each for each in _texts(implementation.pre) if each not in _texts(skill.pre))
+    return ImplementationDescription(implementation.name, implementation.doc, own)
+
+
+def _describe_task(task: Task, vocabulary: Vocabulary) -> TaskDescription:
+    return TaskDescription(task.name, task.doc, _describe_parameters(task.parameters, vocabulary), task.goal_text)
+
+
+def _describe_parameters(parameters: Iterable[Parameter], known: Vocabulary) -> tuple[ParameterDescription, ...]:
+    return tuple(
+        ParameterDescription(each.name, each.direction, format_type(each.type, known), each.doc) for each in parameters
+    )
+
+
+def _texts(requirements: Iterable[Requirement]) -> tuple[str, ...]:
+    return tuple(each.text for each in requirements)
+
 
 MEMORY_BYTES = 4 * 2**30
 """The largest address space of a process that checks."""

@@ -6,16 +6,34 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import TypeAlias
 
-from skillc_compiler.diagnostics.former_names import NONE, find_former_names, with_advice
 from skillc_compiler.diagnostics.orphans import Orphans
+from skillc_compiler.program import name_notes
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownKind, UnknownName
 from skillc_compiler.program.written import names_declared_in, skill_of
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
+
+FormerNames = Mapping[tuple[str, str], str]
+"""The advice for each name, by its skill and the name; skills and functions belong to LIBRARY."""
+NONE: FormerNames = MappingProxyType({})
+
+
+def find_former_names(files: Iterable[ParsedFile]) -> FormerNames:
+    """Return what the comments of files say about names that are no more."""
+    return {(each.owner, each.name): each.advice for each in name_notes.find_former_names(files)}
+
+
+def with_advice(problem: Diagnostic, advice: str) -> Diagnostic:
+    """Return the problem with an unknown name with what to do about it; another name is a fix."""
+    renamed = name_notes.RENAMED.match(advice)
+    fix = Fix(problem.span, renamed[1], f"write `{renamed[1]}`", safe=False) if renamed else None
+    return replace(problem, message=f"{problem.message} any more", help=advice, fix=fix)
+
 
 Key: TypeAlias = tuple[object, ...]
 

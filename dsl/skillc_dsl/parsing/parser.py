@@ -11,17 +11,34 @@ from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, ForeignForm, Outcome
 from skillc_dsl.editions import NEWEST
 from skillc_dsl.encoding import report_not_text, report_too_large, report_wrong_bytes
+from skillc_dsl.parsing.automaton import MisfitError, Parser
 from skillc_dsl.parsing.braces import close_braces, region_lines
 from skillc_dsl.parsing.building.declarations import FileBuilder
-from skillc_dsl.parsing.direct import build_directly
 from skillc_dsl.parsing.lexer import tokenize
-from skillc_dsl.parsing.nesting import drop_too_deep
+from skillc_dsl.parsing.nesting import DEEPEST, drop_too_deep
 from skillc_dsl.parsing.recovery import Recovery
-from skillc_dsl.parsing.reserved_names import rename_reserved
-from skillc_dsl.parsing.token_repairs import repair_tokens
+from skillc_dsl.parsing.reserved_names import has_reserved_name, rename_reserved
+from skillc_dsl.parsing.token_repairs import has_unknown_unit, repair_tokens
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source, Span
 from skillc_dsl.token_table import list_later_words
+
+
+def build_directly(tokens: tuple[Token, ...], source: Source) -> s.File | None:
+    """Return the syntax tree of a text; None if there is anything to report. The last of its tokens is the end."""
+    if has_unknown_unit(tokens) or has_reserved_name(tokens):
+        return None
+    builder = FileBuilder(source)
+    parser = Parser(builder.make)
+    try:
+        for token in tokens[:-1]:
+            parser.feed(token)
+        file = parser.finish(tokens[-1])
+    except MisfitError:
+        return None
+    is_clean = not builder.problems and parser.depths[-1] <= DEEPEST
+    return file if is_clean and isinstance(file, s.File) else None
+
 
 MOST_PROBLEMS = 200
 """The maximum number of syntax errors shown for a file."""

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from skillc_runtime.film.annotations import Annotations
 from skillc_runtime.film.camera import CameraView
@@ -18,7 +19,20 @@ from skillc_runtime.film.frames import FRAMES_PER_S, Frame, Shades
 from skillc_runtime.film.framing import Framing, posed
 from skillc_runtime.film.picture_files import LoopPictures, write_film, write_picture
 from skillc_runtime.film.rendering import FILM_QUALITIES, FilmQuality, Picture, Quality, Renderer
-from skillc_runtime.film.surface_colours import colour_surface
+
+DUSTY, CLEAN = (171.0, 160.0, 140.0), (246.0, 250.0, 252.0)
+"""Red, green and blue, to 255, of a surface before work and after it."""
+
+DUST_GRAIN = 9.0
+"""How much the brightness of dust varies."""
+
+
+def colour_surface(shades: Shades) -> NDArray[np.uint8]:
+    """Return the colours (rows, columns, 3) of the cells of a surface of shades (rows, columns)."""
+    grain = np.random.default_rng(3).uniform(-DUST_GRAIN, DUST_GRAIN, (*shades.shape, 1))
+    share = (shades / 255.0)[:, :, np.newaxis]
+    return np.asarray((1 - share) * (np.array(DUSTY) + grain) + share * np.array(CLEAN)).astype(np.uint8)
+
 
 SIZES: dict[FilmQuality, tuple[int, int]] = {"draft": (640, 360), "standard": (960, 540), "fine": (1280, 720)}
 """Width and height of a film in pixels; a strip with captions is at its bottom."""

@@ -2,18 +2,86 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from datetime import UTC, datetime
 from http import HTTPStatus
 from types import NoneType
 from typing import Any
 
 import msgspec
 
+from skillc.contract import commands
+from skillc.contract.access import NewToken
+from skillc.contract.api import endpoints
 from skillc.contract.api.endpoint import JSON, Endpoint
-from skillc.contract.api.examples import EXAMPLES, PATH_EXAMPLES
 from skillc.contract.api.problem import ProblemDetails
-from skillc.server.http.portable_schemas import name_type, simplify_arrays
+from skillc.contract.cell import LeaseRequest, PaceSetting
+from skillc.contract.operation import OperationRequest, StopReason
+from skillc.contract.order import OrderRequest
+from skillc.contract.rehearsal import RehearsalRequest
+from skillc.contract.source import SourceChange
+from skillc.contract.world import WorldEdit, WorldPlacement, WorldQuery
 from skillc.server.problems import MEDIA_TYPE
+from skillc_runtime.devices.disturbances import PushArm
+
+NO_NAMES: Mapping[str, str] = {}
+
+
+def simplify_arrays(schema: Any, references: Mapping[str, str] = NO_NAMES) -> Any:
+    """Return a schema, or a document with schemas, in which arrays of a fixed length have one schema for all items.
+
+    `prefixItems` with `items: false`, which msgspec makes of tuples, stops generators. The lengths stay; if the items
+    differ, each may be any of them. `references` are replaced.
+    """
+    if isinstance(schema, str):
+        return references.get(schema, schema)
+    if isinstance(schema, list | tuple):
+        return [simplify_arrays(each, references) for each in schema]
+    if not isinstance(schema, Mapping):
+        return schema
+    found = {name: simplify_arrays(each, references) for name, each in schema.items() if name != "prefixItems"}
+    if isinstance(schema.get("prefixItems"), list | tuple):
+        found["items"] = _join(simplify_arrays(schema["prefixItems"], references))
+    elif schema.get("items") is False:
+        found["items"] = {}
+    return found
+
+
+def name_type(name: str) -> str:
+    """Return a name for a type of which others have the same name, `package.module.Type`: `ModuleType`."""
+    module, _, kind = name.rpartition(".")
+    words = module.rpartition(".")[2].split("_") if module else ()
+    return "".join(map(str.capitalize, words)) + kind
+
+
+def _join(schemas: list[Any]) -> Any:
+    different = [each for number, each in enumerate(schemas) if each not in schemas[:number]]
+    return different[0] if len(different) == 1 else {"anyOf": different}
+
+
+_TASK, _SURFACE, _STOP = "clean", {"surface": "lab:Table-1"}, StopReason("a person is in the cell")
+
+EXAMPLES: dict[str, msgspec.Struct] = {
+    endpoints.SET_PACE.name: PaceSetting(1.0),
+    endpoints.STOP_CELL.name: _STOP,
+    endpoints.DISTURB_CELL.name: PushArm("lab:Arm-1", (0.0, 20.0, 0.0)),
+    endpoints.TAKE_LEASE.name: LeaseRequest(600.0),
+    endpoints.SUBMIT_OPERATION.name: OperationRequest(task=_TASK, arguments=_SURFACE),
+    endpoints.GIVE_COMMAND.name: commands.PauseRun("somebody looks at it"),
+    endpoints.STOP_OPERATION.name: _STOP,
+    endpoints.ADD_ORDER.name: OrderRequest(
+        OperationRequest(task=_TASK, arguments=_SURFACE), datetime(2026, 1, 31, 18, tzinfo=UTC), every_s=86_400.0
+    ),
+    endpoints.QUERY_WORLD.name: WorldQuery("SELECT ?thing WHERE { lab:Table-1 skiros:contain ?thing }"),
+    endpoints.EDIT_WORLD.name: WorldEdit(("lab:Table-1 wiping:isClean false",), "it was spilled on"),
+    endpoints.PLACE_THING.name: WorldPlacement("lab:Table-1", (0.6, 0.0, 0.4, 1.0, 0.0, 0.0, 0.0), "it was moved"),
+    endpoints.ADD_JOB.name: RehearsalRequest(cell="cell", task=_TASK, arguments=_SURFACE),
+    endpoints.CHANGE_LIBRARY_SOURCE.name: SourceChange("## Nothing yet.\n", 64 * "0"),
+    endpoints.ADD_TOKEN.name: NewToken("line-3", "operate"),
+}
+OPERATION = "clean-20260131T120000Z-1f0c9a"
+PATH_EXAMPLES = {"cell": "cell", "operation": OPERATION, "file": "report.html", "library": "wiping"}
+
 
 VERSION = "1"
 ALWAYS = (

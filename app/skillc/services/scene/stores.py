@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
+from typing import Protocol
 
 from skillc.errors import DiagnosticsError, RequestError, ServiceError
 from skillc.services.reporting.reporter import Reporter, format_count
@@ -17,13 +18,44 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.store.address import without_credentials
-from skillc_runtime.store.opening import OpenStore, open_store
-from skillc_runtime.store.store import StoredWorld
+from skillc_runtime.store.store import Store, StoredWorld
 from skillc_runtime.store.world_from_triples import build_world
 from skillc_runtime.store.world_index import Indexed, IndexPlace, read_index, write_index
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
 from skillc_runtime.world.state.world_state import WorldState
+
+
+class OpenStore(Store, Protocol):
+    """An open store; as text it is its folder or address."""
+
+    def close(self) -> None:
+        """Close the store."""
+
+    def require_writable(self) -> None:
+        """Raise StoreError if only somebody else may write to the store."""
+
+
+def open_store(place: str, reset: bool = False, cancel: CancelToken | None = None) -> OpenStore:
+    """Open the store in a folder or at an `http://` or `https://` address; with `reset`, delete its contents.
+
+    `cancel` ends all waits for a server or for other processes. StoreError when that is not possible, with the reason.
+    """
+    if "://" in place:
+        return _open_on_server(place, reset, cancel)
+    try:
+        from skillc_runtime.store.disk import DiskStore
+    except ImportError as error:
+        raise StoreError(f"a store in a folder needs the file locks of Linux or macOS ({error})") from error
+    return DiskStore(Path(place), reset, cancel)
+
+
+def _open_on_server(address: str, reset: bool, cancel: CancelToken | None) -> OpenStore:
+    from skillc_runtime.store.http import find_endpoint
+    from skillc_runtime.store.sparql import SparqlStore
+
+    return SparqlStore(find_endpoint(address, cancel=cancel), reset, cancel=cancel)
+
 
 _BEGINNING = re.compile(r"scene (.*) ([0-9a-f]{12})")
 

@@ -6,7 +6,7 @@ import contextlib
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -14,11 +14,22 @@ import msgspec
 
 from skillc.errors import ServiceError
 from skillc.services.watchdog import ending
-from skillc.services.watchdog.compilation import watching_compilation
 from skillc.services.watchdog.ending import DESCRIPTION, RunDescription
 from skillc_ontology import catalogue
+from skillc_runtime.motion.numerics.compiled import LISTENERS
 from skillc_runtime.platforms.watchdog import IS_WATCHED, exiting_at_sigquit, start_watchdog
 from skillc_runtime.platforms.watchdog_program import SharedState
+
+
+@contextmanager
+def watching_compilation(changed: Callable[[int], None]) -> Iterator[None]:
+    """Call `changed` with 1 whenever a function begins to be compiled or loaded, and with -1 when that ends."""
+    LISTENERS.append(changed)
+    try:
+        yield
+    finally:
+        LISTENERS.remove(changed)
+
 
 TICK_TIMEOUT_S = 30.0
 """How long a tick may take by default, in s of wall time."""

@@ -4,25 +4,46 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import ExitStack
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 from skillc_runtime.backends.control_process.handshake import USUAL_PATIENCE, Patience
+from skillc_runtime.backends.control_process.link import RobotLink
 from skillc_runtime.backends.control_process.opening import open_cell
 from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.devices.fingers import Fingers
 from skillc_runtime.backends.devices.gripper_facts import open_gripper
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
-from skillc_runtime.backends.ur.description import UrDescription
-from skillc_runtime.backends.ur.facts import read_address, read_facts
+from skillc_runtime.backends.ur.facts import UrFacts, read_address, read_facts
 from skillc_runtime.backends.ur.io import UrIo
+from skillc_runtime.backends.ur.library import load_library
 from skillc_runtime.backends.ur.wiring import WiredPoint, read_wires
 from skillc_runtime.devices.backend import BackendStart, BackendUnavailable, DeviceStop, StopPersists, find_first_stop
 from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class UrDescription:
+    """One arm, implementing `LinkDescription`."""
+
+    facts: UrFacts
+
+    @property
+    def name(self) -> str:
+        """The arm and its address."""
+        return self.facts.name
+
+    def make_link(self) -> RobotLink:
+        """Return a link that is not connected; BackendUnavailable without ur-rtde."""
+        for module in ("rtde_control", "rtde_receive"):
+            load_library(module)
+        from skillc_runtime.backends.ur.link import UrLink
+
+        return UrLink(self.facts)
 
 
 def make_backend(world: WorldModel, start: BackendStart) -> DeviceCell:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import assert_never
@@ -22,12 +22,64 @@ from skillc_model.pddl.formulas import (
 )
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.planning.cp_sat.groups import find_groups
-from skillc_runtime.planning.cp_sat.task import Activity, AllOf, AnyOf, Need, ScheduleTask, list_literals
+from skillc_runtime.planning.cp_sat.task import (
+    Activity,
+    AllOf,
+    AnyOf,
+    Need,
+    ScheduleTask,
+    list_conjuncts,
+    list_literals,
+)
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.plan_text import read_step
 from skillc_runtime.planning.schedule import Schedule, TimedStep
 from skillc_runtime.planning.search.grounding import GroundAction, Grounding
+
+
+def find_groups(
+    facts: Mapping[Atom, int], activities: Sequence[Activity], true: Sequence[int]
+) -> tuple[tuple[int, ...], ...]:
+    """Return disjoint groups of the numbers of facts that differ in one term only.
+
+    One of a group holds at first, and each activity that changes the group ends one that it needs and begins one: so
+    exactly one holds at any time (an invariant as of Helmert, "Concise finite-domain representations", 2009).
+    """
+    touching: dict[int, set[int]] = defaultdict(set)
+    for number, activity in enumerate(activities):
+        for literal in activity.effects:
+            touching[abs(literal)].add(number)
+    taken: set[int] = set()
+    found = []
+    for group in _list_candidates(facts):
+        changing = set().union(*(touching[each] for each in group))
+        if (
+            len(group) > 1
+            and taken.isdisjoint(group)
+            and len(group.intersection(true)) == 1
+            and all(_exchanges(activities[each], group) for each in changing)
+        ):
+            taken |= group
+            found.append(tuple(sorted(group)))
+    return tuple(found)
+
+
+def _list_candidates(facts: Mapping[Atom, int]) -> list[set[int]]:
+    """Return the sets of facts that differ in one term, the largest first."""
+    candidates: dict[tuple[object, ...], set[int]] = defaultdict(set)
+    for atom, number in facts.items():
+        for place in range(len(atom.terms)):
+            rest = atom.terms[:place] + atom.terms[place + 1 :]
+            candidates[atom.predicate, place, *rest].add(number)
+    return sorted(candidates.values(), key=lambda each: (-len(each), min(each)))
+
+
+def _exchanges(activity: Activity, group: set[int]) -> bool:
+    """Whether an activity begins exactly one fact of a group and ends exactly one, which it needs."""
+    begun = [each for each in activity.effects if each in group]
+    ended = [-each for each in activity.effects if -each in group]
+    needed = [each for each in list_conjuncts(activity.need) if each in group]
+    return len(begun) == 1 and ended == needed and len(ended) == 1
 
 
 class NotSchedulable(ValueError):

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from typing import Final
 
 import numpy as np
 from msgspec.structs import replace
 
 from skillc_runtime.backends.control_process.link import (
+    KINDS,
     CommandView,
     ControlRefused,
     LinkAbilities,
@@ -19,7 +21,6 @@ from skillc_runtime.backends.control_process.periods.command_limits import Comma
 from skillc_runtime.backends.control_process.periods.command_slot import NOTHING
 from skillc_runtime.backends.control_process.periods.device_arm import build_arm
 from skillc_runtime.backends.control_process.periods.facts import read_margins, read_rate_limits
-from skillc_runtime.backends.control_process.periods.tool_target import fill_target, fill_tool
 from skillc_runtime.backends.simulation.arms.driver_factory import read_setup
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.control.controller import ControlError
@@ -27,7 +28,26 @@ from skillc_runtime.control.driver import CompliantArmDriver
 from skillc_runtime.control.guarded_push import ActivePush
 from skillc_runtime.control.measured import is_still
 from skillc_runtime.devices.backend import DeviceStop
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
+from skillc_runtime.motion.reference import Compliance, Reference
+
+TOOL: Final = float(KINDS.index("tool"))
+
+
+def fill_tool(command: CommandView, on_flange: Pose) -> None:
+    """Write where the tool centre point is on the flange."""
+    command.on_flange[:3], command.on_flange[3:] = on_flange.position, quaternion_from_rotation(on_flange.rotation)
+
+
+def fill_target(command: CommandView, reference: Reference, compliance: Compliance) -> None:
+    """Write reference and compliance of the tool, in the axes of the arm's base."""
+    pose, rotation = reference.pose, reference.pose.rotation
+    command.kind[0] = TOOL
+    command.pose[:3], command.pose[3:] = pose.position, quaternion_from_rotation(rotation)
+    command.twist[:] = reference.twist
+    command.axes[:] = quaternion_from_rotation(rotation @ compliance.frame)
+    command.stiffness[:], command.push[:] = compliance.stiffness, compliance.wrench
+
 
 LEAST_SPEED = 1e-3
 """The share of their speeds that motions have at least: a speed slider may stand at 0."""
