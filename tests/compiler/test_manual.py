@@ -13,7 +13,8 @@ import pytest
 from shipped import shelf, vocabulary
 
 from skillc.services.check.checking import CheckRequest, check_paths
-from skillc.services.check.known_checks import check_uncached
+from skillc.services.check.known_checks import check_with
+from skillc.services.library.check_inputs import CheckInputs
 from skillc.services.library.files import find_library
 from skillc.services.testing.suite import find_suites, run_suite
 from skillc_compiler.goals.parsing import parse_goal
@@ -23,6 +24,7 @@ from skillc_compiler.program.unknown import UnknownKind
 from skillc_dsl.encoding import decode
 from skillc_dsl.formatting.formatter import check_layout
 from skillc_dsl.parsing.parser import parse
+from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 from skillc_ontology.catalogue import vocabulary_files
 from skillc_rdf.vocabulary.conflicts import judge_conflicts
@@ -137,7 +139,7 @@ def in_library(text: str) -> list[str]:
     """Return the names of the problems that `skillc check` finds in a library of one file."""
     with TemporaryDirectory() as folder:
         Path(folder, "example.skill").write_text(text, "utf-8")
-        return [d.name for d in check_uncached(find_library(Path(folder)), None, None)]
+        return [d.name for d in check_with(Memo(), None, CheckInputs.of(find_library(Path(folder)), None))]
 
 
 def beside_scene(text: str) -> list[str]:
@@ -145,7 +147,10 @@ def beside_scene(text: str) -> list[str]:
     with TemporaryDirectory() as folder:
         Path(folder, "example.skill").write_text("use skiros\nclass Rag < Product\n", "utf-8")
         Path(folder, "example.ttl").write_text(text, "utf-8")
-        return [d.name for d in check_uncached(find_library(Path(folder)), Path(folder, "example.ttl"), None)]
+        return [
+            d.name
+            for d in check_with(Memo(), None, CheckInputs.of(find_library(Path(folder)), Path(folder, "example.ttl")))
+        ]
 
 
 @pytest.mark.slow

@@ -13,7 +13,7 @@ import pytest
 from msgspec import structs
 
 from running_cells.test_operations import run_all
-from skillc.cells import reality as keeping
+from skillc.cells import cell_backend as keeping
 from skillc.cells.database import DatabaseError
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.settings import CellSettings
