@@ -47,7 +47,7 @@ import sys
 from time import monotonic
 import numpy as np
 from skillc_runtime.backends.control_process.periods.pacing import Pacer
-from skillc_runtime.backends.control_process.periods.process import run_in_real_time
+from skillc_runtime.platforms.real_time import run_in_real_time
 times = np.ones(int(sys.argv[1]))
 run_in_real_time()
 pacer = Pacer(0.001)

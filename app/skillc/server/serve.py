@@ -4,13 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import os
-import signal
 import socket
-import sys
-import threading
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager, suppress
-from types import FrameType
+from collections.abc import Callable
+from contextlib import AbstractContextManager, suppress
 
 import uvicorn
 from starlette.types import ASGIApp
@@ -24,6 +20,7 @@ from skillc.errors import ServiceError
 from skillc.server.app import Application
 from skillc.server.cells import ServedCells
 from skillc.server.context import ServerContext
+from skillc.server.ending import EndingServer
 from skillc.server.http.connections import BoundedConnection
 from skillc.server.http.listening import Listening
 from skillc.server.hub import EventHub, News
@@ -33,64 +30,8 @@ from skillc.server.state import ServerState, announced
 from skillc.server.supervisor import CellSupervisor
 from skillc.services.reporting.reporter import Reporter
 from skillc_dsl.garbage import exempt_from_gc
-from skillc_runtime.platforms.signals import ENDING
+from skillc_runtime.platforms.open_files import raise_open_files_limit
 from skillc_runtime.world.state.transactions import StoreError
-
-MAX_OPEN_FILES = 65536
-
-
-def raise_open_files_limit() -> None:
-    """Let this process open as many files as its user may, up to MAX_OPEN_FILES."""
-    if sys.platform == "win32":
-        return
-    import resource
-
-    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
-    wanted = MAX_OPEN_FILES if hard == resource.RLIM_INFINITY else min(hard, MAX_OPEN_FILES)
-    if soft != resource.RLIM_INFINITY and soft < wanted:
-        resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
-
-
-SHELL_OFFSET = 128
-"""Shells give a process that was ended by a signal this exit code plus the signal's number."""
-
-
-WAITING = 2048
-"""How many connections wait in the system until they are taken; `backlog` of the settings are taken at once."""
-
-
-class EndingServer(uvicorn.Server):
-    """Ends at SIGINT, SIGTERM and SIGHUP; `ended_by` is the name of the signal. Signals that are ignored stay so."""
-
-    ended_by = ""
-
-    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Listen; more connections may wait than are taken at once, between which requests are answered."""
-        await super().startup(sockets)
-        for each in sockets or ():
-            each.listen(WAITING)
-
-    @contextmanager
-    def capture_signals(self) -> Iterator[None]:
-        """Handle the signals in a `with` statement, in the main thread only."""
-        if threading.current_thread() is not threading.main_thread():
-            yield
-            return
-        before = {number: signal.getsignal(number) for number in ENDING}
-        try:
-            for number, former in before.items():
-                if former is not signal.SIG_IGN:
-                    signal.signal(number, self._end)
-            yield
-        finally:
-            for number, former in before.items():
-                signal.signal(number, former)
-
-    def _end(self, number: int, _frame: FrameType | None) -> None:
-        if self.should_exit:
-            os._exit(SHELL_OFFSET + number)
-        self.should_exit, self.ended_by = True, signal.Signals(number).name
-
 
 KEEP_ALIVE_S = 30
 GRACE_S = 5

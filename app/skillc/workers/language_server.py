@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import sys
 
 from skillc.errors import OutputError, ServiceError
 from skillc.lsp.server import serve
 from skillc_runtime.platforms.memory import limit_memory
-
-
-def lower_priority(niceness: int) -> None:
-    """Let other processes come first by so many steps of Unix, where the system has them."""
-    if sys.platform != "win32":
-        os.nice(niceness)
-
+from skillc_runtime.platforms.priority import lower_priority
 
 MEMORY_BYTES = 2 * 2**30
 """The largest address space of the process."""

@@ -6,80 +6,20 @@ modules, the second a `ControlTask`; the answer is `Connected`, or the error for
 
 from __future__ import annotations
 
-import gc
-import os
 import signal
 import socket
 import sys
-from contextlib import suppress
-from ctypes import CDLL
-
-import numpy as np
 
 from skillc_runtime.backends.control_process.calls import Mailbox
 from skillc_runtime.backends.control_process.handshake import Connected, ControlTask
-from skillc_runtime.backends.control_process.link import RobotLink, make_state
 from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
 from skillc_runtime.backends.control_process.message_socket import MessageSocket
 from skillc_runtime.backends.control_process.periods.controlled_arm import ControlledArm
 from skillc_runtime.backends.control_process.periods.loop import ControlLoop
+from skillc_runtime.backends.control_process.periods.rehearsal import rehearse
 from skillc_runtime.backends.control_process.shared_memory import map_memory
-from skillc_runtime.backends.simulation.scene_spec import ArmSpec
-from skillc_runtime.devices.guarded_push import GuardedPush, Travel
 from skillc_runtime.motion.numerics.compiled import compile_imported
-
-PRIORITY = 80
-"""Above ordinary processes and below the kernel's own threads, which have 50 and 99."""
-
-CURRENT, FUTURE = 1, 2
-"""Flags of `mlockall` of Linux and macOS."""
-
-
-def run_in_real_time() -> bool:
-    """Ask for real-time priority and locked memory, and stop garbage collection; tell if the priority was given."""
-    gc.collect()
-    gc.freeze()
-    gc.disable()
-    if sys.platform != "linux":
-        return False
-    with suppress(OSError, AttributeError):
-        CDLL(None).mlockall(CURRENT | FUTURE)
-    try:
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
-    except OSError:
-        return False
-    return True
-
-
-PERIODS = 20
-
-
-def rehearse(facts: ArmSpec, names: dict[str, str], link: RobotLink) -> None:
-    """Control a copy of the arm that stays at home, with its joints, its tool and a push, one after the other."""
-    arm, measured = ControlledArm(facts, names, link.abilities, link.period_s), make_state(facts.home.size)
-    measured.buffer[:], measured.speed_share[:] = 0.0, 1.0
-    measured.q[:] = measured.target[:] = facts.home
-    now = 0.0
-
-    def run() -> None:
-        nonlocal now
-        for _ in range(PERIODS):
-            now += link.period_s
-            arm.step(measured, now)
-
-    arm.begin(measured, now)
-    run()
-    arm.driver.motion.hold_position()
-    run()
-    along = arm.driver.measured.pose.rotation[:, 2].copy()
-    arm.driver.compliance.release(along)
-    push = arm.driver.compliance.start_push(GuardedPush(-along, 1.0, 0.01, Travel(0.1)))
-    run()
-    arm.driver.compliance.end_push(push)
-    arm.driver.compliance.restore()
-    run()
-    assert np.isfinite(arm.driver.measured.q).all()
-
+from skillc_runtime.platforms.real_time import run_in_real_time
 
 START_S = 60.0
 """How long the other process may take to say what is to be done, in s."""
