@@ -7,6 +7,8 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
+from typing import Any
 
 import pytest
 
@@ -88,3 +90,20 @@ def test_names_depend_on_all_that_is_called(monkeypatch: pytest.MonkeyPatch) -> 
     assert before == name(twice) != other
     monkeypatch.setattr(sys.modules[__name__], "FACTOR", 3.0)
     assert name(twice) != before
+
+
+def test_where_packages_are_installed_changes_no_name(tmp_path: Path) -> None:
+    """Else each checkout would compile the control laws again."""
+
+    def made(folder: str) -> Callable[[float], float]:
+        module = ModuleType("numbers_of_mine")
+        module.__file__ = str(tmp_path / folder / "numbers_of_mine.py")
+        names: dict[str, object] = {"numbers_of_mine": module}
+        exec("def scaled(x: float) -> float:\n    return numbers_of_mine.FACTOR * x\n", names)
+        scaled: Any = names["scaled"]
+        scaled.__annotations__ = {"x": float, "return": float}
+        return scaled
+
+    one, other = made("one"), made("other")
+    assert repr(one.__globals__["numbers_of_mine"]) != repr(other.__globals__["numbers_of_mine"])
+    assert key_of(one) == key_of(other)

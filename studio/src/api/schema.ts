@@ -528,7 +528,7 @@ export interface components {
         };
         /**
          * LabelledQuantity
-         * @description A number with its SI unit as the language writes it; the unit is empty for a pure number.
+         * @description A number with its SI unit, a temperature in degC; the unit is empty for a pure number.
          *
          *         In a message `{depth:.1f mm}` shows it with one digit in mm, `{depth}` with its unit.
          */

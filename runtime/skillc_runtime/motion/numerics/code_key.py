@@ -10,7 +10,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from inspect import get_annotations
 from pathlib import Path
-from types import CodeType, FunctionType
+from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
 from skillc_runtime.motion.arrays import np
@@ -75,8 +75,13 @@ def _describe(function: FunctionType) -> tuple[bytes, tuple[FunctionType, ...]]:
                 if isinstance(value, FunctionType) and value in CALLABLE:
                     called.append(value)
                 else:
-                    own.update(getattr(names[name], "__qualname__", repr(names[name])).encode())
+                    own.update(_tell(names[name]).encode())
     return own.digest(), tuple(called)
+
+
+def _tell(value: Any) -> str:
+    """Return the name of a class, function or module, whose folder says nothing, or else the value as text."""
+    return value.__name__ if isinstance(value, ModuleType) else getattr(value, "__qualname__", repr(value))
 
 
 def _parts(code: CodeType) -> Iterator[CodeType]:
