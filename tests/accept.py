@@ -14,8 +14,8 @@ from pathlib import Path
 
 import skillc
 from docs.manual import MANUAL, manual
-from skillc.services.library.artifacts import make_artifacts
 from skillc.services.library.schemas import SCHEMAS, format_schema, make_schema
+from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.emit.write import write
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source

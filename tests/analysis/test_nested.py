@@ -2,8 +2,8 @@
 
 import pytest
 
-from skillc.services.library.artifacts import make_artifacts
 from skillc.services.library.libraries import load_vocabulary
+from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.pipeline import compile
 from skillc_dsl.parsing.nesting import DEEPEST
 from skillc_dsl.source import Source

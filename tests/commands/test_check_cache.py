@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from skillc.cli.main import skillc
 from skillc.services.check import library_checks
-from skillc.services.library import disk_store
+from skillc.services.library import answer_store
 from skillc_dsl.cache import load, store
 from skillc_ontology import catalogue
 
@@ -49,7 +49,7 @@ class Look:
 def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return the folder of this test's cache, which nothing but the library and what it names invalidates."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(disk_store, "installation_digest", lambda: b"this one")
+    monkeypatch.setattr(answer_store, "installation_digest", lambda: b"this one")
     return tmp_path / "cache" / "skillc" / "check"
 
 
@@ -158,15 +158,15 @@ def test_another_state_of_the_installation_is_another_digest(tmp_path: Path, mon
     module = package / "inner" / "module.py"
     module.write_text("a = 1\n", encoding="utf-8")
     monkeypatch.syspath_prepend(str(tmp_path))
-    monkeypatch.setattr(disk_store, "PACKAGES", ("some_package",))
-    states = [tuple(disk_store.describe_installation())]
-    assert tuple(disk_store.describe_installation()) == states[0]
+    monkeypatch.setattr(answer_store, "PACKAGES", ("some_package",))
+    states = [tuple(answer_store.describe_installation())]
+    assert tuple(answer_store.describe_installation()) == states[0]
     module.write_text("a = 12\n", encoding="utf-8")
-    states.append(tuple(disk_store.describe_installation()))
+    states.append(tuple(answer_store.describe_installation()))
     (package / "inner" / "added.py").touch()
-    states.append(tuple(disk_store.describe_installation()))
+    states.append(tuple(answer_store.describe_installation()))
     (tmp_path / "another_package").mkdir()
-    states.append(tuple(disk_store.describe_installation()))
+    states.append(tuple(answer_store.describe_installation()))
     assert len(set(states)) == 4
 
 

@@ -15,9 +15,9 @@ from skillc.services.check.edit_checks import check_edits
 from skillc.services.check.known_checks import check_with
 from skillc.services.check.library_checks import check_library
 from skillc.services.check.snapshots import SNAPSHOT, Snapshot
-from skillc.services.library import disk_store
+from skillc.services.library import answer_store as disk_store
+from skillc.services.library.answer_store import AnswerStore
 from skillc.services.library.check_inputs import CheckInputs
-from skillc.services.library.disk_store import DiskStore
 from skillc.services.library.files import LibraryFiles, find_library
 from skillc_dsl.cache import store
 from skillc_dsl.diagnostics import Diagnostic
@@ -195,11 +195,11 @@ def test_a_check_after_edits_equals_one_of_everything(
 
 def check(folder: Path, watching: Memo | None = None) -> tuple[Diagnostic, ...]:
     """Check a library as `skillc check` does, with `--watch` or in a new process, and store what was found."""
-    return check_with(watching or Memo(), DiskStore(), CheckInputs.of(find_library(folder), None))
+    return check_with(watching or Memo(), AnswerStore(), CheckInputs.of(find_library(folder), None))
 
 
 def _goes_on(library: LibraryFiles) -> bool:
-    before = DiskStore().load(SNAPSHOT, (CheckInputs.of(library, None).around,))
+    before = AnswerStore().load(SNAPSHOT, (CheckInputs.of(library, None).around,))
     return isinstance(before, Snapshot) and check_edits(library, before, Memo()) is not None
 
 

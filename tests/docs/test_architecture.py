@@ -11,10 +11,10 @@ import click
 import pytest
 
 from skillc.cli.main import COMMANDS, SECTIONS, skillc
-from skillc.services.library.artifacts import make_artifacts
 from skillc.services.library.files import find_library
 from skillc.services.library.libraries import compile_library
 from skillc_compiler import checks, emit
+from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source
 from skillc_rdf.vocabulary.types import Vocabulary

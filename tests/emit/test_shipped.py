@@ -8,7 +8,7 @@ from pathlib import Path
 
 from emit.reading_back import read_back_artifact
 from peers.comparing import differences_of
-from skillc.services.library.artifacts import make_artifacts
+from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.pipeline import compile
 from skillc_dsl.source import Source
 from skillc_model.pddl.planning import make_planning_domain

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from emit.samples import wiping
-from skillc.services.library.artifacts import make_artifacts
+from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.emit.headers import add_header
 from skillc_compiler.emit.write import EmitError, write
 

@@ -13,10 +13,10 @@ from oracle.agreement import disagreements
 from oracle.forced import TooManyStates, cheapest, steps, worked
 from oracle.vocabularies import Author
 from oracle.well_typed import mistakes
-from skillc_compiler.emit.pddl import prune_unread_values
 from skillc_model.conditions import And
 from skillc_model.pddl.formulas import FALSE
 from skillc_model.pddl.planning import make_planning_domain
+from skillc_model.pddl.pruning import prune_unread_values
 from skillc_model.pddl.text import format_domain, format_problem, format_temporal_domain, format_temporal_problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable

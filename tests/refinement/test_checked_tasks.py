@@ -12,7 +12,7 @@ from refinement.scenes import DESK, tilt_desk
 from refinement.test_measured_values import PROBING
 from skillc.cli.main import skillc
 from skillc.services.check import known_checks
-from skillc.services.library import disk_store
+from skillc.services.library import answer_store as disk_store
 from skillc.services.space import cure, look, verdicts
 
 CLEAN = """

@@ -11,7 +11,7 @@ from random import Random
 
 from emit.reading_back import read_back_artifact
 from fuzz.kinds._texts import make_text
-from skillc.services.library.artifacts import make_artifacts
+from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.pipeline import compile
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome

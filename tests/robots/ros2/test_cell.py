@@ -16,8 +16,8 @@ from simulation.cells import LAB, vocabulary
 from skillc_runtime.backends.control_process.handshake import Patience
 from skillc_runtime.backends.control_process.opening import open_cell
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
+from skillc_runtime.backends.ros2.cell import describe
 from skillc_runtime.backends.ros2.devices import make_devices
-from skillc_runtime.backends.ros2.graph_check import describe
 from skillc_runtime.backends.ros2.session import Session
 from skillc_runtime.devices.backend import BackendBroken, StopPersists
 from skillc_runtime.motion.paths.path import path_through

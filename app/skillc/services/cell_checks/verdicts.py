@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
+from skillc.services.library.answer_store import AnswerStore
 from skillc.services.library.check_inputs import describe_models, describe_scene, encode_meaning
-from skillc.services.library.disk_store import DiskStore
 from skillc_dsl.query import Memo
 from skillc_model.conditions import Condition
 from skillc_runtime.scene.load import LoadedScene
@@ -26,7 +26,7 @@ def judge_cell(scene: LoadedScene, goals: Sequence[Condition] = ()) -> tuple[Sce
 def judge_state_once(state: WorldState, goals: Sequence[Condition] = ()) -> tuple[SceneViolation, ...]:
     """Return what `judge_cell` returns of a scene with these facts, from the cache if it is there."""
     parts = (encode_meaning(state.vocabulary), *describe_models(), *map(_ENCODER.encode, list_facts(state)))
-    store = DiskStore()
+    store = AnswerStore()
     found = Memo(store).recall("cell", (*parts, encode_meaning(tuple(goals))), lambda: _judge(state, goals))
     store.flush()
     return found

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import NamedTuple, TypeAlias, cast
 
 from skillc.errors import DiagnosticsError, RequestError
+from skillc.services.library.answer_store import AnswerStore
 from skillc.services.library.check_inputs import CHECK, CheckInputs
-from skillc.services.library.disk_store import DiskStore
 from skillc.services.library.files import LibraryFiles, read_single_file, source_texts
 from skillc.services.library.libraries_below import find_libraries
 from skillc.services.reporting.reporter import find_texts, sort_diagnostics
@@ -80,12 +80,12 @@ def check_with_cache(
     request: CheckRequest, library: LibraryFiles, memos: Memos | None = None
 ) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of a library, from the store if nothing has changed."""
-    inputs, store = CheckInputs.of(library, request.scene), DiskStore() if request.cache else None
+    inputs, store = CheckInputs.of(library, request.scene), AnswerStore() if request.cache else None
     known = store.load(CHECK, (inputs.digest,)) if store else None
     return _check(inputs, memos, store) if known is None else cast(tuple[Diagnostic, ...], known)
 
 
-def _check(inputs: CheckInputs, memos: Memos | None, store: DiskStore | None) -> tuple[Diagnostic, ...]:
+def _check(inputs: CheckInputs, memos: Memos | None, store: AnswerStore | None) -> tuple[Diagnostic, ...]:
     from skillc.services.check.known_checks import check_with
 
     memo = Memo() if memos is None else memos.setdefault(inputs.library.root, Memo())

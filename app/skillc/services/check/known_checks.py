@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from skillc.services.check.edit_checks import check_edits, recall_vocabulary
 from skillc.services.check.snapshots import SNAPSHOT, Snapshot, take_snapshot
+from skillc.services.library.answer_store import AnswerStore
 from skillc.services.library.check_inputs import CHECK, CheckInputs
-from skillc.services.library.disk_store import DiskStore
 from skillc.services.tasks.value_checks import files_with_texts
 from skillc_compiler.program.slices import outlines_of
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.query import Memo
 
 
-def check_with(memo: Memo, store: DiskStore | None, inputs: CheckInputs) -> tuple[Diagnostic, ...]:
+def check_with(memo: Memo, store: AnswerStore | None, inputs: CheckInputs) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of a library, and store them unless an input changes meanwhile."""
     memo.store, memo.around = store, inputs.around
     before = store.load(SNAPSHOT, (inputs.around,)) if store else None

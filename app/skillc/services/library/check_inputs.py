@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import msgspec
 
-from skillc.services.library.disk_store import PACKAGES, digest_parts
+from skillc.services.library.answer_store import PACKAGES, digest_parts
 from skillc.services.library.files import LibraryFiles
 from skillc_dsl.encoding import read_file
 from skillc_dsl.source import Source

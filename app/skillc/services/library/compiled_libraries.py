@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from skillc.errors import DiagnosticsError
+from skillc.services.library.answer_store import AnswerStore
 from skillc.services.library.check_inputs import CheckInputs
-from skillc.services.library.disk_store import DiskStore
 from skillc.services.library.files import LibraryFiles, source_texts
 from skillc_dsl.query import Memo
 from skillc_model.skills import SkillLibrary
@@ -12,7 +12,7 @@ from skillc_model.skills import SkillLibrary
 
 def compile_valid(files: LibraryFiles) -> SkillLibrary:
     """Return a library that has no errors, from the store if it is there; DiagnosticsError if it has errors."""
-    inputs, store = CheckInputs.of(files, None), DiskStore()
+    inputs, store = CheckInputs.of(files, None), AnswerStore()
     library = Memo(store).recall("library", (inputs.digest,), lambda: _compile(files))
     if inputs.are_current():
         store.flush()

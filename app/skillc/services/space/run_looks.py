@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from skillc.services.library.answer_store import digest_parts, installation_digest
 from skillc.services.library.check_inputs import digest_modules
-from skillc.services.library.disk_store import digest_parts, installation_digest
 from skillc.services.library.modules import find_modules
 from skillc.services.planning.planning import FolderPlanCache
 from skillc_dsl import cache

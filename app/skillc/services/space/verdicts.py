@@ -11,8 +11,8 @@ from collections.abc import Iterable, Iterator
 
 import msgspec
 
+from skillc.services.library.answer_store import digest_parts
 from skillc.services.library.check_inputs import describe_scene, digest_modules, encode_meaning
-from skillc.services.library.disk_store import digest_parts
 from skillc.services.library.modules import find_modules
 from skillc.services.tasks.space_problems import OutOfTime, SpaceProblem
 from skillc_dsl.query import Store

@@ -16,44 +16,17 @@ from skillc_runtime.backends.control_process.joint_doubts import (
     find_opposite_speeds,
     find_opposite_weights,
 )
-from skillc_runtime.backends.control_process.opening import open_cell
 from skillc_runtime.backends.ros2.arms.joint_states import JointOrder
-from skillc_runtime.backends.ros2.arms.link import Ros2Description
 from skillc_runtime.backends.ros2.arms.tool_commands import make_commands
+from skillc_runtime.backends.ros2.cell import describe
 from skillc_runtime.backends.ros2.description import Description
 from skillc_runtime.backends.ros2.device_check import check_devices, check_services
-from skillc_runtime.backends.ros2.devices import joints_of, make_devices
-from skillc_runtime.backends.ros2.facts import ArmInterface, read_arm
+from skillc_runtime.backends.ros2.facts import ArmInterface
 from skillc_runtime.backends.ros2.place_check import check_places
 from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
-from skillc_runtime.control.gains import RobotGains, UnknownController, read_gains
-from skillc_runtime.devices.backend import Backend, BackendStart
 from skillc_runtime.motion.pose import Array
-from skillc_runtime.world.state.data_sheet import SheetError
-from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
-
-
-def make_backend(world: WorldModel, start: BackendStart) -> Backend:
-    """Return the cell of a world model, its arms under control and at rest.
-
-    SheetError or FrameError if facts are missing, BackendUnavailable with what is missing on the graph of ROS 2.
-    """
-    state = world.snapshot()
-    return open_cell(world, describe, lambda scene, arms: make_devices(state, scene, arms), observed=start.observed)
-
-
-def describe(facts: ArmSpec) -> Ros2Description:
-    """Return how ROS 2 drives an arm; SheetError if a fact is missing or wrong."""
-    state = facts.sheet.state
-    try:
-        law = read_gains(facts.controller, facts.sheet.number).law
-    except UnknownController as error:
-        raise SheetError(f"{state.vocabulary.short(facts.individual)}: {error}") from error
-    joints, on_robot = joints_of(str(facts.model)), isinstance(law, RobotGains)
-    return Ros2Description(read_arm(state, facts.individual, joints, law.mode, on_robot), str(facts.model))
-
 
 LOOK_S, FIND_S = 2.0, 4.0
 """How long messages are counted, after the first one was waited for so long at most, in s."""

@@ -6,55 +6,15 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from skillc_runtime.world.space.bounding_boxes import TOUCH_M
 from skillc_runtime.world.space.frame_tree import Unplaced
 from skillc_runtime.world.space.grasping.grasps import leaves_room
-from skillc_runtime.world.space.hollow import gap_below
+from skillc_runtime.world.space.reasoners.rests_on import RestsOn
 from skillc_runtime.world.space.whereabouts import holders_of, unknown_place
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.terms import HAS_GRIPPER
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
-if TYPE_CHECKING:
-    from skillc_runtime.world.state.world_state import WorldState
-if TYPE_CHECKING:
-    from skillc_runtime.world.state.world_state import WorldState
-
-
-class Above:
-    """The object is vertically below the subject's middle, and no part of the subject is lower than its top."""
-
-    def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
-        """Return why the subject is not above the object; None when it is."""
-        unknown = unknown_place(state, subject, object_)
-        if unknown is not None:
-            return unknown
-        short = state.vocabulary.short
-        if subject == object_:
-            return "nothing is above itself"
-        gap_m = gap_below(state, subject, object_)
-        if gap_m is None:
-            return f"{short(object_)} is not below the middle of {short(subject)}"
-        if gap_m < -TOUCH_M:
-            return f"{short(subject)} reaches {-gap_m:.3f} m below the top of {short(object_)}"
-        return None
-
-
-class RestsOn:
-    """The subject is above the object and touches it."""
-
-    def obstacle(self, state: WorldState, subject: str, object_: str) -> str | None:
-        """Return why the subject is not above the object, or the gap; None when it rests on it."""
-        unknown = unknown_place(state, subject, object_)
-        if unknown is not None:
-            return unknown
-        gap_m = None if subject == object_ else gap_below(state, subject, object_)
-        if gap_m is None or gap_m < -TOUCH_M:
-            return Above().obstacle(state, subject, object_)
-        if gap_m <= TOUCH_M:
-            return None
-        return f"{state.vocabulary.short(subject)} is {gap_m:.3f} m above {state.vocabulary.short(object_)}"
 
 
 class Blocks:

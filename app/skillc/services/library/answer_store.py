@@ -36,7 +36,7 @@ _MOST_OTHERWISE = 500
 """The most answers of a query; beyond it the older half is deleted."""
 
 
-class DiskStore:
+class AnswerStore:
     """The answers of queries as files in the cache folder, which are complete or absent; `flush` writes what is saved.
 
     Without a cache folder nothing is found; a folder that cannot be written only costs time.

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from shipped_sources import TEXTS
 
-from skillc.services.library import disk_store
-from skillc.services.library.disk_store import DiskStore
+from skillc.services.library import answer_store
+from skillc.services.library.answer_store import AnswerStore
 from skillc_dsl import cache
 from skillc_dsl.parsing import reparse
 from skillc_dsl.parsing.parser import parse
@@ -26,7 +26,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def again(source: Source) -> object:
     """Parse as a new process does."""
-    store = DiskStore()
+    store = AnswerStore()
     parsed = parse_with(Memo(store), source)
     store.flush()
     return parsed
@@ -62,7 +62,7 @@ def test_a_damaged_or_foreign_entry_is_not_read(folder: Path, damage: bytes) -> 
 def test_another_version_does_not_read_the_entry(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     source = Source("m.skill", TEXTS[0])
     again(source)
-    monkeypatch.setattr(disk_store, "installation_digest", lambda: b"another")
+    monkeypatch.setattr(answer_store, "installation_digest", lambda: b"another")
     assert again(source) == parse(source)
     assert len(list(folder.iterdir())) == 2
 
