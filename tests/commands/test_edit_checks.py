@@ -15,7 +15,7 @@ from skillc.services.check.edit_checks import check_edits
 from skillc.services.check.known_checks import check_with
 from skillc.services.check.library_checks import check_library
 from skillc.services.check.snapshots import SNAPSHOT, Snapshot
-from skillc.services.library import answer_store as disk_store
+from skillc.services.library import answer_store
 from skillc.services.library.answer_store import AnswerStore
 from skillc.services.library.check_inputs import CheckInputs
 from skillc.services.library.files import LibraryFiles, find_library
@@ -46,7 +46,7 @@ STEPS = 6
 def cache_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return the folder of this test's cache, which nothing but the library and what it names invalidates."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(disk_store, "installation_digest", lambda: b"this one")
+    monkeypatch.setattr(answer_store, "installation_digest", lambda: b"this one")
     return tmp_path / "cache" / "skillc"
 
 
@@ -239,5 +239,5 @@ def test_another_version_goes_on_from_nothing(tmp_path: Path, monkeypatch: pytes
     check(folder)
     file.write_text(f"{file.read_text('utf-8')}# it is a comment\n", "utf-8")
     assert _goes_on(find_library(folder))
-    monkeypatch.setattr(disk_store, "installation_digest", lambda: b"another one")
+    monkeypatch.setattr(answer_store, "installation_digest", lambda: b"another one")
     assert not _goes_on(find_library(folder))
