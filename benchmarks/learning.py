@@ -21,9 +21,9 @@ from time import process_time
 
 from scipy.stats import mannwhitneyu
 
-from skillc.services.learning.coordinator import LearnRequest, Progress, learn
+from skillc.contract.learning import LearnSpec, SamplerName
+from skillc.services.learning.coordinator import LearnOrder, Progress, learn
 from skillc.services.learning.result import DEFAULTS, Learned
-from skillc.services.learning.spec import LearnSpec, SamplerName
 from skillc.services.reporting.reporter import SilentReporter
 
 TASK, MINIMISE = "contact:press_button", "simulated_time, greatest_force"
@@ -53,7 +53,7 @@ def run(sampler: SamplerName, repetition: int, candidates: int, trials: int, fre
     )
     jobs = os.cpu_count() or 1
     out = folder / f"{sampler}-{repetition}"
-    request = LearnRequest(TASK, spec, out, partial(ThreadPoolExecutor, jobs), jobs)
+    request = LearnOrder(TASK, spec, out, partial(ThreadPoolExecutor, jobs), jobs)
     return learn(request, ignore_progress, SilentReporter())
 
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import msgspec
 from msgspec import inspect
 
+from skillc.contract.learning import LearnSpec
 from skillc.contract.order import OrderRequest
-from skillc.services.learning.spec import LearnSpec
 from skillc_runtime.recording.documented import DocumentedField, documented_fields
 from skillc_runtime.recording.run_spec import ATTENDED_ELSEWHERE, RunRequest, RunSpec, TaskRequest
 

@@ -19,13 +19,13 @@ import optuna
 import pytest
 
 from learning.runners import RADIUS, SPEED, Wiping, aim, open_study
+from skillc.contract.learning import SamplerName
 from skillc.errors import RequestError, ServiceError
 from skillc.services.learning import study as studies
 from skillc.services.learning.racing import Aim
 from skillc.services.learning.result import choose, list_front, list_measured
 from skillc.services.learning.samplers import require_sampler
 from skillc.services.learning.search import Search, try_fresh
-from skillc.services.learning.spec import SamplerName
 from skillc.services.learning.study import FILE, NAME, Study
 from skillc_runtime.evaluation.trials.dispatch import Dispatch
 from skillc_runtime.evaluation.trials.hosting import Prepare

@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from concurrent.futures import Executor
-from contextlib import contextmanager, nullcontext
+from contextlib import nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 from skillc.api.boundary import NoticeList, api_call
-from skillc.services.learning.coordinator import LearnRequest
+from skillc.contract.learning import LearnSpec
+from skillc.services.learning.coordinator import LearnOrder, watch_nothing
 from skillc.services.learning.coordinator import learn as learn_from_trials
 from skillc.services.learning.page import write_page
 from skillc.services.learning.place import ON_WORKERS, choose_place
 from skillc.services.learning.result import Learned as Learned
-from skillc.services.learning.spec import LearnSpec
 from skillc.services.tasks.listing import require_task
 from skillc.services.trials.running import OpenExecutor
 from skillc.values.arguments import AnyPath, optional_path, optional_text, read_arguments, require_count, wrong_type
 from skillc.values.keywords import read_keywords
 from skillc.values.run_keywords import LearnKeywords
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from skillc.services.learning.coordinator import Progress
 
 
 def learn(
@@ -51,8 +46,8 @@ def learn(
         chosen = require_task(optional_text(task, "the task"))
         folder = optional_path(out, "`out`") or Path("learning") / chosen.rpartition(":")[2]
         place = _choose_place(None if jobs is None else require_count(jobs, "`jobs`", 1), executor)
-        request = LearnRequest(chosen, spec, folder, *place, read_arguments(arguments))
-        learned = learn_from_trials(request, _ignore_progress, NoticeList())
+        request = LearnOrder(chosen, spec, folder, *place, read_arguments(arguments))
+        learned = learn_from_trials(request, watch_nothing, NoticeList())
         write_page(learned, folder)
         return learned
 
@@ -63,8 +58,3 @@ def _choose_place(jobs: int | None, executor: Executor | None) -> tuple[OpenExec
     if not isinstance(executor, Executor):
         raise wrong_type(executor, "`executor`", "a concurrent.futures.Executor")
     return (lambda: nullcontext(executor)), jobs or ON_WORKERS
-
-
-@contextmanager
-def _ignore_progress(_task: str) -> Iterator[Callable[[Progress], None]]:
-    yield lambda state: None

@@ -30,6 +30,7 @@ from skillc.contract.api.endpoints import (
 )
 from skillc.contract.cell import CellStatus, Disturbance, PaceSetting
 from skillc.contract.job import FILM, Job, PlanResult, RunResult, TaskResult, TrialsResult
+from skillc.contract.learning import LearnRequest, LearnResult, LearnSpec
 from skillc.contract.operation import OperationRequest
 from skillc.contract.order import Missed, Order, OrderRequest
 from skillc.contract.plan import PlanPreview, PlanRequest
@@ -200,6 +201,24 @@ class AsyncCell(CellCalls):
         )
         _, outcome = await run_job(self._connection, request, TrialsResult, watch)
         return Trials(outcome.series)
+
+    async def learn(
+        self,
+        task: str,
+        spec: LearnSpec,
+        *,
+        arguments: Mapping[str, Any] | None = None,
+        watch: Callable[[Job], None] | None = None,
+    ) -> LearnResult:
+        """Learn parameters of skills from trials of a task in the cell's scene; as `skillc.learn`.
+
+        The cell itself does nothing, and no text of its library changes: `spec` must not `apply`. `watch` is called
+        with each progress. The server keeps the job with its page, `learned.html`; it is cancelled if this is.
+        RefusedError if nothing can be learned in this way.
+        """
+        name, given = require_text(task, "the task"), read_arguments(arguments)
+        request = LearnRequest(cell=self.name, task=name, arguments=given, spec=spec)
+        return (await run_job(self._connection, request, LearnResult, watch))[1]
 
     async def facts(
         self, subject: str | None = None, type: str | None = None, search: str | None = None

@@ -22,6 +22,7 @@ from skillc.contract.job import (
     Job,
     TaskResult,
 )
+from skillc.contract.learning import LearnResult, LearnSpec
 from skillc.contract.library import LibraryDescription
 from skillc.contract.operation import OperationStatus
 from skillc.contract.order import Order
@@ -251,6 +252,22 @@ class ServerCell(WaitingCell):
                 task, number, arguments=arguments, seed=seed, disturb=disturb, deadline_s=deadline_s, watch=watch
             )
         )
+
+    def learn(
+        self,
+        task: str,
+        spec: LearnSpec,
+        *,
+        arguments: Mapping[str, Any] | None = None,
+        watch: Callable[[Job], None] | None = None,
+    ) -> LearnResult:
+        """Learn parameters of skills from trials of a task in the cell's scene; as `skillc.learn`.
+
+        The cell itself does nothing, and no text of its library changes: `spec` must not `apply`. `watch` is called
+        with each progress. The server keeps the job with its page, `learned.html`; it is cancelled if this is.
+        RefusedError if nothing can be learned in this way.
+        """
+        return self._loop.run(self._client.learn(task, spec, arguments=arguments, watch=watch))
 
     def facts(
         self, subject: str | None = None, type: str | None = None, search: str | None = None

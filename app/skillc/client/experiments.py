@@ -18,8 +18,9 @@ from skillc.contract.api.endpoints import (
     SHOW_JOB_RESULT,
 )
 from skillc.contract.job import ONGOING, Job, JobEventPage, JobRequest, PlanResult, RunResult, TrialsResult
+from skillc.contract.learning import LearnResult
 
-Outcome = TypeVar("Outcome", PlanResult, RunResult, TrialsResult)
+Outcome = TypeVar("Outcome", PlanResult, RunResult, TrialsResult, LearnResult)
 WAIT_S = 5.0
 
 

@@ -7,6 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 from skillc.contract.api.problem import ProblemDetails
+from skillc.contract.learning import LearnRequest, LearnResult
 from skillc.contract.plan import PlanPreview, PlanRequest
 from skillc.contract.rehearsal import RehearsalRequest
 from skillc.contract.trials import Series, TrialReplayRequest, TrialsRequest
@@ -22,7 +23,9 @@ class ReportRequest(
     film: bool = True
 
 
-JobRequest: TypeAlias = PlanRequest | RehearsalRequest | TrialsRequest | TrialReplayRequest | ReportRequest
+JobRequest: TypeAlias = (
+    PlanRequest | RehearsalRequest | TrialsRequest | TrialReplayRequest | ReportRequest | LearnRequest
+)
 """What a job is to do; `kind` says which it is."""
 JobState: TypeAlias = Literal["waiting", "running", "ended", "failed", "cancelled", "interrupted"]
 ONGOING: tuple[JobState, ...] = ("waiting", "running")
@@ -30,6 +33,7 @@ ONGOING: tuple[JobState, ...] = ("waiting", "running")
 FILM, RECORDING = "film.mp4", "recording.mcap"
 """The names of the film and of the recording that a job has left."""
 FILE_TYPES = {
+    ".diff": "text/x-diff; charset=utf-8",
     ".html": "text/html; charset=utf-8",
     ".json": "application/json",
     ".mcap": "application/octet-stream",
@@ -91,7 +95,7 @@ class TrialsResult(msgspec.Struct, frozen=True, tag_field="kind", tag="trials"):
     series: Series
 
 
-JobOutcome: TypeAlias = PlanResult | RunResult | TrialsResult
+JobOutcome: TypeAlias = PlanResult | RunResult | TrialsResult | LearnResult
 
 
 class JobResult(msgspec.Struct, frozen=True):

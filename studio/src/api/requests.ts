@@ -324,7 +324,7 @@ export interface Requests {
   add_job: {
     path: [];
     query: Record<string, never>;
-    body: Schemas["PlanRequest"] | Schemas["RehearsalRequest"] | Schemas["TrialsRequest"] | Schemas["TrialReplayRequest"] | Schemas["ReportRequest"];
+    body: Schemas["PlanRequest"] | Schemas["RehearsalRequest"] | Schemas["TrialsRequest"] | Schemas["TrialReplayRequest"] | Schemas["ReportRequest"] | Schemas["LearnRequest"];
     answer: Required<Schemas["Job"]>;
   };
   /** List the jobs of all cells, or of one. */

@@ -2661,7 +2661,7 @@ export interface components {
             id: string;
             cell: string;
             owner: string;
-            request: components["schemas"]["PlanRequest"] | components["schemas"]["RehearsalRequest"] | components["schemas"]["TrialsRequest"] | components["schemas"]["TrialReplayRequest"] | components["schemas"]["ReportRequest"];
+            request: components["schemas"]["PlanRequest"] | components["schemas"]["RehearsalRequest"] | components["schemas"]["TrialsRequest"] | components["schemas"]["TrialReplayRequest"] | components["schemas"]["ReportRequest"] | components["schemas"]["LearnRequest"];
             /**
              * @default waiting
              * @enum {unknown}
@@ -2816,6 +2816,91 @@ export interface components {
             film?: boolean;
         };
         /**
+         * LearnRequest
+         * @description A task of a cell's library with arguments, from whose trials in the cell's scene parameters are learned.
+         *
+         *         `cell` may be left out if there is only one. The texts of the library stay as they are: `spec.apply` is refused.
+         */
+        LearnRequest: {
+            /** @enum {unknown} */
+            kind: "learn";
+            /** @default null */
+            cell?: string | null;
+            task: string;
+            /** @default {} */
+            arguments?: {
+                [key: string]: string;
+            };
+            spec: components["schemas"]["LearnSpec"];
+        };
+        /**
+         * LearnSpec
+         * @description What is minimised under which constraints, the parameters, how much is tried, and what the result is used for.
+         */
+        LearnSpec: {
+            /**
+             * @description The objectives: figures of trials or expressions over them, between commas.
+             * @default null
+             */
+            minimise?: string | null;
+            /**
+             * @description What every trial has to meet, besides its success: comparisons of figures, between commas, such as `coverage == 100 %, impact <= 2`.
+             * @default null
+             */
+            subject_to?: string | null;
+            /**
+             * @description The parameters that are learned, between commas; by default all with a range, in the library of the task, whose defaults the task uses.
+             * @default null
+             */
+            parameters?: string | null;
+            /**
+             * @description How many candidates are tried, the defaults included.
+             * @default 50
+             */
+            candidates?: number;
+            /**
+             * @description The trials of a candidate, each in another world, the same ones for all.
+             * @default 5
+             */
+            trials?: number;
+            /**
+             * @description Further worlds, in which the best candidate is compared with the defaults.
+             * @default 10
+             */
+            fresh?: number;
+            /**
+             * @description The seed of the first world.
+             * @default 0
+             */
+            seed?: number;
+            /**
+             * @description How candidates are chosen: by tree-structured Parzen estimators, NSGA-II, Gaussian processes (needs torch and scipy), or at random.
+             * @default tpe
+             * @enum {unknown}
+             */
+            sampler?: "gp" | "nsga2" | "random" | "tpe";
+            /**
+             * @description How far simulated arms and tools are from what they should be: `ideal`, `typical` or `wide`, all imperfections that their sheets state, or only some of them: `wide:jointFriction,forceBias`.
+             * @default null
+             */
+            reality?: string | null;
+            /**
+             * @description Propose this candidate of the front, instead of the one that is chosen.
+             * @default null
+             */
+            take?: number | null;
+            /**
+             * @description Write the learned values into the files of the library.
+             * @default false
+             */
+            apply?: boolean;
+            /**
+             * @description The time limit of one trial, in wall time.
+             * @default 3600
+             */
+            deadline_s?: number;
+        };
+        /**
          * ProblemDetails
          * @description Why a request was refused; nothing has changed. `detail` says what to do.
          *
@@ -2888,7 +2973,7 @@ export interface components {
          */
         JobResult: {
             job: string;
-            outcome: components["schemas"]["PlanResult"] | components["schemas"]["RunResult"] | components["schemas"]["TrialsResult"];
+            outcome: components["schemas"]["PlanResult"] | components["schemas"]["RunResult"] | components["schemas"]["TrialsResult"] | components["schemas"]["LearnResult"];
         };
         /**
          * PlanResult
@@ -3521,6 +3606,31 @@ export interface components {
             error_m: number;
             turned_deg: number;
             missed_m: number | null;
+        };
+        /**
+         * LearnResult
+         * @description The result of learning: the proposed `values` by parameter, `Skill.implementation.name`, as they are written.
+         *
+         *         They are empty if nothing is better than the defaults. `objectives` are means over fresh seeds with the defaults and
+         *         with the values, by the texts of the objectives. `confirmed` is whether no fewer fresh trials meet all constraints
+         *         with the values than with the defaults. `diff` is the change of the texts.
+         */
+        LearnResult: {
+            /** @enum {unknown} */
+            kind: "learn";
+            task: string;
+            candidates: number;
+            values: {
+                [key: string]: string;
+            };
+            objectives: {
+                [key: string]: [
+                    number,
+                    number
+                ];
+            };
+            confirmed: boolean;
+            diff: string;
         };
         /**
          * JobEvent

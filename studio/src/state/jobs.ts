@@ -16,9 +16,10 @@ export const KINDS: Record<JobRequest["kind"], string> = {
   trials: "Trials",
   "trial-replay": "Trial again",
   report: "Report",
+  learn: "Learning",
 };
 /** The files that jobs leave. */
-export const [RECORDING, REPORT] = ["recording.mcap", "report.html"] as const;
+export const [RECORDING, REPORT, LEARNED] = ["recording.mcap", "report.html", "learned.html"] as const;
 
 /** A job of a kind. */
 export type JobOf<K extends JobRequest["kind"]> = Job & { request: Extract<JobRequest, { kind: K }> };

@@ -1,9 +1,19 @@
-// Jobs: plans, rehearsals, trials and reports, whoever has begun them; and a form for trials.
+// Jobs: plans, rehearsals, trials, reports and learning, whoever has begun them; and a form for trials.
 import { useEffect, useState } from "preact/hooks";
 import { api } from "../api/client";
 import type { Job, JobEvent, JobRequest } from "../api/types";
 import { attempt } from "../state/actions";
-import { beginJob, canRestart, goesOn, jobs, KINDS, previews, RECORDING, REPORT } from "../state/jobs";
+import {
+  beginJob,
+  canRestart,
+  goesOn,
+  jobs,
+  KINDS,
+  LEARNED,
+  previews,
+  RECORDING,
+  REPORT,
+} from "../state/jobs";
 import { replayJob } from "../state/replay";
 import { cellName, library, may } from "../state/studio";
 import { formatMoment, formatStart } from "../state/run_times";
@@ -58,6 +68,7 @@ function subjectOf({ request }: Job): string {
     case "rehearsal":
       return request.task ?? request.goal ?? request.call ?? "";
     case "trials":
+    case "learn":
       return request.task;
     case "trial-replay":
       return `seed ${request.seed} of ${request.trials}`;
@@ -78,7 +89,8 @@ function Row({ job }: { job: Job }) {
       {isTrials(job) && <Given job={job} />}
       <span class="muted small">
         {formatStart(job)} · {job.owner} · {job.state}
-        {job.wanted > 1 && `: ${job.done} of ${job.wanted} trials`}
+        {job.wanted > 1 &&
+          `: ${job.done} of ${job.wanted} ${job.request.kind === "learn" ? "candidates" : "trials"}`}
       </span>
       {goesOn(job) && <progress aria-label="What is done" max={job.wanted} value={job.done} />}
       {job.reason !== "" && <span class="small is-bad run-failure">{job.reason}</span>}
@@ -139,11 +151,13 @@ function Actions({ job }: { job: Job }) {
             Play it
           </button>
         )}
-        {job.files.includes(REPORT) && (
-          <a class="small" href={api.jobPage(job.id, REPORT)} target="_blank" rel="noopener">
-            Open report
-          </a>
-        )}
+        {[REPORT, LEARNED]
+          .filter((each) => job.files.includes(each))
+          .map((each) => (
+            <a key={each} class="small" href={api.jobPage(job.id, each)} target="_blank" rel="noopener">
+              Open report
+            </a>
+          ))}
         <button
           class="plain small"
           aria-expanded={log !== null}

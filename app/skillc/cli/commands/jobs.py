@@ -1,4 +1,4 @@
-"""Show the jobs of a server: plans, rehearsals, trials and reports, whoever has begun them.
+"""Show the jobs of a server: plans, rehearsals, trials, reports and learning, whoever has begun them.
 
 A job that a restart of the server has interrupted, that failed or was cancelled can be begun again.
 """
@@ -24,13 +24,14 @@ if TYPE_CHECKING:
     from skillc.cli.layout import Row
     from skillc.client.server import Server
     from skillc.contract.job import Job, JobEvent, JobOutcome
+    from skillc.contract.learning import LearnResult
 
 JOB = click.argument("job", shell_complete=complete_job)
 
 
 @click.group(cls=Group)
 def command() -> None:
-    """Show the jobs of a server: plans, rehearsals, trials and reports, whoever has begun them.
+    """Show the jobs of a server: plans, rehearsals, trials, reports and learning, whoever has begun them.
 
     A restart of the server interrupts those that go on or wait; `restart` begins one again.
     """
@@ -134,6 +135,7 @@ def _print_outcome(outcome: JobOutcome) -> None:
     from skillc.cli.output.result import format_result
     from skillc.cli.output.trials import format_series
     from skillc.contract.job import PlanResult, RunResult, TrialsResult
+    from skillc.contract.learning import LearnResult
 
     match outcome:
         case PlanResult(plan):
@@ -142,5 +144,19 @@ def _print_outcome(outcome: JobOutcome) -> None:
             print_result(format_result(run, page_of(sys.stdout)))
         case TrialsResult(series):
             print_result(format_series(series, page_of(sys.stdout), is_unicode(sys.stdout)))
+        case LearnResult():
+            print_text(_describe_learned(outcome))
         case _:
             assert_never(outcome)
+
+
+def _describe_learned(learned: LearnResult) -> str:
+    """Return what was learned, as text: the values, the objectives with the defaults and with these, the change."""
+    if not learned.values:
+        return f"{learned.candidates} candidates tried: nothing is better than the defaults"
+    values = ", ".join(f"{name} = {value}" for name, value in learned.values.items())
+    means = [f"{name}: {before:.4g} -> {after:.4g}" for name, (before, after) in learned.objectives.items()]
+    confirmed = "confirmed by fresh trials" if learned.confirmed else "not confirmed by fresh trials"
+    return "\n".join(
+        (f"{learned.candidates} candidates tried: {values}, {confirmed}", *means, "", learned.diff.rstrip())
+    )

@@ -15,7 +15,7 @@ from skillc.cli.completions import complete_task
 from skillc.cli.options import FOLDER, json_option, task_arguments
 from skillc.cli.server_completions import complete_asked_argument
 from skillc.cli.struct_options import struct_options
-from skillc.services.learning.spec import LearnSpec
+from skillc.contract.learning import LearnSpec
 
 EXAMPLES = """
 skillc learn clean_table --minimise time,force_rmse --subject-to "coverage == 100 %, contact_lost == 0, impact <= 2"
@@ -66,7 +66,7 @@ def command(
     from skillc.cli.console import Terminal, page_of, print_json, print_result, remark_default
     from skillc.cli.output.learning import format_learned
     from skillc.cli.progress.learning import LearningProgress
-    from skillc.services.learning.coordinator import LearnRequest, learn
+    from skillc.services.learning.coordinator import LearnOrder, learn
     from skillc.services.learning.page import write_page
     from skillc.services.learning.place import choose_place
     from skillc.services.tasks.listing import require_task
@@ -75,7 +75,7 @@ def command(
     remark_default(task, chosen)
     executor, parallel = choose_place(jobs, scheduler, Terminal())
     folder = out or Path("learning") / chosen.rpartition(":")[2]
-    request = LearnRequest(chosen, spec, folder, executor, parallel, arguments)
+    request = LearnOrder(chosen, spec, folder, executor, parallel, arguments)
     learned = learn(request, lambda name: LearningProgress(name, spec, quiet=as_json), Terminal())
     write_page(learned, folder)
     if as_json:

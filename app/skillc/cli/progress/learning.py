@@ -6,8 +6,8 @@ from rich.progress import TextColumn
 from rich.table import Column
 
 from skillc.cli.progress.stderr import StderrProgress
+from skillc.contract.learning import LearnSpec
 from skillc.services.learning.coordinator import Progress as LearningState
-from skillc.services.learning.spec import LearnSpec
 
 MOST_SHOWN = 3
 """How many members of the front are shown."""

@@ -74,7 +74,7 @@ class Jobs:
     _tasks: dict[str, tuple[LaneName, asyncio.Task[None]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        known = {each.id for each in self.store.list() if each.files}
+        known = {each.id for each in self.store.list() if each.files or self._goes_on_later(each.id)}
         for each in self.folder.glob("*"):
             if each.name not in known:
                 shutil.rmtree(each, ignore_errors=True)
@@ -149,7 +149,7 @@ class Jobs:
             log("job", job=job.id, problem=repr(error))
             self._fail(job.id, WorkCrashed(f"an error of skillc: {error!r}"))
         except asyncio.CancelledError:
-            self._clear(job.id)
+            self._clear_unless_begun(job.id)
             raise
         finally:
             if self._tasks.get(job.id, (None, None))[1] is asyncio.current_task():
@@ -167,7 +167,15 @@ class Jobs:
         problem = ApiRefusal(HTTPStatus.UNPROCESSABLE_ENTITY, str(error), diagnosis=diagnosis).problem
         failed = structs.replace(self.find(name), state="failed", reason=str(error), problem=problem)
         self.note(failed, f"failed: {error}")
-        self._clear(name)
+        self._clear_unless_begun(name)
+
+    def _clear_unless_begun(self, name: str) -> None:
+        """Remove the files of a job that has not got to its end, unless it goes on with them when it is begun again."""
+        if not self._goes_on_later(name):
+            self._clear(name)
+
+    def _goes_on_later(self, name: str) -> bool:
+        return bool(self.store.parts(name))
 
     def _clear(self, name: str) -> None:
         shutil.rmtree(self.folder / name, ignore_errors=True)

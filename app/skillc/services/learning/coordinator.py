@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, closing, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import TypeAlias
 
 from msgspec import structs
 
+from skillc.contract.learning import LearnSpec
 from skillc.errors import RequestError, ServiceError
 from skillc.services.check.fixing import FileChange, unified_diff
 from skillc.services.learning import result as results
@@ -23,7 +24,6 @@ from skillc.services.learning.recorded_run import RunOrder, record_run
 from skillc.services.learning.result import DEFAULTS, Learned
 from skillc.services.learning.samplers import require_sampler
 from skillc.services.learning.search import Search, list_settings, try_fresh
-from skillc.services.learning.spec import LearnSpec
 from skillc.services.learning.study import Basis, Candidate, Study, StudySetup
 from skillc.services.learning.text import LearnedValue, change_texts, require_own
 from skillc.services.library.files import LibraryFiles
@@ -45,10 +45,10 @@ CHANGES = "learned.diff"
 
 
 @dataclass(frozen=True, slots=True)
-class LearnRequest:
+class LearnOrder:
     """For which task, `LIBRARY:NAME` with arguments, something is learned, what, in which folder, and where it runs.
 
-    `parallel` is how many trials run at the same time.
+    `parallel` is how many trials run at the same time. The trials begin from `scene`, by default that of the task.
     """
 
     reference: str
@@ -57,6 +57,7 @@ class LearnRequest:
     executor: OpenExecutor
     parallel: int
     arguments: Mapping[str, str] = field(default_factory=dict)
+    scene: Path | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,22 +87,14 @@ class _Subject:
     context: str
 
 
-def learn(request: LearnRequest, watch: StartMonitor, reporter: Reporter) -> Learned:
+def learn(request: LearnOrder, watch: StartMonitor, reporter: Reporter) -> Learned:
     """Learn, or go on with the study of the folder; Ctrl-C ends the running trials, and what is known is returned.
 
     RequestError, DiagnosticsError or ServiceError if the task, the expressions, the parameters or the folder cannot be
     used, if the executor cannot run trials, or if what was learned cannot be written.
     """
-    check_expressions(*request.spec.expressions)
-    require_sampler(request.spec.sampler)
     subject = _find_subject(request, reporter)
-    with closing(Study(request.out, _make_heading(request, subject))) as study:
-        if study.basis is None:
-            _begin(request, subject, study, reporter)
-        assert study.basis is not None
-        figures = Figures({name: frozenset(units) for name, units in study.basis.units.items()})
-        aim = Aim(*read_expressions(*request.spec.expressions, figures))
-        study.use_sampler(request.spec.sampler, request.spec.candidates, request.spec.seed)
+    with _open_study(request, subject, reporter) as (study, aim):
         is_whole = _search(request, subject, study, aim, watch, reporter)
         learned, changes = _conclude(request, subject, study, aim, is_whole)
     if request.spec.apply and is_whole:
@@ -110,9 +103,44 @@ def learn(request: LearnRequest, watch: StartMonitor, reporter: Reporter) -> Lea
     return learned
 
 
-def _find_subject(request: LearnRequest, reporter: Reporter) -> _Subject:
+def learn_further(request: LearnOrder, candidates: int, reporter: Reporter) -> Progress:
+    """Go on with the study of the folder until so many candidates are tried, and conclude nothing.
+
+    Errors as of `learn`.
+    """
+    subject = _find_subject(request, reporter)
+    some = replace(request, spec=structs.replace(request.spec, candidates=candidates, fresh=0))
+    with _open_study(request, subject, reporter) as (study, aim):
+        _search(some, subject, study, aim, watch_nothing, reporter)
+        return _measure_progress(request, study, aim)
+
+
+@contextmanager
+def watch_nothing(_task: str) -> Iterator[Callable[[Progress], None]]:
+    """Watch a search that nobody wants to know of before its end."""
+    yield lambda state: None
+
+
+@contextmanager
+def _open_study(request: LearnOrder, subject: _Subject, reporter: Reporter) -> Iterator[tuple[Study, Aim]]:
+    """Open the study of the folder, which is begun if there is none, with what is wanted in it."""
+    with closing(Study(request.out, _make_heading(request, subject))) as study:
+        if study.basis is None:
+            _begin(request, subject, study, reporter)
+        assert study.basis is not None
+        figures = Figures({name: frozenset(units) for name, units in study.basis.units.items()})
+        aim = Aim(*read_expressions(*request.spec.expressions, figures))
+        study.use_sampler(request.spec.sampler, request.spec.candidates, request.spec.seed)
+        yield study, aim
+
+
+def _find_subject(request: LearnOrder, reporter: Reporter) -> _Subject:
+    """Return what is learned for; RequestError or DiagnosticsError if that cannot be."""
+    check_expressions(*request.spec.expressions)
+    require_sampler(request.spec.sampler)
     files, _ = split_reference(request.reference)
     library, task, scene = find_task_in_scene(request.reference)
+    scene = request.scene or scene
     state = load_world(scene, library.vocabulary, reporter)
     if request.spec.reality is not None:
         require_reality(request.spec.reality, state)
@@ -122,7 +150,7 @@ def _find_subject(request: LearnRequest, reporter: Reporter) -> _Subject:
     return _Subject(files, library, experiment, scene, f"{scene.name}{reality}")
 
 
-def _make_heading(request: LearnRequest, subject: _Subject) -> StudySetup:
+def _make_heading(request: LearnOrder, subject: _Subject) -> StudySetup:
     experiment, (minimise, subject_to) = subject.experiment, request.spec.expressions
     return StudySetup(
         task=experiment.task,
@@ -137,7 +165,7 @@ def _make_heading(request: LearnRequest, subject: _Subject) -> StudySetup:
     )
 
 
-def _begin(request: LearnRequest, subject: _Subject, study: Study, reporter: Reporter) -> None:
+def _begin(request: LearnOrder, subject: _Subject, study: Study, reporter: Reporter) -> None:
     """Run the task once with the defaults, which shows what can be learned and what is measured."""
     folder = request.out / RUNS / "defaults"
     trial = record_run(_order(request, subject), folder, request.spec.deadline_s)
@@ -151,7 +179,7 @@ def _begin(request: LearnRequest, subject: _Subject, study: Study, reporter: Rep
 
 
 def _search(
-    request: LearnRequest, subject: _Subject, study: Study, aim: Aim, watch: StartMonitor, reporter: Reporter
+    request: LearnOrder, subject: _Subject, study: Study, aim: Aim, watch: StartMonitor, reporter: Reporter
 ) -> bool:
     """Run what is missing; return whether all of it is done."""
     seeds = tuple(range(request.spec.seed, request.spec.seed + request.spec.trials))
@@ -171,12 +199,12 @@ def _search(
     return bool(ended)
 
 
-def _fresh_seeds(request: LearnRequest) -> tuple[int, ...]:
+def _fresh_seeds(request: LearnOrder) -> tuple[int, ...]:
     first = request.spec.seed + request.spec.trials
     return tuple(range(first, first + request.spec.fresh))
 
 
-def _measure_progress(request: LearnRequest, study: Study, aim: Aim) -> Progress:
+def _measure_progress(request: LearnOrder, study: Study, aim: Aim) -> Progress:
     means = {number: aim.mean(each.worlds.values()) for number, each in study.candidates.items()}
     front = (means[number] for number in results.list_front(study.candidates, aim))
     return Progress(
@@ -190,7 +218,7 @@ def _measure_progress(request: LearnRequest, study: Study, aim: Aim) -> Progress
 
 
 def _conclude(
-    request: LearnRequest, subject: _Subject, study: Study, aim: Aim, is_whole: bool
+    request: LearnOrder, subject: _Subject, study: Study, aim: Aim, is_whole: bool
 ) -> tuple[Learned, tuple[FileChange, ...]]:
     """Return the result, with the change of the texts, and the run of the best candidate recorded if all is done."""
     assert study.basis is not None
@@ -228,7 +256,7 @@ def _write_changes(subject: _Subject, learned: Learned, candidate: Candidate) ->
 
 
 def _record_best(
-    request: LearnRequest, subject: _Subject, study: Study, learned: Learned, candidate: Candidate
+    request: LearnOrder, subject: _Subject, study: Study, learned: Learned, candidate: Candidate
 ) -> Learned:
     """Record the run of a candidate with the first seed, unless it is there."""
     folder = request.out / RUNS / f"candidate-{candidate.number}"
@@ -238,7 +266,7 @@ def _record_best(
     return structs.replace(learned, recordings={**learned.recordings, "learned": str(folder)})
 
 
-def _order(request: LearnRequest, subject: _Subject) -> RunOrder:
+def _order(request: LearnOrder, subject: _Subject) -> RunOrder:
     return RunOrder(
         experiment=subject.experiment,
         scene=str(subject.scene),
@@ -247,7 +275,7 @@ def _order(request: LearnRequest, subject: _Subject) -> RunOrder:
     )
 
 
-def _apply(request: LearnRequest, learned: Learned, changes: tuple[FileChange, ...], reporter: Reporter) -> Learned:
+def _apply(request: LearnOrder, learned: Learned, changes: tuple[FileChange, ...], reporter: Reporter) -> Learned:
     """Write the changed texts."""
     if learned.chosen is None:
         raise RequestError("nothing better than the defaults was found: there is nothing to apply")

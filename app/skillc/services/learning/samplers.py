@@ -6,9 +6,9 @@ import warnings
 from importlib.util import find_spec
 from typing import Any, assert_never
 
+from skillc.contract.learning import SamplerName
 from skillc.errors import RequestError
 from skillc.services.learning.parameters import Learnable
-from skillc.services.learning.spec import SamplerName
 
 STARTS = 10
 """How many candidates are random before a sampler uses what is known, unless few are wanted."""

@@ -16,13 +16,13 @@ from typing import Any, BinaryIO
 
 import msgspec
 
+from skillc.contract.learning import SamplerName
 from skillc.errors import ServiceError
 from skillc.extras import naming_extras, require
 from skillc.services.learning.figures import World
 from skillc.services.learning.parameters import Learnable
 from skillc.services.learning.racing import Verdict
 from skillc.services.learning.samplers import make_distribution, make_sampler
-from skillc.services.learning.spec import SamplerName
 from skillc.services.reporting.files import writing_to
 from skillc_runtime.platforms.file_locks import try_lock
 

@@ -1,4 +1,4 @@
-"""What is to be learned, from how many trials: what the command line and Python programs give."""
+"""Learning of parameters from trials: what is asked for, and what comes of a job that learns."""
 
 from __future__ import annotations
 
@@ -84,3 +84,39 @@ class LearnSpec(msgspec.Struct, frozen=True, kw_only=True):
     def names(self) -> tuple[str, ...]:
         """The names of the parameters that are asked for; empty for all."""
         return tuple(name.strip() for name in (self.parameters or "").split(",") if name.strip())
+
+
+class LearnRequest(
+    msgspec.Struct,
+    frozen=True,
+    kw_only=True,
+    tag_field="kind",
+    tag="learn",
+    omit_defaults=True,
+    forbid_unknown_fields=True,
+):
+    """A task of a cell's library with arguments, from whose trials in the cell's scene parameters are learned.
+
+    `cell` may be left out if there is only one. The texts of the library stay as they are: `spec.apply` is refused.
+    """
+
+    cell: str | None = None
+    task: str
+    arguments: dict[str, str] = {}
+    spec: LearnSpec
+
+
+class LearnResult(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="learn"):
+    """The result of learning: the proposed `values` by parameter, `Skill.implementation.name`, as they are written.
+
+    They are empty if nothing is better than the defaults. `objectives` are means over fresh seeds with the defaults and
+    with the values, by the texts of the objectives. `confirmed` is whether no fewer fresh trials meet all constraints
+    with the values than with the defaults. `diff` is the change of the texts.
+    """
+
+    task: str
+    candidates: int
+    values: dict[str, str]
+    objectives: dict[str, tuple[float, float]]
+    confirmed: bool
+    diff: str
