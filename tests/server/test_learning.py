@@ -11,7 +11,6 @@ import pytest
 import skillc
 from server.running import RunningServer, serving, wait_until
 from skillc.contract.job import Job
-from skillc.contract.learning import LearnSpec
 from skillc.services.library.files import SHIPPED
 from skillc_ontology import catalogue
 
@@ -84,5 +83,5 @@ def test_a_task_without_such_parameters_ends_with_the_reason(server: RunningServ
         skillc.connect(address, state=server.folder / "served") as client,
         pytest.raises(skillc.RefusedError, match="range"),
     ):
-        client.cell("yard").learn("carry_all", LearnSpec(minimise="time"), watch=seen.append)
+        client.cell("yard").learn("carry_all", minimise="time", watch=seen.append)
     assert seen[-1].state == "failed"

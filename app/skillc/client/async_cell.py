@@ -60,7 +60,7 @@ from skillc.values.arguments import (
     require_text,
 )
 from skillc.values.keywords import read_keywords
-from skillc.values.run_keywords import OperationKeywords, OrderKeywords
+from skillc.values.run_keywords import LearnKeywords, OperationKeywords, OrderKeywords
 from skillc.values.trials import Trials
 
 OPERATIONS, WRITES, TRIALS, FACTS = 100, 100, 50, 1000
@@ -205,19 +205,23 @@ class AsyncCell(CellCalls):
     async def learn(
         self,
         task: str,
-        spec: LearnSpec,
         *,
         arguments: Mapping[str, Any] | None = None,
         watch: Callable[[Job], None] | None = None,
+        **settings: Unpack[LearnKeywords],
     ) -> LearnResult:
         """Learn parameters of skills from trials of a task in the cell's scene; as `skillc.learn`.
 
-        The cell itself does nothing, and no text of its library changes: `spec` must not `apply`. `watch` is called
-        with each progress. The server keeps the job with its page, `learned.html`; it is cancelled if this is.
+        The cell itself does nothing, and no text of its library changes: there is no `apply`. `watch` is called with
+        each progress. The server keeps the job with its page, `learned.html`; it is cancelled if this is.
         RefusedError if nothing can be learned in this way.
         """
-        name, given = require_text(task, "the task"), read_arguments(arguments)
-        request = LearnRequest(cell=self.name, task=name, arguments=given, spec=spec)
+        request = LearnRequest(
+            cell=self.name,
+            task=require_text(task, "the task"),
+            arguments=read_arguments(arguments),
+            spec=read_keywords(LearnSpec, settings, LearnKeywords),
+        )
         return (await run_job(self._connection, request, LearnResult, watch))[1]
 
     async def facts(

@@ -22,7 +22,7 @@ from skillc.contract.job import (
     Job,
     TaskResult,
 )
-from skillc.contract.learning import LearnResult, LearnSpec
+from skillc.contract.learning import LearnResult
 from skillc.contract.library import LibraryDescription
 from skillc.contract.operation import OperationStatus
 from skillc.contract.order import Order
@@ -36,7 +36,7 @@ from skillc.contract.world import (
     WorldFormat,
     WorldWrite,
 )
-from skillc.values.run_keywords import OperationKeywords, OrderKeywords
+from skillc.values.run_keywords import LearnKeywords, OperationKeywords, OrderKeywords
 from skillc.values.trials import Trials
 
 
@@ -256,18 +256,18 @@ class ServerCell(WaitingCell):
     def learn(
         self,
         task: str,
-        spec: LearnSpec,
         *,
         arguments: Mapping[str, Any] | None = None,
         watch: Callable[[Job], None] | None = None,
+        **settings: Unpack[LearnKeywords],
     ) -> LearnResult:
         """Learn parameters of skills from trials of a task in the cell's scene; as `skillc.learn`.
 
-        The cell itself does nothing, and no text of its library changes: `spec` must not `apply`. `watch` is called
-        with each progress. The server keeps the job with its page, `learned.html`; it is cancelled if this is.
+        The cell itself does nothing, and no text of its library changes: there is no `apply`. `watch` is called with
+        each progress. The server keeps the job with its page, `learned.html`; it is cancelled if this is.
         RefusedError if nothing can be learned in this way.
         """
-        return self._loop.run(self._client.learn(task, spec, arguments=arguments, watch=watch))
+        return self._loop.run(self._client.learn(task, arguments=arguments, watch=watch, **settings))
 
     def facts(
         self, subject: str | None = None, type: str | None = None, search: str | None = None
