@@ -10,6 +10,7 @@ from msgspec.structs import replace
 from rig import GAINS, LAWS, ROBOTS, Bench, moved_by
 
 from skillc_runtime.backends.mujoco.wrist import WristFilter, filter_wrist
+from skillc_runtime.backends.simulation.arms.geometry_errors import GeometryErrors
 from skillc_runtime.backends.simulation.arms.motor_memory import MotorMemory, pursue
 from skillc_runtime.backends.simulation.arms.sensing import ArmSensing, LastLink, MassMemory, measure, take_mass
 from skillc_runtime.control.laws.controllers import make_controllers
@@ -148,7 +149,7 @@ def measurements(count: int) -> list[list[float]]:
     chance, hand, found = np.random.default_rng(6), LastLink(), []
     for _ in range(count):
         hand.on_link[:] = chance.uniform(-1, 1, (8, 3))
-        J, joints, wrench, readings = np.zeros((6, 7)), np.zeros((6, 7)), np.zeros(6), chance.uniform(-20, 20, 9)
+        J, joints, wrench, readings = np.zeros((6, 7)), np.zeros((7, 7)), np.zeros(6), chance.uniform(-20, 20, 9)
         link, base = exp(chance.uniform(-3, 3, 3)), exp(chance.uniform(-3, 3, 3))
         axes, (centre, position, origin, weight) = chance.uniform(-1, 1, (7, 6)), chance.uniform(-1, 1, (4, 3))
         raw, noise, mean = chance.uniform(-20, 20, (3, 9))
@@ -166,6 +167,10 @@ def measurements(count: int) -> list[list[float]]:
             hand.on_link, axes, centre, Pose(position, link), Pose(origin, base), weight,
             *chance.uniform(-9, 9, (4, 7)), chance.uniform(-1, 1, (6, 9)), readings, chance.uniform(-1, 1, 6),
             noise[None], np.zeros(1), np.zeros(2),
+            GeometryErrors(
+                chance.uniform(-1e-3, 1e-3, (2, 6)), np.array([[1, 0], [2, 1]]), chance.uniform(-1e-3, 1e-3, 7),
+                chance.uniform(-1, 1, (3, 3)), chance.uniform(-1, 1, (3, 9)), 1.0,
+            ),
         )  # fmt: skip
         measure(sensing, 0.0)
         dose, tool, (place, origin) = np.zeros((20, 30)), np.array([0.1, 0.05]), chance.uniform(-0.1, 0.1, (2, 3))

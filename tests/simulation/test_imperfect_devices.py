@@ -153,6 +153,44 @@ def test_an_eraser_is_heavier_or_lighter_and_stiffer_than_is_known() -> None:
     assert 1.0 <= factor <= 10.0
 
 
+@pytest.mark.parametrize("scene", SCENES)
+def test_an_arm_takes_its_own_model_for_what_is(scene: str) -> None:
+    """Base and links are elsewhere by some mm and encoders are off: it knows nothing of that, and measures as ever."""
+    known = SimulatedCell(WorldModel(world(scene)), 3)
+    there = imperfect(scene, "wide:mountingOffset,mountingTurn,linkOffset,linkTurn,transmissionError", 3)
+    ideal, arm = known.arms[ARM[scene]], there.arms[ARM[scene]]
+    arm._q[:] = ideal._q
+    there.refresh()
+    measured = arm.state()
+    away = np.linalg.norm(known.data.xpos[ideal._link] - there.data.xpos[arm._link])
+    assert 0.0005 < away < 0.02
+    assert np.abs(measured.q - ideal._q).max() > 1e-5
+    ideal._q[:] = measured.q
+    known.refresh()
+    expected = ideal.state()
+    np.testing.assert_allclose(measured.tool.position, expected.tool.position, atol=2e-5)
+    np.testing.assert_allclose(measured.tool.rotation, expected.tool.rotation, atol=2e-5)
+    np.testing.assert_array_equal(arm.base.numbers, ideal.base.numbers)
+
+
+def test_a_tool_has_its_centre_and_its_pad_elsewhere() -> None:
+    models = [
+        imperfect("iiwa_table", f"wide:{kinds}", 2)
+        for kinds in ("padStiffnessFactor", "padStiffnessFactor,centreError,padThicknessError,padDampingFactor")
+    ]
+    sizes = models[1].variation.imperfections[LAB + "Eraser-1"]
+    centres, pads, dampings = [], [], []
+    for each in models:
+        block, felt = (each.model.body(f"lab:Eraser-1/{part}") for part in ("block", "felt"))
+        centre = block.mass[0] * block.ipos + felt.mass[0] * felt.pos
+        centres.append(centre / (block.mass[0] + felt.mass[0]))
+        pads.append(felt.pos[2])
+        dampings.append(each.model.joint("lab:Eraser-1/press").damping[0])
+    assert pads[1] == pytest.approx(pads[0] - sizes["padThicknessError"][0])
+    assert dampings[1] == pytest.approx(dampings[0] * sizes["padDampingFactor"][0])
+    np.testing.assert_allclose((centres[1] - centres[0])[:2], sizes["centreError"][:2], rtol=1e-9)
+
+
 def test_every_kind_has_a_property_of_a_sheet_and_a_row_in_the_docs(docs: str) -> None:
     stated = {each for each in KINDS if SKILLC + each.name in world("iiwa_table").vocabulary.properties}
     assert stated == set(KINDS)

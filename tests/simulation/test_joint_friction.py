@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from skillc_runtime.backends.simulation.arms.geometry_errors import WAVES
 from skillc_runtime.backends.simulation.arms.joint_friction import BENDING_RAD, STICKING, VISCOUS, Friction, rub
 
 STEP_S, SLOW_N_M, INERTIA = 0.001, 5.0, 0.5
@@ -16,9 +17,40 @@ def rubbing(
     applied: np.ndarray, dq: np.ndarray, bent: float = 0.0, added: float = 0.0, time_s: float = inf, bias: float = 0.0
 ) -> Friction:
     """Return the friction of a joint whose arm makes up for it with a time constant."""
-    share = 1.0 - exp(-STEP_S / time_s)
+    share, none, strong = 1.0 - exp(-STEP_S / time_s), np.zeros(1), np.full(1, inf)
     slow = np.full(1, SLOW_N_M)
-    return Friction(applied, slow, dq, np.full(1, bent), added, STEP_S, np.zeros(1), share, np.full(1, bias))
+    return Friction(
+        applied, slow, dq, np.full(1, bent), added, STEP_S, np.zeros(1), share, np.full(1, bias), none, none, none,
+        none, none, none, strong, strong,
+    )  # fmt: skip
+
+
+def exert(control: float, more: float, servo: tuple[float, float], q: float = 0.0, wave: float = 0.0) -> float:
+    """Return all that a motor with 10 N m, of which it really has 9, exerts on a joint without friction."""
+    applied, none, effort = np.zeros(1), np.zeros(1), np.full(1, 10.0)
+    stiffness, damping = (np.full(1, each) for each in servo)
+    held = np.full(1, control)
+    rub(
+        Friction(
+            applied, none, none.copy(), none.copy(), 1.0, STEP_S, np.full(1, more), 0.0, none, np.full(1, q), none,
+            np.full(1, wave), held, stiffness, damping, effort, effort - 1.0,
+        ), 0.0,
+    )  # fmt: skip
+    actuator = control if stiffness[0] == 0.0 else stiffness[0] * (control - q)
+    return float(np.clip(actuator, -10.0, 10.0) + applied[0])
+
+
+@given(st.floats(-20.0, 20.0), st.floats(-20.0, 20.0))
+def test_a_motor_exerts_no_more_than_it_really_can(control: float, more: float) -> None:
+    """What an arm adds against friction counts, too; a servo that is asked for little does as it is asked."""
+    assert exert(control, more, (0.0, 0.0)) == pytest.approx(np.clip(np.clip(control, -10, 10) + more, -9.0, 9.0))
+    assert exert(control, 0.0, (100.0, 1.0)) == pytest.approx(np.clip(100.0 * control, -9.0, 9.0))
+
+
+@given(st.floats(-3.0, 3.0), st.floats(1e-5, 3e-4))
+def test_a_servo_holds_the_angle_that_its_encoder_measures(q: float, wave: float) -> None:
+    measured = q + wave * np.sin(WAVES * q)
+    assert exert(measured, 0.0, (100.0, 1.0), q, wave) == pytest.approx(0.0, abs=1e-9)
 
 
 def turn(

@@ -38,7 +38,7 @@ NO_SIZES: Final[Sizes] = {}
 class Kind(msgspec.Struct, frozen=True):
     """A kind of imperfection: the property of sheets with its range, the unit of its size, and how many sizes it has.
 
-    per_joint: as many as the arm has joints. signed: of either sign. at_wrist: only arms with a force/torque sensor
+    per_joint: so many for each joint. signed: of either sign. at_wrist: only arms with a force/torque sensor
     have it.
     """
 
@@ -60,17 +60,30 @@ ARM_KINDS: Final = (
     Kind("torqueResolution", "N m", signed=False, at_wrist=True),
     Kind("forceTorquePeriod", "s", signed=False, at_wrist=True),
     Kind("jointFriction", "", per_joint=True, signed=False),
+    Kind("torqueRipple", "", per_joint=True),
     Kind("jointTorqueBias", "", per_joint=True),
+    Kind("transmissionError", "rad", per_joint=True),
+    Kind("effortLoss", "", per_joint=True, signed=False),
     Kind("gravityError", ""),
     Kind("toolOffset", "m", 3),
     Kind("toolTurn", "rad", 3),
+    Kind("mountingOffset", "m", 3),
+    Kind("mountingTurn", "rad", 3),
+    Kind("linkOffset", "m", 3, per_joint=True),
+    Kind("linkTurn", "rad", 3, per_joint=True),
     Kind("commandDelay", "s", signed=False),
     Kind("commandJitter", "s", signed=False),
     Kind("lostCommands", "", signed=False),
 )
 """The imperfections of arms."""
 
-TOOL_KINDS: Final = (Kind("massError", "kg"), Kind("padStiffnessFactor", "", signed=False))
+TOOL_KINDS: Final = (
+    Kind("massError", "kg"),
+    Kind("centreError", "m", 3),
+    Kind("padStiffnessFactor", "", signed=False),
+    Kind("padDampingFactor", "", signed=False),
+    Kind("padThicknessError", "m"),
+)
 """The imperfections of tools."""
 
 KINDS: Final = (*ARM_KINDS, *TOOL_KINDS)
@@ -144,7 +157,7 @@ def draw_sizes(
 
 def _draw(individual: str, sheet: DataSheet, reality: Reality, kind: Kind, joints: int, seed: int) -> tuple[float, ...]:
     low, high = _read_range(sheet, kind.name)
-    rng, count = rng_for(individual, seed, crc32(kind.name.encode())), joints if kind.per_joint else kind.count
+    rng, count = rng_for(individual, seed, crc32(kind.name.encode())), kind.count * (joints if kind.per_joint else 1)
     sizes = rng.uniform(low, low + SHARES[reality.level] * (high - low), count)
     signs = rng.choice((-1.0, 1.0), count)
     return tuple((sizes * signs if kind.signed else sizes).tolist())

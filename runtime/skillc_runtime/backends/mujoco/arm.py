@@ -49,7 +49,7 @@ class SimulatedArm(ModelledArm):
         self.command_delay_s = find_greatest_delay(facts)
         self.measures_link_torques = facts.sheet.has("jointTorqueTime")
         self.brakes = None if facts.has_servos or delay_s == inf else Brakes(joints, delay_s, step_s)
-        self.friction = make_joint_friction(facts, sizes, joints, step_s)
+        self.friction = make_joint_friction(facts, sizes, self.motors, step_s)
         if self._feels_force and (gripper := self._gripper_name) is not None:
             time_s = facts.sheet.number("forceTorqueTime")
             noise = make_wrist_noise(facts, seed, sizes, model.opt.timestep)

@@ -13,6 +13,11 @@ def base_body_name(robot: str) -> str:
     return f"{robot}/base"
 
 
+def mount_name(arm: str) -> str:
+    """Return the name of the body that stands where the world model has the base of an arm that is elsewhere."""
+    return f"mount/{arm}"
+
+
 def box_geom_name(individual: str) -> str:
     """Return the name of the box of a surface."""
     return f"{individual}/box"

@@ -9,10 +9,12 @@ import msgspec
 import mujoco
 import numpy as np
 
+from skillc_runtime.backends.simulation.arms.geometry_errors import make_geometry_errors
 from skillc_runtime.backends.simulation.arms.motors import Joints, Motors, ServoGains, Servos, TorqueMotors
 from skillc_runtime.backends.simulation.arms.parts import (
     find_actuator,
     find_live_body,
+    find_mount,
     find_root,
     find_site,
     find_tool,
@@ -105,11 +107,12 @@ class ModelledArm(Arm):
         self._q, self._dq = data.qpos[self._q_span], data.qvel[self._dofs]
         self._bias = data.qfrc_bias[self._dofs]
         self._base = find_root(model, model.jnt_bodyid[joints[0]], part_name(name, ""))
+        self._mount = find_mount(model, name, self._base)
         self._link = int(model.site_bodyid[model.site(part_name(name, "flange")).id])
         self.limits = read_limits(model, joints, actuator, facts)
         self.fixed_tool = find_tool(model, name, gripper)
         self._hand = LastLink()
-        self._joints, self._velocity = np.zeros((6, count)), np.zeros(3)
+        self._joints, self._velocity = np.zeros((7, count)), np.zeros(3)
         self._here = _blank(self._joints, self._hand.tool)
         self._state = _read_only(self._here)
         self._weight, self._carrying, self._payload_kg = np.zeros(3), self._joints[CARRYING], np.zeros(1)
@@ -122,6 +125,8 @@ class ModelledArm(Arm):
         effort_bias = np.multiply(sizes.get("jointTorqueBias", 0.0), self.limits.effort)
         self._effort_bias = np.broadcast_to(effort_bias, count).copy()
         self._damping, self._zero, self._zero_at_tool = np.zeros(count), np.zeros(6), np.zeros(6)
+        self._believed_base = find_live_body(data, self._mount)
+        self._geometry = make_geometry_errors(sizes, joints, model, data)
         self._sensing = self._make_sensing()
         self._measure, mass = bind(measure, self._sensing), self._make_mass()
         self._take_mass, self._update_mass = bind(take_mass, mass), bind(update_mass, mass)
@@ -156,8 +161,8 @@ class ModelledArm(Arm):
 
     @property
     def live_base(self) -> Pose:
-        """The pose of the arm's base in the world; its arrays change."""
-        return self._sensing.base
+        """The pose of the arm's base in the world, as far as that is known; its arrays change."""
+        return self._believed_base
 
     @property
     def live_joints(self) -> Array:
@@ -325,6 +330,7 @@ class ModelledArm(Arm):
             noise=self._noise.rows,
             used=self._noise.used,
             times=self._times,
+            geometry=self._geometry,
         )
 
     def _make_mass(self) -> MassMemory:

@@ -7,7 +7,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.names import mount_name, part_name
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.devices.arm import ArmLimits
 from skillc_runtime.motion.pose import Pose
@@ -29,6 +29,12 @@ def find_root(model: Any, body: int, prefix: str) -> int:
     while model.body(model.body_parentid[body]).name.startswith(prefix):
         body = int(model.body_parentid[body])
     return int(body)
+
+
+def find_mount(model: Any, name: str, base: int) -> int:
+    """Return the body that stands where the world model has the base of an arm, whose own body is `base`."""
+    mount = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, mount_name(name))
+    return base if mount < 0 else int(mount)
 
 
 def find_tool(model: Any, name: str, gripper: str | None) -> Pose:

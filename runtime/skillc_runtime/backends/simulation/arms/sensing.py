@@ -5,6 +5,7 @@ from __future__ import annotations
 import msgspec
 import numpy as np
 
+from skillc_runtime.backends.simulation.arms.geometry_errors import GeometryErrors, measure_joint, misjudge_tool
 from skillc_runtime.motion.arrays import Integers, Matrix, OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import cross, product, times, transposed_times
@@ -26,8 +27,9 @@ NOT_READY = 1 << 32
 MASS_MATRIX_PERIOD_S = 0.01
 """Period with which the mass matrix, which changes slowly, is computed."""
 
-Q, SPEED, BIAS, CARRYING, EFFORT, BEFORE = range(6)
-"""Rows of the joint measurements; CARRYING: the torques that carry a payload; BEFORE: the speeds before, exact."""
+Q, SPEED, BIAS, CARRYING, EFFORT, BEFORE, WAVE = range(7)
+"""Rows of the joint measurements; CARRYING: the torques that carry a payload; BEFORE: the speeds before, exact; WAVE:
+rad, what encoders measure more than is so."""
 
 
 class LastLink:
@@ -75,10 +77,10 @@ def compute_wrench(wrench: OutVector, gain: Matrix, readings: Vector, zero: Vect
 class ArmSensing(msgspec.Struct, frozen=True):
     """The inputs and outputs of `measure` for one arm; all arrays are reused or change with the simulation.
 
-    Written, in the arm's base frame. joints (6, nv): Q rad, SPEED and BEFORE rad/s, others N m; in_base (8, 3): see
-    `LastLink`; rotation (3, 3), jacobian (6, nv): of the tool centre point, [linear m; angular rad] per rad; wrench
-    (6,): N and N m on the tool, zeros without sensor; velocity (3,): m/s, of the tool centre point. times (2,): see
-    above.
+    Written, in the arm's base frame. joints (7, nv): Q and WAVE rad, SPEED and BEFORE rad/s, others N m; in_base (8,
+    3): see `LastLink`; rotation (3, 3), jacobian (6, nv): of the tool centre point, [linear m; angular rad] per rad;
+    wrench (6,): N and N m on the tool, zeros without sensor; velocity (3,): m/s, of the tool centre point. times (2,):
+    see above.
 
     Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; modelled: by what the arm's model multiplies
     the bias; correction, effort_bias (nv,): N m, what is added to that, and what torque sensors add; on_link (8, 3): as
@@ -87,7 +89,7 @@ class ArmSensing(msgspec.Struct, frozen=True):
     last link and base; weight (3,) N of the payload. actuators, applied, passive (nv,): N m, in the last step, in which
     the servos' damping (nv,), N m s/rad, also acts on the change of the speeds. gain (6, 9) and readings (9,): of the
     sensor, see `Wrist`; zero (6,): what counts as 0 of the result. noise (n, nv): rad/s, a row for each measurement, of
-    which `used` (1,) are used up.
+    which `used` (1,) are used up. geometry: what the arm does not know of its links and joints.
     """
 
     joints: OutMatrix
@@ -118,6 +120,7 @@ class ArmSensing(msgspec.Struct, frozen=True):
     noise: Matrix
     used: OutVector
     times: OutVector
+    geometry: GeometryErrors
 
 
 @inlined
@@ -156,11 +159,14 @@ def measure(arm: ArmSensing, now: float) -> int:
     arm.times[MEASURED_AT] = now
     update_hand(arm)
     for j in range(arm.q.size):
-        joints[Q, j], joints[SPEED, j] = arm.q[j], arm.dq[j] + arm.noise[row, j]
+        q, dq = measure_joint(arm.geometry, j, arm.q[j], arm.dq[j])
+        joints[Q, j], joints[SPEED, j] = q, dq + arm.noise[row, j]
+        joints[WAVE, j] = q - arm.q[j]
         joints[BIAS, j] = arm.modelled * arm.bias[j] + arm.correction[j]
         exerted = arm.actuators[j] + arm.applied[j] + arm.passive[j]
         joints[EFFORT, j] = exerted + arm.effort_bias[j] - arm.damping[j] * (arm.dq[j] - joints[BEFORE, j])
         joints[BEFORE, j] = arm.dq[j]
+    misjudge_tool(arm.geometry, arm.base, joints[WAVE], J, arm.in_base[TOOL], arm.rotation)
     add_payload_bias(joints[BIAS], joints[CARRYING], arm.weight, axes, arm.in_base[LEVER], J)
     compute_wrench(arm.wrench, arm.gain, arm.readings, arm.zero, arm.in_base[3:6])
     times(J[:3], joints[SPEED], arm.velocity)

@@ -8,6 +8,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from skillc_runtime.backends.simulation.arms.geometry_errors import make_mounting_error, move_links
 from skillc_runtime.backends.simulation.fixture_spec import FixtureSpec
 from skillc_runtime.backends.simulation.model.contact_bits import set_solid
 from skillc_runtime.backends.simulation.model.hold import Hold, add_mount
@@ -15,12 +16,14 @@ from skillc_runtime.backends.simulation.names import (
     box_geom_name,
     contact_sensor_name,
     face_sensor_name,
+    mount_name,
     part_name,
     pressing_sensor_name,
     wrist_sensor_name,
 )
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, GripperSpec, ToolSpec
 from skillc_runtime.backends.simulation.variation.fixture_variation import FixtureVariation
+from skillc_runtime.devices.reality import NO_SIZES, Sizes
 from skillc_runtime.motion.pose import Pose, quaternion_from_rotation
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.state.data_sheet import SheetError
@@ -42,16 +45,23 @@ TOUCH_MARGIN_M = 0.01
 """Margin of a tool's touch sensor around its working geom, so that penetrating contacts count."""
 
 
-def add_arm(spec: Any, names: Mapping[str, str], arm: ArmSpec, mount: Any, base: Pose) -> None:
-    """Attach an arm to the body `mount` at `base`, given in that body's frame, and its gripper to its flange."""
+def add_arm(spec: Any, names: Mapping[str, str], arm: ArmSpec, mount: Any, base: Pose, sizes: Sizes = NO_SIZES) -> None:
+    """Attach an arm to the body `mount` at `base`, given in that body's frame, and its gripper to its flange.
+
+    `sizes` are its imperfections: it and its links are where they really are.
+    """
     model = mujoco.MjSpec.from_file(str(arm.model))
     _check_posture(model, names[arm.individual], arm)
     model.option.timestep = spec.option.timestep
     set_solid(model.geoms)
     for joint in model.joints:
         joint.armature = arm.sheet.number("armature")
+    move_links(model, sizes)
     if arm.has_servos:
         _set_servos(model, arm)
+    if (error := make_mounting_error(sizes)) is not None:
+        turned = quaternion_from_rotation(base.rotation)
+        mount, base = mount.add_body(name=mount_name(names[arm.individual]), pos=base.position, quat=turned), error
     frame = mount.add_frame(pos=base.position, quat=quaternion_from_rotation(base.rotation))
     spec.attach(model, prefix=part_name(names[arm.individual], ""), frame=frame)
     if arm.gripper is not None:
@@ -59,20 +69,29 @@ def add_arm(spec: Any, names: Mapping[str, str], arm: ArmSpec, mount: Any, base:
 
 
 def add_tool(
-    spec: Any, names: Mapping[str, str], tool: ToolSpec, pad_stiffness: float | None, hold: Hold | None = None
+    spec: Any,
+    names: Mapping[str, str],
+    tool: ToolSpec,
+    pad_stiffness: float | None,
+    hold: Hold | None = None,
+    sizes: Sizes = NO_SIZES,
 ) -> None:
     """Add a tool, free to move or a part of the hand that holds it, with its mass and ground truth sensors.
 
     pad_stiffness: N/m, of the pad under its working face; None for a rigid tool.
+    sizes: its imperfections.
     """
     name, model = names[tool.individual], mujoco.MjSpec.from_file(str(tool.model))
     _check_face(model, name, tool)
     scale = tool.mass_kg / sum(body.mass for body in model.bodies)
     for body in model.bodies[1:]:
         body.mass, body.inertia = body.mass * scale, body.inertia * scale
-    if pad_stiffness is not None:
-        _set_foundation(model, tool, pad_stiffness)
     root = model.worldbody.first_body()
+    # The root has all that does not yield, so that its centre moves by more than that of the whole tool.
+    root.ipos += np.asarray(sizes.get("centreError", np.zeros(3))) * tool.mass_kg / root.mass
+    if pad_stiffness is not None:
+        _set_foundation(model, tool, pad_stiffness, *sizes.get("padDampingFactor", (1.0,)))
+        model.geom("face").parent.pos[2] -= sizes.get("padThicknessError", (0.0,))[0]
     set_solid(root.geoms)
     if hold is None:
         root.add_freejoint(name="free")
@@ -121,13 +140,13 @@ def _check_face(model: Any, name: str, tool: ToolSpec) -> None:
         raise SheetError(f"the face of {name} is {believed} m in the world model and {modelled} m in {tool.model.name}")
 
 
-def _set_foundation(model: Any, tool: ToolSpec, stiffness: float) -> None:
+def _set_foundation(model: Any, tool: ToolSpec, stiffness: float, damping_factor: float) -> None:
     """Set the springs under the working face, an elastic foundation: K_z = k, K_rx = k b^2/12, K_ry = k a^2/12.
 
     a, b: extent of the face along x and y; the dampers follow in the same way. A face whose model has joints for it
     yields along itself as well, with the same stiffness: K_x = K_y = k.
     """
-    damping = tool.sheet.number("padDamping")
+    damping = damping_factor * tool.sheet.number("padDamping")
     a, b = tool.size[:2]
     for joint, lever in (("press", 1.0), ("tilt_x", b * b / 12), ("tilt_y", a * a / 12)):
         found = model.joint(joint)

@@ -91,7 +91,7 @@ def describe_model(
     _add_mounted_bodies(spec, scene, mounts)
     for arm in scene.arms:
         mount, frame = mounts.get(arm.robot or "", (spec.worldbody, Pose(np.zeros(3), np.eye(3))))
-        add_arm(spec, scene.names, arm, mount, frame.inverse() @ arm.base)
+        add_arm(spec, scene.names, arm, mount, frame.inverse() @ arm.base, variation.sizes(arm))
     for hold in holds.values():
         fix_fingers(spec, hold)
     _add_graspable(spec, scene, variation, holds)
@@ -123,7 +123,7 @@ def _add_graspable(spec: Any, scene: SceneSpec, variation: Variation, holds: Map
         pose = variation.true_pose(tool.individual, tool.pose)
         there = structs.replace(tool, pose=pose, mass_kg=variation.mass(tool))
         stiffness = None if tool.rigid else variation.pad_stiffness(tool)
-        add_tool(spec, scene.names, there, stiffness, holds.get(tool.individual))
+        add_tool(spec, scene.names, there, stiffness, holds.get(tool.individual), variation.sizes(tool))
     for body in scene.movable:
         lying = structs.replace(body, pose=variation.true_pose(body.individual, body.pose))
         add_movable_body(spec, scene.names[body.individual], lying, holds.get(body.individual))
