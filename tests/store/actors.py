@@ -97,3 +97,12 @@ def use_as_a_guest(tell: Connection, folder: Path, name: str) -> None:
         DiskStore(Path(name) / "new")
     except StoreError as error:
         tell.send(str(error))
+
+
+def fill_a_full_disk(tell: Connection, place: Path) -> None:
+    """Fill a store on a disk without room, which a limit on file sizes stands for; tell what is said of it."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, resource.RLIM_INFINITY))
+    try:
+        model_of(DiskStore(place))
+    except StoreError as error:
+        tell.send(str(error))

@@ -10,6 +10,7 @@ import pytest
 from skillc.services.scene.stores import open_store
 from skillc_runtime.store import facts_folder
 from skillc_runtime.store.disk import FACTS, FORMAT, JOURNAL, MARK, DiskStore
+from skillc_runtime.store.journal import LAST
 from skillc_runtime.world.state.transactions import StoreError
 from store.actors import use_as_a_guest, write_to_a_full_disk
 from store.processes import Actor
@@ -66,6 +67,7 @@ def test_the_line_that_a_writer_died_in_does_not_count(tmp_path: Path) -> None:
     for length in sorted(cuts):
         place = tmp_path / f"cut-{length}"
         shutil.copytree(tmp_path / "whole", place)
+        (place / LAST).unlink()
         (place / JOURNAL).write_bytes(journal[:length])
         complete = sum(end <= length for end in ends)
         assert weight(place) == (float(complete - 1) if complete else 3.0)
@@ -75,6 +77,7 @@ def test_after_a_broken_line_writing_goes_on(tmp_path: Path) -> None:
     place = written(tmp_path / "store")
     holder = DiskStore(tmp_path / "original")
     os.truncate(place / JOURNAL, (place / JOURNAL).stat().st_size - 5)
+    (place / LAST).unlink()
     store = DiskStore(place)
     model = model_of(store)
     model.commit([assign("box", "weight", 9.0)])
@@ -94,6 +97,7 @@ def test_a_damaged_line_is_told_with_what_is_whole(tmp_path: Path, line: int) ->
     with pytest.raises(StoreError, match=words):
         model_of(DiskStore(place))
     os.truncate(place / JOURNAL, offset)
+    (place / LAST).unlink()
     assert weight(place) == (float(line - 1) if line else 3.0)
 
 

@@ -6,8 +6,9 @@ from collections.abc import Callable
 from typing import get_args
 
 import msgspec
-from msgspec.structs import astuple
+from msgspec.structs import asdict, astuple
 
+from skillc_runtime.store.literals import MAX_INTEGER
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.vectors import format_vector, is_vector, parse_vector
 
@@ -32,8 +33,29 @@ def _fields(change: Change) -> list[object]:
     return list(astuple(change))
 
 
-def _change(kind: object, *values: object) -> Change:
-    return KINDS[str(kind)](*map(_value, values))
+def _change(kind: object = "", *values: object) -> Change:
+    change = KINDS[str(kind)](*map(_value, values))
+    for name, value in asdict(change).items():
+        if not _fits(name, value):
+            raise TypeError(f"the {name} of a change of the kind {kind} is invalid")
+    return change
+
+
+def _fits(field: str, value: object) -> bool:
+    """Whether a value is one that this field of a change can have."""
+    if field == "types":
+        return isinstance(value, tuple) and all(isinstance(each, str) for each in value)
+    return _is_value(value) if field == "value" else isinstance(value, str)
+
+
+def _is_value(value: object) -> bool:
+    match value:
+        case tuple():
+            return all(map(_is_value, value))
+        case int():
+            return abs(value) < MAX_INTEGER
+        case _:
+            return isinstance(value, float | str) or is_vector(value)
 
 
 def _vector_text(value: object) -> dict[str, str]:

@@ -128,6 +128,7 @@ class DiskStore:
             if self._facts.exists():
                 return False
             facts_folder.create(self._facts, triples, 1, origin)
+            self._journal.note_last(1)
         self._journal.start_after(1)
         return True
 
@@ -135,7 +136,7 @@ class DiskStore:
         if not alone:
             raise StoreError(f"{self._folder} cannot be reset while {self._lock.describe_others()} uses it")
         try:
-            self._journal.clear()
+            self._journal.restart()
             if self._facts.exists():
                 shutil.rmtree(self._facts)
         except OSError as error:

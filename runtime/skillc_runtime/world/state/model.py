@@ -20,7 +20,14 @@ from skillc_runtime.world.state.difference import changes_back
 from skillc_runtime.world.state.evidence import DecidingWrite, EvidenceLedger, EvidenceRule
 from skillc_runtime.world.state.facts import Evidence, Fact
 from skillc_runtime.world.state.open_transaction import OpenTransaction
-from skillc_runtime.world.state.transactions import ChangeEvent, Listener, NullStore, StoreError, TransactionLog
+from skillc_runtime.world.state.transactions import (
+    ChangeEvent,
+    Listener,
+    NullStore,
+    StoreError,
+    Transaction,
+    TransactionLog,
+)
 from skillc_runtime.world.state.world_state import WorldState
 
 MAX_UNDO = 100
@@ -129,18 +136,22 @@ class WorldModel:
         return event
 
     def follow(self) -> None:
-        """Apply what others wrote to the store and call the listeners; StoreError when it cannot be read."""
+        """Apply what others wrote to the store and call the listeners; StoreError when it cannot be read.
+
+        What comes before a transaction that this world does not allow is applied.
+        """
         events: list[ChangeEvent] = []
-        with self._locked():
-            for transaction in self._store.since(self._sequence):
-                before, self._sequence = self._state, transaction.sequence
-                self._state = before.with_changes(transaction.changes)
-                event = ChangeEvent(transaction.changes, transaction.origin, before, self._state, None)
-                events.append(event)
-                self._record(event)
-                self._past.clear()
-        for event in events:
-            self._notify(event)
+        try:
+            with self._locked():
+                for transaction in self._store.since(self._sequence):
+                    event = self._check_foreign(transaction)
+                    events.append(event)
+                    self._advance(event)
+                    self._record(event)
+                    self._past.clear()
+        finally:
+            for event in events:
+                self._notify(event)
 
     @contextmanager
     def _locked(self) -> Iterator[None]:
@@ -187,6 +198,16 @@ class WorldModel:
         if problems:
             raise WorldError("; ".join(dict.fromkeys(problems)))
         return ChangeEvent(changes, origin, before, after, None if evidence is None else self._rule(changes, evidence))
+
+    def _check_foreign(self, transaction: Transaction) -> ChangeEvent:
+        """Return the event of a transaction of others; StoreError if this world, or its vocabulary, rejects it."""
+        try:
+            return self._check(transaction.changes, transaction.origin, None)
+        except WorldError as error:
+            raise StoreError(
+                f"transaction {transaction.sequence} in {self._store} does not go with these skills: {error}; "
+                "use the library of those who write to it, or fill it again with --reset"
+            ) from error
 
     def _notify(self, event: ChangeEvent) -> None:
         for listener in tuple(self._listeners):
