@@ -191,6 +191,14 @@ class OnFailure(msgspec.Struct, frozen=True, tag="on-failure"):
     source: Position
 
 
+class Finally(msgspec.Struct, frozen=True, tag="finally"):
+    """Runs the child, then `last` once the child has succeeded or failed; ends as the child does."""
+
+    child: Node
+    last: Node
+    source: Position
+
+
 FAILURE_PARTS = ("kind", "message", "skill", "source")
 """What a failure tells, each a text."""
 
@@ -213,6 +221,7 @@ Node: TypeAlias = (
     | Call
     | With
     | OnFailure
+    | Finally
 )
 
 

@@ -140,7 +140,8 @@ class Body:
                 otherwise = f" else {self.nodes(depth, 1, 2)}" if random.random() < 0.5 else ""
                 return f"if {self.condition()} {self.nodes(depth, 1, 2)}{otherwise}"
             case "handled":
-                return f"seq {self.nodes(depth, 1, 3)} on failure {self.nodes(depth, 1, 2)}"
+                word = random.choice(("on failure", "finally"))
+                return f"seq {self.nodes(depth, 1, 3)} {word} {self.nodes(depth, 1, 2)}"
             case _:
                 return f"with Setup({self.arguments()}) {self.nodes(depth, 1, 2)}"
 

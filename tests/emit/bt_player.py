@@ -220,6 +220,8 @@ class Player:
                 return self._with(node, skill)
             case "Decorator", ("", "ForEach"):
                 return self._for_each(node)
+            case "Control", ("", "Finally"):
+                return self._finally(node)
             case "Decorator", ("", "Try" | "Invert" as word):
                 outcome = node.children[0].tick()
                 if outcome is None or outcome.hold:
@@ -261,6 +263,16 @@ class Player:
             return outcome
         items.pop(0)
         return None if items else outcome
+
+    def _finally(self, node: Node) -> Outcome | None:
+        if "outcome" not in node.state:
+            outcome = node.children[0].tick()
+            if outcome is None:
+                return None
+            node.state["outcome"] = outcome
+        outcome = node.state["outcome"]
+        assert isinstance(outcome, Outcome)
+        return None if node.children[1].tick() is None else outcome
 
     def _with(self, node: Node, skill: str) -> Outcome | None:
         if not node.state.get("set up"):

@@ -126,12 +126,8 @@ def plain(node: tree.Node, library: SkillLibrary) -> tree.Node:
             return msgspec.structs.replace(node, skill="Act")
         case tree.Once(child=child) if may_break_hold(library, child):
             return plain(child, library)
-        case tree.If(then=then, orelse=orelse):
-            other = plain(orelse, library) if orelse else None
-            return msgspec.structs.replace(node, then=plain(then, library), orelse=other)
-        case _ if hasattr(node, "child"):
-            return msgspec.structs.replace(node, child=plain(node.child, library))
-    return node
+    parts = {name: getattr(node, name, None) for name in ("child", "handler", "last", "then", "orelse")}
+    return msgspec.structs.replace(node, **{name: plain(each, library) for name, each in parts.items() if each})
 
 
 def only_tests(nodes: Sequence[tree.Node]) -> bool:

@@ -33,8 +33,8 @@ def run(node: tree.Node, model: Model, scope: Scope) -> Life:
             return _with(node, model, scope)
         case tree.Call():
             return call(node, model, scope, run)
-        case tree.OnFailure(child=child, handler=handler):
-            return _on_failure(child, handler, model, scope)
+        case tree.OnFailure() | tree.Finally():
+            return _two_blocks(node, model, scope)
         case tree.If():
             return _if(node, model, scope)
         case tree.Wait() | tree.WaitUntil() | tree.Check() | tree.Fail():
@@ -52,11 +52,15 @@ def _sequence(node: tree.Sequence, model: Model, scope: Scope) -> Life:
     return all_still(results)
 
 
-def _on_failure(child: tree.Node, handler: tree.Node, model: Model, scope: Scope) -> Life:
-    result = yield from run(child, model, scope)
+def _two_blocks(node: tree.OnFailure | tree.Finally, model: Model, scope: Scope) -> Life:
+    result = yield from run(node.child, model, scope)
+    if isinstance(node, tree.Finally):
+        if result.ok or not model.dry:
+            yield from run(node.last, model, scope)
+        return result
     if result.ok:
         return result
-    then = yield from run(handler, model, scope)
+    then = yield from run(node.handler, model, scope)
     return then if then.ok else none_worked([then, result])
 
 

@@ -143,7 +143,10 @@ class _Writer:
         return kind(child=child, source=here())
 
     def handled(self, depth: int) -> tree.Node:
-        return tree.OnFailure(child=self.node(depth), why="why", handler=self.node(depth), source=here())
+        child, more = self.node(depth), self.node(depth)
+        if self.draw(st.booleans()):
+            return tree.Finally(child=child, last=more, source=here())
+        return tree.OnFailure(child=child, why="why", handler=more, source=here())
 
     def around(self, depth: int) -> tree.Node:
         child = self.node(depth)

@@ -179,3 +179,71 @@ def test_its_words_are_names_in_older_editions(folder: Path) -> None:
     names = "impl put of Stay {\n    do on(as: failure)\n}\n"
     assert not format_source(Source("own.skill", names, edition=1)).diagnostics
     assert format_source(Source("own.skill", names, edition=2)).diagnostics
+
+
+AT_THE_END = """\
+use rparts
+prefix lab: <http://example.org/lab#>
+property lamp(ArmDevice): Bool
+property door(ArmDevice): Bool
+skill Light { in arm: ArmDevice  post arm.lamp == true  noplan }
+impl own of Light { run python "skillc.primitives:StandIn" }
+skill Shut { in arm: ArmDevice  pre arm.lamp == true  post arm.door == false  noplan }
+impl own of Shut { run python "skillc.primitives:StandIn" }
+"""
+
+
+def run_text(folder: Path, text: str, *command: str) -> Result:
+    (folder / "own.skill").write_text(AT_THE_END + text, "utf-8")
+    return CliRunner().invoke(skillc, [*command], catch_exceptions=False)
+
+
+@pytest.mark.parametrize(
+    ("block", "last", "expected"),
+    [
+        ("wait 1 s", "Light(arm: lab:Arm-1)", "expect lab:Arm-1.lamp == true"),
+        ('fail "no"', "Light(arm: lab:Arm-1)", 'expect failure "no"  expect lab:Arm-1.lamp == true'),
+        ("wait 1 s", 'fail "no"', "expect not lab:Arm-1 has lamp"),
+        ("timeout 1 s { seq { wait 2 s } finally { Light(arm: lab:Arm-1) } }", "wait 1 s", 'expect failure "1 s"'),
+        (
+            "try { timeout 1 s { seq { wait 2 s } finally { Light(arm: lab:Arm-1) } } }",
+            "wait 1 s",
+            "expect not lab:Arm-1 has lamp",
+        ),
+        (
+            'seq { fail "no" } on failure { Light(arm: lab:Arm-1) }',
+            "Shut(arm: lab:Arm-1)",
+            "expect lab:Arm-1.door == false",
+        ),
+    ],
+)
+def test_what_is_done_at_the_end_does_not_change_the_result(folder: Path, block: str, last: str, expected: str) -> None:
+    text = f'test both {{ scene "lab.ttl"  do seq {{ {block} }} finally {{ {last} }}  {expected} }}\n'
+    done = run_text(folder, text, "test", ".")
+    assert done.exit_code == 0, done.output
+
+
+@pytest.mark.parametrize(
+    ("block", "last", "found"),
+    [
+        ("Light(arm)  Shut(arm)", "wait 1 s", []),
+        ("Light(arm)  Shut(arm)", "Light(arm)  Shut(arm)", []),
+        ("wait 1 s", "Light(arm)  Shut(arm)", ["post-not-established"]),
+        ("Light(arm)  Shut(arm)", "Shut(arm)", ["child-precondition"]),
+        ("Light(arm)  Shut(arm)", "", ["empty-block"]),
+    ],
+)
+def test_the_end_is_proved_after_success_and_failure(folder: Path, block: str, last: str, found: list[str]) -> None:
+    text = "skill Both { in arm: ArmDevice  post arm.lamp == true  post arm.door == false  noplan }\n"
+    text += f"impl one of Both {{ do seq {{ {block} }} finally {{ {last} }} }}\n"
+    done = run_text(folder, text, "check", "--json", ".")
+    names = {each["name"] for each in json.loads(done.stdout)}
+    assert sorted(names - {"unused-prefix"}) == found, done.stdout
+
+
+def test_what_fails_at_the_end_is_told(folder: Path) -> None:
+    text = 'task both { scene "lab.ttl"  do seq { wait 1 s } finally { fail "it is stuck" } }\n'
+    done = run_text(folder, text, "run", "both", "--backend", "symbolic", "--out", "run")
+    assert done.exit_code == 0, done.output
+    why = CliRunner().invoke(skillc, ["why", "run"], catch_exceptions=False)
+    assert "both: succeeded" in why.output and "at the end: it is stuck" in why.output, why.output

@@ -89,6 +89,8 @@ def _explore_kind(run: Exploration, node: TypedNode, states: StatePaths, context
             return explore_call(run, node.call, states, context)
         case s.OnFailure():
             return _explore_on_failure(run, node, states, context)
+        case s.Finally():
+            return _explore_finally(run, node, states, context)
         case s.With():
             return explore_with(run, node, states, context)
         case _:
@@ -150,6 +152,17 @@ def _explore_on_failure(run: Exploration, node: TypedNode, states: StatePaths, c
     if inner.broken:
         ends.broken = {**ends.failure, **ends.broken}
     return ends
+
+
+def _explore_finally(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:
+    """Explore a block, and from each of its ends what is done then, which may fail without a change of the result."""
+    inner = explore(run, node.children[0], states, context)
+
+    def go_on(ended: StatePaths) -> dict[State, Path]:
+        last = explore_sequence(run, node.orelse, ended, context)
+        return {**last.failed, **last.success}
+
+    return EndStates(go_on(inner.success), go_on(inner.failure), go_on(inner.broken))
 
 
 def _explore_leaf(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:

@@ -37,6 +37,8 @@ def _describe_empty(node: s.Node) -> tuple[str, str] | None:
             return "this `else` has no steps", "remove it, or add a step"
         case s.OnFailure(handler=()):
             return "nothing is done on failure", "write `try { .. }`, or add a step"
+        case s.Finally(last=()):
+            return "nothing is done at the end", "remove `finally`, or add a step"
         case s.Block(kind=kind, children=()) | s.Decorator(kind=kind, children=()):
             return f"this `{kind}` has no steps", "add a step, or remove it"
         case s.While(children=()) | s.For(children=()) | s.With(children=()):

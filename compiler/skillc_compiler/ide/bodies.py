@@ -59,8 +59,8 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
             case s.With(call=call, children=children):
                 yield from self._call(home, known, call)
                 yield from self.nodes(home, known, children)
-            case s.OnFailure():
-                yield from self._on_failure(home, known, written)
+            case s.OnFailure() | s.Finally():
+                yield from self._ending(home, known, written)
             case _:
                 assert_never(written)
 
@@ -82,8 +82,13 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
         yield from self.nodes(home, inner, written.children)
         known.update({name: found for name, found in inner.items() if found != symbol})
 
-    def _on_failure(self, home: BodyContext, known: dict[str, Symbol], written: s.OnFailure) -> Iterator[Occurrence]:
+    def _ending(
+        self, home: BodyContext, known: dict[str, Symbol], written: s.OnFailure | s.Finally
+    ) -> Iterator[Occurrence]:
         yield from self.node(home, known, written.node)
+        if isinstance(written, s.Finally):
+            yield from self.nodes(home, known, written.last)
+            return
         inner = dict(known)
         if written.why is not None:
             symbol = LocalSymbol("failure", written.span, written.why.text)

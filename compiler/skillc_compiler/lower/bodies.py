@@ -39,6 +39,8 @@ def lower_node(node: TypedNode) -> t.Node:
         case s.OnFailure(why=why):
             handler = _lower_as_one(node.orelse, node)
             return t.OnFailure(lower_node(node.children[0]), None if why is None else why.text, handler, source)
+        case s.Finally():
+            return t.Finally(lower_node(node.children[0]), _lower_as_one(node.orelse, node), source)
         case _:
             assert_never(written)
 

@@ -30,6 +30,8 @@ def calls_of(declaration: s.Declaration) -> Iterator[s.CallSkill]:
                 yield call
             case s.OnFailure(node=block, handler=handler):
                 todo += [block, *handler]
+            case s.Finally(node=block, last=last):
+                todo += [block, *last]
             case s.With(call=call, children=children):
                 todo += [call, *children]
             case s.If(then=then, orelse=orelse):

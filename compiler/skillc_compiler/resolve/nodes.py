@@ -33,8 +33,8 @@ def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[T
             return TypedNode(written, (resolve_value(context, scope, time, SECONDS),)), scope
         case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
             return TypedNode(written, conditions=(resolve_condition(context, scope, condition),)), scope
-        case s.OnFailure():
-            return _on_failure(context, scope, written)
+        case s.OnFailure() | s.Finally():
+            return _ending(context, scope, written)
         case s.If():
             return _if(context, scope, written)
         case s.While(condition=condition, children=children):
@@ -85,8 +85,11 @@ def _if(context: FileContext, scope: Scope, written: s.If) -> tuple[TypedNode, S
     )
 
 
-def _on_failure(context: FileContext, scope: Scope, written: s.OnFailure) -> tuple[TypedNode, Scope]:
+def _ending(context: FileContext, scope: Scope, written: s.OnFailure | s.Finally) -> tuple[TypedNode, Scope]:
     block, after = resolve_node(context, scope, written.node)
+    if isinstance(written, s.Finally):
+        last, done = _resolve_sequence(context, after, written.last)
+        return TypedNode(written, children=(block,), orelse=last), done
     inner = scope
     if written.why is not None:
         why = LocalName(TEXT, "failure", written.why.span)

@@ -67,6 +67,15 @@ NODES = (
         Picture("flow", "?"),
     ),
     Node(
+        "finally",
+        words("finally", since=2),
+        "seq { .. } finally { .. }",
+        "after `seq`, `sel`, `par`, `with` and `on failure`: runs the second block once the first one has succeeded or "
+        "failed, but not when it is halted. The result stays that of the first; what [fails](#failures) in the second "
+        "one is reported",
+        Picture("flow", "→"),
+    ),
+    Node(
         "while",
         (*reserved("while"), *words("max", "trailing")),
         "while C max 10 { .. }",

@@ -24,19 +24,21 @@ class StepFormatter(InlineFormatter):
         if start < 0:
             return self.of(tree)
         end = index_of(tree.children, "RBRACE") + 1
-        block, handler = tree.children[start:end], tree.children[end:]
+        block, further = tree.children[start:end], tree.children[end:]
         head = self.spaced(tree.children[:start])
-        if not handler:
+        if not further:
             return d.concatenate(head, self._braces(block, self._is_short(block)))
-        return d.concatenate(head, self._braces(block, False), *self._on_failure(block[-1], handler[0]))
+        return d.concatenate(head, self._braces(block, False), *self._further(block[-1], further))
 
-    def _on_failure(self, closing: Branch, handler: Branch) -> Iterator[d.Document]:
-        """Yield `on failure as why { }`, on the line of the preceding `}`."""
-        children = _inside(handler)
-        start = index_of(children, "LBRACE")
-        yield d.Gap() if self._is_free(closing, children[0]) else d.HardBreak()
-        yield self.spaced(children[:start])
-        yield self._braces(children[start:], False)
+    def _further(self, closing: Branch, blocks: Sequence[Branch]) -> Iterator[d.Document]:
+        """Yield `on failure as why { }` and `finally { }`, each on the line of the preceding `}`."""
+        for block in blocks:
+            children = _inside(block)
+            start = index_of(children, "LBRACE")
+            yield d.Gap() if self._is_free(closing, children[0]) else d.HardBreak()
+            yield self.spaced(children[:start])
+            yield self._braces(children[start:], False)
+            closing = children[-1]
 
     def _if(self, children: Sequence[Branch], short: bool) -> d.Document:
         """Return `if C { } else { }`, with `else` on the line of the preceding `}`; `short` applies to all blocks."""

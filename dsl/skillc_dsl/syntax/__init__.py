@@ -57,6 +57,7 @@ from skillc_dsl.syntax.nodes import CallSkill as CallSkill
 from skillc_dsl.syntax.nodes import CheckNode as CheckNode
 from skillc_dsl.syntax.nodes import Decorator as Decorator
 from skillc_dsl.syntax.nodes import Fail as Fail
+from skillc_dsl.syntax.nodes import Finally as Finally
 from skillc_dsl.syntax.nodes import For as For
 from skillc_dsl.syntax.nodes import If as If
 from skillc_dsl.syntax.nodes import Node as Node

@@ -119,6 +119,14 @@ class OnFailure(msgspec.Struct, frozen=True):
     span: Span
 
 
+class Finally(msgspec.Struct, frozen=True):
+    """`node finally { }`"""
+
+    node: Block | With | OnFailure
+    last: tuple[Node, ...]
+    span: Span
+
+
 class ApplyPosts(msgspec.Struct, frozen=True):
     """`apply label, ..`"""
 
@@ -166,4 +174,5 @@ Node: TypeAlias = (
     | CallSkill
     | With
     | OnFailure
+    | Finally
 )

@@ -17,6 +17,7 @@ from skillc_model.tree import (
     Call,
     Check,
     Fail,
+    Finally,
     ForEach,
     If,
     Node,
@@ -95,7 +96,7 @@ def _describe_node(node: Node) -> str:
             return f'fail "{text}"'
         case Apply(labels=labels):
             return f"apply {', '.join(labels)}"
-        case With():
+        case With() | Finally():
             return _kind(node)
         case _:
             row = DECORATOR_OF[kind_of(node)]

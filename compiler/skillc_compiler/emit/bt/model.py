@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 import msgspec
 
-Kind = Literal["Action", "Condition", "Decorator", "SubTree"]
+Kind = Literal["Action", "Condition", "Control", "Decorator", "SubTree"]
 Direction = Literal["input", "output"]
 
 

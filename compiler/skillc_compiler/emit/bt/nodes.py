@@ -21,6 +21,7 @@ from skillc_compiler.emit.bt.patterns import (
     keep_result,
     make_sequence,
     reset_script,
+    run_finally,
     run_lead,
     run_once,
     run_until,
@@ -36,6 +37,7 @@ from skillc_model.tree import (
     Check,
     Decorator,
     Fail,
+    Finally,
     ForEach,
     If,
     Node,
@@ -56,6 +58,7 @@ from skillc_rdf.vocabulary.types import PlainType
 COUNTS = {"all": ("-1", "1"), "any": ("1", "-1"), "race": ("1", "1")}
 MAX_MILLISECONDS = 2**32 - 1
 """The longest duration of Sleep and Timeout, in ms, about 49 days."""
+FINALLY = "Runs its second child once the first one has ended; ends as the first one, also by a broken hold condition."
 PORT_TYPES = {"count": "int", "time": "unsigned int"}
 
 
@@ -81,6 +84,8 @@ class NodeWriter(TreeWriter):
                 return Element("AlwaysFailure", _description=f"{source}: {text}")
             case OnFailure():
                 return self._on_failure(node)
+            case Finally():
+                return self._finally(node)
             case Once(child=child):
                 return self._once(child)
             case WaitUntil() | If() | While() | ForEach() | Check() | Apply() | Call() | With():
@@ -167,6 +172,15 @@ class NodeWriter(TreeWriter):
         self.bound = {**self.bound, **after}
         told = run_after([Element("Script", code=script)] if parts else [], handler)
         return with_children(Element("Fallback", _description=str(node.source)), block, told)
+
+    def _finally(self, node: Finally) -> Element:
+        """Return the block, then what is done at the end; declared as a node where the block may break a hold."""
+        block, last = self.node(node.child), self.node(node.last)
+        if may_break_hold(self.library, node.child):
+            identity = self.names.of("", "Finally")
+            self.model.declare("Control", identity, ("", "Finally"), (), FINALLY)
+            return with_children(Element(identity, _description=str(node.source)), block, last)
+        return run_finally(block, last, self.entry("worked"), str(node.source))
 
     def _once(self, child: Node) -> Element:
         entry = self.entry("once")

@@ -44,6 +44,14 @@ def keep_result(child: Element, still: Sequence[Element], entry: str) -> Element
     return with_children(Element("Fallback"), run_after(tests[:-1], tests[-1]), guarded)
 
 
+def run_finally(block: Element, last: Element, entry: str, source: str) -> Element:
+    """Run `last` once the block has ended; the entry stores whether the block has succeeded, which is the result."""
+    marked = with_children(Element("Sequence", _onSuccess=f"{entry} := {WORKED}"), block)
+    ended = [with_children(Element("ForceSuccess"), each) for each in (marked, last)]
+    start = Element("Script", code=reset_script([entry]))
+    return with_children(Element("Sequence", _description=source), start, *ended, _is(entry, WORKED))
+
+
 def run_while(condition: Element, child: Element, limit: int, done: str, rounds: str) -> Element:
     """Repeat the child while the condition holds; the loop fails if it still holds after `limit` rounds.
 

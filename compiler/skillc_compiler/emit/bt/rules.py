@@ -38,7 +38,13 @@ NODES: Mapping[str, tuple[Children, Mapping[str, str]]] = {
 }
 """The nodes of BehaviorTree.CPP that trees use: their number of children, and their ports with types."""
 
-KINDS: Mapping[str, Children] = {"Action": (0, 0), "Condition": (0, 0), "Decorator": (1, 1), "SubTree": (0, 0)}
+KINDS: Mapping[str, Children] = {
+    "Action": (0, 0),
+    "Condition": (0, 0),
+    "Control": (1, ANY),
+    "Decorator": (1, 1),
+    "SubTree": (0, 0),
+}
 NAMELESS = frozenset({"_autoremap", "_description", "_onSuccess", "_onFailure"})
 NUMBER = r"-?((\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|(?i:inf(inity)?|nan(\(\w*\))?))"
 LITERALS = {"bool": "true|false", "int": r"-?\d+", "unsigned int": r"\d+", "double": NUMBER, "std::string": "(?s).+"}

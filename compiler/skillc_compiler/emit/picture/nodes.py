@@ -37,7 +37,7 @@ class NodeDrawer(msgspec.Struct, frozen=True):
             case _:
                 return self._around(node)
 
-    def _around(self, node: s.Block | s.Decorator | s.If | s.OnFailure | s.While | s.For) -> PictureBox:
+    def _around(self, node: s.Block | s.Decorator | s.If | s.OnFailure | s.Finally | s.While | s.For) -> PictureBox:
         """Return the box of a control node or decorator."""
         match node:
             case s.Block(kind=kind, children=children):
@@ -52,6 +52,10 @@ class NodeDrawer(msgspec.Struct, frozen=True):
                 title = f"on failure as {why.text}" if why else "on failure"
                 then = PictureBox("flow", "−", title, (), self._all(handler))
                 return _box("on failure", children=(self.box(block), then))
+            case s.Finally(node=block, last=last):
+                return _box(
+                    "finally", children=(self.box(block), PictureBox("flow", "→", "finally", (), self._all(last)))
+                )
             case s.While(text=text, limit=limit, children=children):
                 return _box("while", text, f"max {limit.text}", children=self._all(children))
             case s.For(variable=variable, items=items, children=children):

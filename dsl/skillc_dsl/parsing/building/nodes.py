@@ -25,13 +25,18 @@ class NodeBuilder(ConditionBuilder):
         """`on failure as why { }` after a block"""
         return self.part("on_failure", children)
 
-    def _handled(self, node: s.Block | s.With, children: list[Child]) -> s.Node:
-        """Return a node with what is done on failure, if that is among its parts."""
-        handler = find_part(children, "on_failure")
-        if handler is None:
-            return node
-        why = first_of_type(handler.children, s.Name)
-        return s.OnFailure(node, why, self.nodes(handler.children), self.over(children))
+    def finally_(self, children: list[Child]) -> MemberPart:
+        """`finally { }` after a block"""
+        return self.part("finally_", children)
+
+    def _handled(self, block: s.Block | s.With, children: list[Child]) -> s.Node:
+        """Return a block with what is done on failure and at the end, as far as that is among its parts."""
+        node: s.Block | s.With | s.OnFailure = block
+        handler, last = find_part(children, "on_failure"), find_part(children, "finally_")
+        if handler is not None:
+            why, own = first_of_type(handler.children, s.Name), [each for each in children if each is not last]
+            node = s.OnFailure(block, why, self.nodes(handler.children), self.over(own))
+        return node if last is None else s.Finally(node, self.nodes(last.children), self.over(children))
 
     def decorator(self, children: list[Child]) -> s.Decorator:
         """`try { }`, `retry N { }`, `timeout Q { }` and their like"""

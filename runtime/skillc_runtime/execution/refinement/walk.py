@@ -102,11 +102,15 @@ class Walk:
                 yield from self._control(node, here, scope)
 
     def _control(
-        self, node: tree.While | tree.OnFailure | tree.Decorator, here: Situation, scope: Scope
+        self, node: tree.While | tree.OnFailure | tree.Finally | tree.Decorator, here: Situation, scope: Scope
     ) -> Iterator[Situation]:
         """Go on through a node that only controls when its child runs."""
         if isinstance(node, tree.OnFailure):
             yield from self._on_failure(node, here, scope)
+            return
+        if isinstance(node, tree.Finally):
+            for ended in self.go(node.child, here, scope):
+                yield from self._in_order((tree.Try(node.last, node.source),), ended, scope)
             return
         if not isinstance(node, tree.While):
             yield from self.go(node.child, here, scope)

@@ -41,6 +41,8 @@ def _initial_calls(node: tree.Node) -> Iterator[tree.Call]:
             yield from _initial_calls(first)
         case tree.With(call=call):
             yield call
+        case tree.Finally(child=child):
+            yield from _initial_calls(child)
         case tree.Parallel(children=children, policy="all", after=after):
             for index, child in enumerate(children):
                 if not after or not after[index]:

@@ -78,6 +78,10 @@ class _Preflight:
             case tree.OnFailure(child=child):
                 self._foresight.optional(partial(self.check, child, scope))
                 return ()
+            case tree.Finally(child=child, last=last):
+                found = self.check(child, scope)
+                self._foresight.optional(partial(self.check, last, scope))
+                return found
             case tree.If():
                 return self._check_if(node, scope)
             case tree.ForEach():

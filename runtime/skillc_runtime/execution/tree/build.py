@@ -25,7 +25,7 @@ from skillc_runtime.execution.tree.nodes.parallel import (
     ParallelRace,
 )
 from skillc_runtime.execution.tree.nodes.selector import OnFailureNode, ReactiveSelectorNode, SelectorNode
-from skillc_runtime.execution.tree.nodes.sequence import ReactiveSequenceNode, SequenceNode
+from skillc_runtime.execution.tree.nodes.sequence import FinallyNode, ReactiveSequenceNode, SequenceNode
 from skillc_runtime.execution.tree.nodes.with_node import WithNode
 from skillc_runtime.execution.tree.undo_stack import UndoStack
 
@@ -63,6 +63,8 @@ def build_node(node: tree.Node, context: TreeContext, scope: LexicalScope) -> No
         case tree.OnFailure(child=child, handler=handler):
             pair = (build_node(child, context, scope), build_node(handler, context, scope))
             return OnFailureNode(context, node, pair, scope)
+        case tree.Finally(child=child, last=last):
+            return FinallyNode(context, node.source, tuple(build_node(each, context, scope) for each in (child, last)))
         case tree.Call():
             return CallNode(context, node, scope, build_node)
         case tree.With(call=call, child=child):

@@ -49,6 +49,38 @@ class SequenceNode(Node):
         return RUNNING if status is RUNNING else self.fail(self._current.failure)
 
 
+class FinallyNode(Node):
+    """Runs a block, then what is done at the end; ends as the block did, unless it is halted before that."""
+
+    kind: ClassVar[str] = "finally"
+    __slots__ = ("_current",)
+
+    def foresee(self, freed: Holders) -> Status:
+        block, last = (child.dry_start(freed) for child in self.children)
+        return RUNNING if block is SUCCESS and last is RUNNING else block
+
+    def on_start(self) -> Status:
+        self._current = self.children[0]
+        return self.on_child_ended(self._current.start())
+
+    def active_leaf(self) -> Node:
+        return self._current.active_leaf()
+
+    def remains_satisfied(self) -> bool:
+        return self.status is SUCCESS and self.children[0].remains_satisfied()
+
+    def on_child_ended(self, status: Status) -> Status:
+        block, last = self.children
+        if status is not RUNNING and self._current is block:
+            self._current = last
+            status = last.start()
+        if status is RUNNING:
+            return RUNNING
+        if last.failure is not None:
+            self.context.note(f"at the end: {last.failure.message}", last.id, last.source)
+        return self.succeed() if block.status is SUCCESS else self.fail(block.failure)
+
+
 class ReactiveSequenceNode(Node):
     """Looks in each tick whether the results of all children before the one that runs are still valid.
 
