@@ -1,14 +1,18 @@
 """Writes: each axiom with one that breaks it and is refused whole, and one that does not."""
 
 import math
+from itertools import pairwise
 
 import pytest
 
+from skillc.services.library.libraries import load_vocabulary
 from skillc_model.conditions import Anything, Assert, Assign, Individual, Literal, Retract, Variable
 from skillc_runtime.world.eval.effects import changes_of
-from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveRelation
 from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.terms import CONTAIN
 from skillc_runtime.world.state.transactions import ChangeEvent
+from skillc_runtime.world.state.world_state import WorldState
 from world.lab import SCENE, VOCABULARY, assign, fact, individual, iri
 
 REFUSED = [
@@ -48,6 +52,18 @@ def test_asymmetry_is_kept() -> None:
     )
     with pytest.raises(WorldError, match="asymmetric, and `t:bin t:contain t:crate` holds"):
         WorldModel(state).commit([fact("crate", "contain", "bin")])
+
+
+def test_nothing_comes_to_lie_in_itself_over_any_number_of_facts() -> None:
+    vocabulary = load_vocabulary()
+    boxes = [iri(f"Box-{number}") for number in range(4)]
+    added = [AddIndividual(each, (vocabulary.expand("skiros:Container"),)) for each in boxes]
+    chain = [AddRelation(outer, CONTAIN, inner) for outer, inner in pairwise(boxes)]
+    model = WorldModel(WorldState.empty(vocabulary).with_changes([*added, *chain]))
+    circle = AddRelation(boxes[3], CONTAIN, boxes[0])
+    with pytest.raises(WorldError, match=r"acyclic, and `.*Box-0.* skillc:holdsDeep .*Box-3` holds"):
+        model.commit([circle])
+    model.commit([RemoveRelation(boxes[0], CONTAIN, boxes[1]), circle])
 
 
 def test_one_write_cannot_give_a_functional_relation_two_values() -> None:

@@ -8,14 +8,13 @@ from skillc_compiler.analysis.binding import definite_effects
 from skillc_compiler.analysis.exploration import CallEffect, Exploration
 from skillc_compiler.analysis.findings import Finding, LeakedChange, UnassignedOutput, UndeclaredEffect, UnprovedPost
 from skillc_compiler.analysis.initial_state import requirements_of
-from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, is_any_individual
 from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
 from skillc_compiler.analysis.knowledge.assume import assume
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import PropertyWrite, RelationWrite, Write, write_of, written_condition
 from skillc_compiler.analysis.paths import EndStates, Path, StatePaths, path_length
-from skillc_compiler.analysis.summaries import is_any_individual
 from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s

@@ -7,7 +7,9 @@ from collections.abc import Iterable
 from skillc_compiler.analysis.binding import class_of
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
 from skillc_compiler.analysis.knowledge.assume import assume
+from skillc_compiler.analysis.knowledge.havoc import havoc
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
+from skillc_compiler.analysis.knowledge.writes import Write
 from skillc_compiler.program.typed import Implementation, Parameter, Requirement, Task
 from skillc_compiler.program.types import Thing as ThingType
 from skillc_model.conditions import Compare, Condition, Given, Holds, Individual, Literal, Not, Same, Variable
@@ -31,13 +33,16 @@ def declare_names(types: AliasTypes, of: Implementation | Task) -> None:
                 types.classes[let.name.text] = let.value.type.cls or THING
 
 
-def initial_state(types: AliasTypes, implementation: Implementation) -> State:
-    """Return the state at the start: preconditions and holds hold, numbers are in range, `let` names are aliases."""
+def initial_state(types: AliasTypes, implementation: Implementation, writes: Iterable[Write] = ()) -> State:
+    """Return the state at the start: preconditions and holds hold, numbers are in range, `let` names are aliases.
+
+    `writes` are those of the body.
+    """
     state = parameter_state(implementation)
     for requirement in _assumed_requirements(implementation):
         state = assume(types, state, requirement.condition.meaning) or state
-    for differing in _kept_apart(types, implementation):
-        state = assume(types, state, differing) or state
+    for excluded in (*_kept_apart(types, implementation), *_kept_open(types, implementation, frozenset(writes))):
+        state = assume(types, state, excluded) or state
     return state
 
 
@@ -51,6 +56,24 @@ def _kept_apart(types: AliasTypes, implementation: Implementation) -> Iterable[C
             match fact:
                 case Holds(Variable() as left, relation, Variable() as right) if _is_irreflexive(types, relation):
                     yield Not(Same(left, right))
+
+
+def _kept_open(types: AliasTypes, implementation: Implementation, writes: frozenset[Write]) -> Iterable[Condition]:
+    """Yield that no chain leads to where a link begins that a post makes, if it could not be broken by the body before.
+
+    If one led there, it and the link would lead back to where they begin, so that the post could never hold.
+    """
+    axioms = types.axioms
+    for post in requirements_of(implementation, "post"):
+        for fact in conjuncts(post.condition.meaning):
+            if isinstance(fact, Holds) and isinstance(fact.subject, Variable) and isinstance(fact.object, Variable):
+                relation, turned = axioms.canonical.get(fact.relation, (fact.relation, False))
+                start, end = (fact.object, fact.subject) if turned else (fact.subject, fact.object)
+                for above, flipped in axioms.implied.get(relation, ()):
+                    back = Holds(start, above, end) if flipped else Holds(end, above, start)
+                    if above in axioms.acyclic & axioms.transitive:
+                        kept = havoc(types, State(facts={back: True}), writes)
+                        yield from [Not(back)] if back in kept.facts else []
 
 
 def _is_irreflexive(types: AliasTypes, relation: str) -> bool:

@@ -171,7 +171,7 @@ class Prover:
 
     def _prove_implementation(self, implementation: Implementation, body: TypedNode) -> Proof:
         run = self.new_exploration(implementation, body)
-        start = initial_state(run.types, implementation)
+        start = initial_state(run.types, implementation, self.summaries.all_writes(implementation))
         ends = explore(run, body, {start: None}, EvalContext())
         before = start, end_states.declared_state(run, implementation, start)
         end_findings = (
@@ -189,7 +189,7 @@ class Prover:
         """Explore a body again as if its skill had the parameters and preconditions of a remedy."""
         run = self.new_exploration(implementation, body)
         run.types.classes.update(remedy.parameters)
-        start = initial_state(run.types, implementation)
+        start = initial_state(run.types, implementation, self.summaries.all_writes(implementation))
         for condition in remedy.required:
             start = assume(run.types, start, condition) or start
         return run, explore(run, body, {start: None}, EvalContext())

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from skillc_compiler.analysis.binding import class_of, definite_effects
 from skillc_compiler.analysis.initial_state import declare_names, initial_state, requirements_of
-from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, any_individual
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, any_individual, is_any_individual
 from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
 from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
@@ -217,8 +217,3 @@ def hide_names(writes: Iterable[Write], visible: Iterable[str]) -> frozenset[Wri
     """Return the writes with any individual in the place of each name that is not visible."""
     names = {name: Variable(name) for name in visible}
     return frozenset(_substitute_write(write, names) for write in writes)
-
-
-def is_any_individual(term: object) -> bool:
-    """Whether a term stands for any individual, since its own name is not visible."""
-    return isinstance(term, Variable) and term.name.startswith("?")

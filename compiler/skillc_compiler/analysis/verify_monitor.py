@@ -153,7 +153,8 @@ class VerifyMonitor:
         run = self.new_run(implementation, body)
         run.monitor = self
         self._depth += 1
-        start = initial_state(run.types, implementation).replace(monitor=monitor)
+        writes = run.summaries.all_writes(implementation)
+        start = initial_state(run.types, implementation, writes).replace(monitor=monitor)
         ends: EndStates = run.explore(run, body, {start: path}, EvalContext())
         self._depth -= 1
         self.open_ |= run.widened_at is not None

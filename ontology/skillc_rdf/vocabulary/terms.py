@@ -221,6 +221,7 @@ def _relation(terms: Terms, iri: str, inverse: str | None) -> RelationTerm:
         transitive=_is(terms, iri, "TransitiveProperty"),
         asymmetric=_is(terms, iri, "AsymmetricProperty"),
         irreflexive=_is(terms, iri, "IrreflexiveProperty"),
+        acyclic=terms.graph.text(iri, f"{SKILLC}acyclic") == "true",
         computed_by=terms.graph.text(iri, f"{SKILLC}computedBy"),
         computed_from=tuple(sorted(map(terms.named, terms.graph.iris(iri, f"{SKILLC}computedFrom")))),
         comment=terms.graph.text(iri, COMMENT) or "",

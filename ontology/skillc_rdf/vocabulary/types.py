@@ -97,10 +97,16 @@ class RelationTerm(msgspec.Struct, frozen=True, kw_only=True):
     transitive: bool = False
     asymmetric: bool = False
     irreflexive: bool = False
+    acyclic: bool = False
     computed_by: str | None = None
     computed_from: tuple[str, ...] = ()
     comment: str = ""
     source: Position | None = None
+
+    @property
+    def is_acyclic(self) -> bool:
+        """Whether no chain of facts leads back to where it begins."""
+        return self.acyclic or (self.transitive and self.irreflexive)
 
     @property
     def characteristics(self) -> tuple[str, ...]:

@@ -78,5 +78,10 @@ def any_individual(cls: str) -> Variable:
     return Variable(ANY_PREFIX + cls)
 
 
+def is_any_individual(term: object) -> bool:
+    """Whether a term stands for any individual, since its own name is not visible."""
+    return isinstance(term, Variable) and term.name.startswith(ANY_PREFIX)
+
+
 def _order(thing: IndividualTerm) -> tuple[bool, str]:
     return (False, thing.iri) if isinstance(thing, Individual) else (True, thing.name)

@@ -77,7 +77,7 @@ def _evaluate(types: AliasTypes, state: State, condition: Condition) -> bool | N
         case And(parts=parts):
             return _conjoin(state.facts.get(condition), [_evaluate(types, state, part) for part in parts])
         case Or(parts=parts):
-            known = state.facts.get(condition)
+            known = _look_up(types, state, condition)
             turned = _conjoin(
                 None if known is None else not known, [_evaluate_negation(types, state, part) for part in parts]
             )
@@ -181,8 +181,34 @@ def _known_relations(state: State, relation: str) -> Iterable[Holds]:
     return (f for f, true in state.facts.items() if true and isinstance(f, Holds) and f.relation == relation)
 
 
+def _look_up(types: AliasTypes, state: State, asked: Condition) -> bool | None:
+    """Return whether an `or` or `exists` is known to hold or not, itself or by one that is known and implies it."""
+    known = state.facts.get(asked)
+    if known is not None:
+        return known
+    stronger = (fact for fact, true in state.facts.items() if true and type(fact) is type(asked))
+    return True if any(_implies(types, fact, asked) for fact in stronger) else None
+
+
+def _implies(types: AliasTypes, known: Condition, asked: Condition) -> bool:
+    """Whether a condition, part for part, says at least what another one says."""
+    match known, asked:
+        case Holds(subject, relation, object_), Holds(start, above, end):
+            implied = types.axioms.implied.get(relation, ((relation, False),))
+            ends = {(start, end): False, (end, start): True}
+            return (above, ends.get((subject, object_))) in implied
+        case Or(parts), Or(others):
+            return all(any(_implies(types, part, other) for other in others) for part in parts)
+        case And(parts), And(others):
+            return all(any(_implies(types, part, other) for part in parts) for other in others)
+        case Exists(name, cls, body), Exists(other, above, weaker):
+            return name == other and types.vocabulary.is_a(cls, above) and _implies(types, body, weaker)
+        case _:
+            return known == asked
+
+
 def _evaluate_exists(types: AliasTypes, state: State, condition: Exists) -> bool | None:
-    known = state.facts.get(condition)
+    known = _look_up(types, state, condition)
     if known is not None:
         return known
 

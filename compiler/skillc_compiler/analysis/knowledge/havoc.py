@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
-from typing import TypeAlias, assert_never
+from typing import NamedTuple, TypeAlias, assert_never
 
-from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, any_individual
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, any_individual, is_any_individual
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, Side, State
 from skillc_compiler.analysis.knowledge.writes import (
@@ -64,7 +64,7 @@ def _havoc_relation(types: AliasTypes, state: State, write: RelationWrite) -> St
     adds = _may_become_true(types, (subject, relation, object_)) if write.value is not False else ()
     takes = _may_become_untrue(types, (subject, relation, object_), write.value)
     changed = (*adds, *takes)
-    state = _havoc_computed(types, state, frozenset(touched for _, touched, _ in changed))
+    state = _havoc_computed(types, state, frozenset(touched.relation for touched in changed))
     facts = {
         fact: true
         for fact, true in state.facts.items()
@@ -78,22 +78,31 @@ def _havoc_relation(types: AliasTypes, state: State, write: RelationWrite) -> St
     return state.replace(facts=facts, possible={side: others for side, others in alone.items() if others is not None})
 
 
-Pattern: TypeAlias = tuple[Term, str, Term]
+Triple: TypeAlias = tuple[Term, str, Term]
 
 
-def _may_become_true(types: AliasTypes, fact: Pattern) -> tuple[Pattern, ...]:
+class Pattern(NamedTuple):
+    """Facts that may change: those of a relation between two terms, or, of a link, all by a chain in which it is."""
+
+    subject: Term
+    relation: str
+    object: Term
+    is_link: bool = False
+
+
+def _may_become_true(types: AliasTypes, fact: Triple) -> tuple[Pattern, ...]:
     """Return the facts that an assertion may make true."""
     subject, relation, object_ = fact
     return tuple(
-        _widen_chain(types, (object_, above, subject) if turned else (subject, above, object_))
+        _in_chains(types, Pattern(*((object_, above, subject) if turned else (subject, above, object_))))
         for above, turned in types.axioms.implied.get(relation, ((relation, False),))
     )
 
 
-def _may_become_untrue(types: AliasTypes, fact: Pattern, value: bool | None) -> tuple[Pattern, ...]:
+def _may_become_untrue(types: AliasTypes, fact: Triple, value: bool | None) -> tuple[Pattern, ...]:
     """Return the facts that an assertion, by replacing others, or a retraction may make untrue."""
     subject, relation, object_ = fact
-    lost: list[Pattern] = []
+    lost: list[Triple] = []
     if value is not True:
         lost += [
             (object_, source, subject) if turned else (subject, source, object_)
@@ -104,9 +113,10 @@ def _may_become_untrue(types: AliasTypes, fact: Pattern, value: bool | None) -> 
     return tuple(dict.fromkeys(pattern for each in lost for pattern in _may_become_true(types, each)))
 
 
-def _replaced_by(types: AliasTypes, fact: Pattern) -> Iterator[Pattern]:
+def _replaced_by(types: AliasTypes, fact: Pattern) -> Iterator[Triple]:
     """Yield the facts that end when this one begins, as its relation has one object or one subject."""
-    axioms, (subject, relation, object_) = types.axioms, fact
+    axioms, relation = types.axioms, fact.relation
+    subject, object_ = (Anything(), Anything()) if fact.is_link else (fact.subject, fact.object)
     for source, turned in axioms.sources.get(relation, ((relation, False),)):
         if relation in axioms.single_object:
             yield (Anything(), source, subject) if turned else (subject, source, Anything())
@@ -114,9 +124,16 @@ def _replaced_by(types: AliasTypes, fact: Pattern) -> Iterator[Pattern]:
             yield (object_, source, Anything()) if turned else (Anything(), source, object_)
 
 
-def _widen_chain(types: AliasTypes, pattern: Pattern) -> Pattern:
-    """Return the pattern, with any individuals if the relation may hold by a chain of facts."""
-    return (Anything(), pattern[1], Anything()) if pattern[1] in types.axioms.chained else pattern
+def _in_chains(types: AliasTypes, pattern: Pattern) -> Pattern:
+    """Return the pattern; if the relation may hold by a chain of facts, of those in which this one is a link.
+
+    Of a relation that is not transitive itself, but above one that is, any fact may change.
+    """
+    if pattern.relation not in types.axioms.chained:
+        return pattern
+    if pattern.relation in types.axioms.transitive:
+        return pattern._replace(is_link=True)
+    return Pattern(Anything(), pattern.relation, Anything())
 
 
 def _is_affected(
@@ -133,12 +150,38 @@ def _depends_on(types: AliasTypes, state: State, fact: Condition, changed: tuple
 
 
 def _matches(types: AliasTypes, state: State, fact: Holds, pattern: Pattern) -> bool:
-    subject, relation, object_ = pattern
-    return (
-        fact.relation == relation
-        and _may_be_same(types, state, fact.subject, subject)
-        and _may_be_same(types, state, fact.object, object_)
+    if fact.relation != pattern.relation:
+        return False
+    if pattern.is_link:
+        return _may_lead_over(types, state, fact, pattern)
+    return _may_be_same(types, state, fact.subject, pattern.subject) and _may_be_same(
+        types, state, fact.object, pattern.object
     )
+
+
+def _may_lead_over(types: AliasTypes, state: State, fact: Holds, link: Pattern) -> bool:
+    """Whether a chain from the subject of a fact to its object may lead over a link.
+
+    It gets to where the link begins, and from where it ends to the object. If no chain leads back to where it begins,
+    none leads over a link that ends at its subject or begins at its object.
+    """
+    if link.relation in types.axioms.acyclic and (
+        _is_one(fact.subject, link.object) or _is_one(fact.object, link.subject)
+    ):
+        return False
+    return _may_lead_to(types, state, fact.subject, link.relation, link.subject) and _may_lead_to(
+        types, state, link.object, link.relation, fact.object
+    )
+
+
+def _may_lead_to(types: AliasTypes, state: State, start: Term, relation: str, end: Term) -> bool:
+    """Whether two terms may be the same, or a chain of a relation may lead from one to the other."""
+    return _may_be_same(types, state, start, end) or state.facts.get(Holds(start, relation, end)) is not False
+
+
+def _is_one(one: Term, other: Term) -> bool:
+    """Whether two terms are certainly the same individual."""
+    return one == other and not isinstance(one, Anything) and not is_any_individual(one)
 
 
 def _may_be_same(types: AliasTypes, state: State, one: Term, other: Term) -> bool:
@@ -152,10 +195,10 @@ def _add_possible(
 ) -> frozenset[IndividualTerm] | None:
     """Return the individuals that may be on the other side if these facts may be true too; None if any may."""
     relation, thing, is_subject = side
-    for subject, above, object_ in adds:
+    for subject, above, object_, _ in adds:
         near, far = (subject, object_) if is_subject else (object_, subject)
         if above == relation and _may_be_same(types, state, thing, near):
-            if isinstance(far, Anything) or (isinstance(far, Variable) and far.name.startswith("?")):
+            if isinstance(far, Anything) or is_any_individual(far):
                 return None
             others |= {far}
     return others

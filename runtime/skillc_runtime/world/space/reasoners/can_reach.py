@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from skillc_runtime.world.space.frame_tree import frame_tree_of
 from skillc_runtime.world.space.reach import reach_obstacle
-from skillc_runtime.world.state.terms import CONTAIN, HAS_ARM, MOBILE_ROBOT, WORKSTATION
+from skillc_runtime.world.state.terms import HAS_ARM, HOLDS_DEEP, MOBILE_ROBOT, WORKSTATION
 
 if TYPE_CHECKING:
     from skillc_runtime.world.state.world_state import WorldState
@@ -40,4 +40,4 @@ class CanReach:
 
 def _stations(state: WorldState, surface: str) -> list[str]:
     stations = state.instances(WORKSTATION)
-    return sorted(stations & state.subjects(CONTAIN, surface) or stations)
+    return sorted(stations & state.subjects(HOLDS_DEEP, surface) or stations)

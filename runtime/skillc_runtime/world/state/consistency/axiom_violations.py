@@ -147,13 +147,12 @@ def _irreflexivity_violations(state: WorldState, subject: str, relation: str, ob
 
 def _asymmetry_violations(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
     for term, start, end in _implied(state, subject, relation, object_):
-        if term.asymmetric and start != end and state.holds(end, term.iri, start):
+        if (term.asymmetric or term.is_acyclic) and start != end and state.holds(end, term.iri, start):
             short = state.vocabulary.short
             opposite = f"{short(end)} {short(term.iri)} {short(start)}"
+            kind = "asymmetric" if term.asymmetric else "acyclic"
             rivals = asserted_facts(state, end, term.iri, start)
-            yield AxiomViolation(
-                "asymmetric-relation", f"{short(term.iri)} is asymmetric, and `{opposite}` holds", rivals
-            )
+            yield AxiomViolation("asymmetric-relation", f"{short(term.iri)} is {kind}, and `{opposite}` holds", rivals)
 
 
 def _signature_violations(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
