@@ -62,6 +62,9 @@ class CellLoop:
     repeated. `after_tick` are called whenever time has passed. `request` and `stop` may be called from other threads
     and from signal handlers.
 
+    `follow_s` is how often, in s, the cell looks for what others write to its world; infinite if nobody else does.
+    A cell without devices, where nothing else happens, skips no more time than that.
+
     `commit` is called in each tick after the runs were ticked, before time passes: it makes durable what has happened,
     so that nothing moves because of what a dead process would have forgotten. If it raises NotDurable, `fault` is why,
     and all runs fail, until somebody sets it back to None; time passes only so that their devices come to rest.
@@ -74,6 +77,7 @@ class CellLoop:
     after_tick: Sequence[Callable[[], None]] = ()
     commit: Callable[[], None] = lambda: None
     fault: str | None = None
+    follow_s: float = math.inf
     runs: list[TaskRun] = field(default_factory=list)
     ticks: int = 0
     _claims: DeviceClaims = field(default_factory=DeviceClaims)
@@ -180,6 +184,12 @@ class CellLoop:
         self.ticks += happened
         return happened
 
+    @property
+    def waits_for_others(self) -> bool:
+        """Whether nothing will happen until others write to the world: time passes as on the wall then, to wait."""
+        shared = self.backend.capabilities.symbolic and not math.isinf(self.follow_s)
+        return shared and all(run.waits_for_facts for run in self.runs)
+
     def obey(self) -> None:
         """Take requests and stops while no tick is due: they take effect now, and no time passes."""
         self._take_requests()
@@ -238,6 +248,7 @@ class CellLoop:
         if not self.backend.capabilities.symbolic:
             return TICK_S
         idle_s = min(run.find_idle_s() for run in self.runs if run.needs_time)
+        idle_s = min(idle_s, self.follow_s)
         ticks = 1 if math.isinf(idle_s) else max(1, math.ceil(idle_s / TICK_S - EPSILON_S))
         return ticks * TICK_S
 

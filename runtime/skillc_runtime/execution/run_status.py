@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.execution.attempt import Attempt, AttemptResult
@@ -111,6 +113,12 @@ class RunStatus:
     def stands(self) -> bool:
         """Whether it is paused or waits for approval, or all that goes on is that operators are asked."""
         return self.waits_for_person or (self._attempt is not None and self._attempt.tree.only_asks)
+
+    @property
+    def waits_for_facts(self) -> bool:
+        """Whether nothing will happen in a cell without devices, however long it takes, but by what others write."""
+        attempt = self._attempt
+        return self.state == "running" and attempt is not None and attempt.ticking and math.isinf(attempt.tree.idle_s)
 
     @property
     def verified(self) -> bool | None:

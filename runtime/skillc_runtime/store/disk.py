@@ -32,15 +32,22 @@ class DiskStore:
     """A world in a folder, for any number of processes at the same time; if it has an owner, only that one writes."""
 
     def __init__(
-        self, folder: Path, reset: bool = False, cancel: CancelToken | None = None, owner: str | None = None
+        self,
+        folder: Path,
+        reset: bool = False,
+        cancel: CancelToken | None = None,
+        owner: str | None = None,
+        author: str = "",
     ) -> None:
         """Open or create a store; with `reset`, delete its contents. `cancel` ends all waits for other processes.
 
-        With `owner`, the name of who opens it, nobody else writes to it until it is closed.
+        With `owner`, the name of who opens it, nobody else writes to it until it is closed. `author` is noted with
+        each write, for others.
         StoreError when the folder is not a store, is damaged or not accessible, has another owner, or is to be reset
         while others use it.
         """
         self._folder, self._facts, self._cancel = folder, folder / FACTS, cancel or CancelToken()
+        self._author = author
         self._ownership = StoreOwnership(folder / OWNER)
         try:
             _prepare(folder)
@@ -102,13 +109,15 @@ class DiskStore:
             if after == 0:
                 return self._fill(event.origin, change.added)
             return self._journal.append(
-                JournalEntry(after + 1, event.origin, encode_changes(event.changes), removed, added)
+                JournalEntry(after + 1, event.origin, encode_changes(event.changes), removed, added, self._author)
             )
 
     def since(self, sequence: int) -> tuple[Transaction, ...]:
         """Return the transactions after number `sequence`, in order."""
         entries = self._journal.since(sequence)
-        return tuple(Transaction(each.sequence, each.origin, decode_changes(each.changes)) for each in entries)
+        return tuple(
+            Transaction(each.sequence, each.origin, decode_changes(each.changes), each.author) for each in entries
+        )
 
     def _join(self, reset: bool) -> None:
         alone = self._lock.try_exclusive()

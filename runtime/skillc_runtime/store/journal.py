@@ -26,13 +26,14 @@ LAST = "last"
 
 
 class JournalEntry(msgspec.Struct, frozen=True, array_like=True):
-    """A stored transaction: its changes as JSON, and the triples it removes and adds, as N-Triples."""
+    """A stored transaction: its changes as JSON, the triples it removes and adds, as N-Triples, and who wrote it."""
 
     sequence: int
     origin: str
     changes: str
     removed: str
     added: str
+    author: str = ""
 
 
 @dataclass(frozen=True, slots=True)

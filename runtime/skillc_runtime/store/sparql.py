@@ -56,11 +56,13 @@ class SparqlStore:
         reset: bool = False,
         patience_s: float = PATIENCE_S,
         cancel: CancelToken | None = None,
+        author: str = "",
     ) -> None:
         """Use a server; with `reset`, delete its world. StoreError when it cannot be used.
 
-        Requests are repeated for `patience_s`, or until `cancel` ends the wait.
+        Requests are repeated for `patience_s`, or until `cancel` ends the wait. `author` is noted with each write.
         """
+        self._author = author
         self._endpoint, self._patience_s, self._cancel = endpoint, patience_s, cancel or CancelToken()
         self._empty = self._was_preceded = False
         self._retry(lambda: endpoint.update(texts.CREATE))
@@ -88,6 +90,7 @@ class SparqlStore:
         change, mark = triple_difference(event), secrets.token_hex(8)
         about = {texts.MARK: mark, texts.ORIGIN: event.origin}
         about |= {} if self._empty else {texts.CHANGES: encode_changes(event.changes)}
+        about |= {texts.AUTHOR: self._author} if self._author else {}
         update = texts.write_update(change, after, about, event.origin if self._empty else None)
         self._empty = False
         executed = self._retry(lambda: self._send(update, after, mark))
@@ -107,7 +110,10 @@ class SparqlStore:
         if any(int(row["n"]) != n or "changes" not in row for n, row in enumerate(rows, sequence + 1)):
             raise StoreError(f"{self} was reset by another process; start again to continue with its current world")
         try:
-            return tuple(Transaction(int(row["n"]), row["origin"], decode_changes(row["changes"])) for row in rows)
+            return tuple(
+                Transaction(int(row["n"]), row["origin"], decode_changes(row["changes"]), row.get("author", ""))
+                for row in rows
+            )
         except ValueError as error:
             raise StoreError(f"the log of {self} is damaged: {error}; fill the store again with --reset") from error
 

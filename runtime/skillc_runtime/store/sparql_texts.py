@@ -1,7 +1,8 @@
 """The SPARQL queries and updates of a store on a server.
 
-Facts are in the graph `store#world`. The graph `store#log` has `store#this` with the number of the last transaction and
-the scene with which the store was filled, and each transaction with its number, origin, changes and writer's mark.
+Facts are in the graph `store#world`. The graph `store#log` has `store#this` with the number of the last transaction
+and the scene with which the store was filled, and each transaction with its number, origin, changes, author and mark of
+its writer.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ NS = "https://w3id.org/skillc/store#"
 WORLD, LOG, STORE = f"<{NS}world>", f"<{NS}log>", f"<{NS}this>"
 SEQUENCE, BEGINNING = f"<{NS}sequence>", f"<{NS}beginning>"
 NUMBER, ORIGIN, CHANGES, MARK = f"<{NS}number>", f"<{NS}origin>", f"<{NS}changes>", f"<{NS}mark>"
+AUTHOR = f"<{NS}author>"
 
 FACTS = f"CONSTRUCT {{ ?s ?p ?o }} WHERE {{ GRAPH {WORLD} {{ ?s ?p ?o }} }}"
 
@@ -44,9 +46,10 @@ def beginning_query() -> str:
 
 
 def log_query(sequence: int) -> str:
-    """Return the query for the transactions after a number: `n`, `origin` and, if they were stored, `changes`."""
-    return f"""SELECT ?n ?origin ?changes WHERE {{ GRAPH {LOG} {{
+    """Return the query for the transactions after a number: `n`, `origin` and, if stored, `changes` and `author`."""
+    return f"""SELECT ?n ?origin ?changes ?author WHERE {{ GRAPH {LOG} {{
   ?entry {NUMBER} ?n ; {ORIGIN} ?origin . OPTIONAL {{ ?entry {CHANGES} ?changes }}
+  OPTIONAL {{ ?entry {AUTHOR} ?author }}
   FILTER (?n > {sequence}) }} }}"""
 
 

@@ -53,7 +53,7 @@ def operate(loop: CellLoop, run: TaskRun, monitor: RunMonitor, heartbeat: Callab
     def attend() -> bool:
         heartbeat()
         now = loop.backend.clock.now
-        wait_s = _find_wait(run, now, pace)
+        wait_s = _find_wait(run, now, pace, loop.waits_for_others)
         commands = monitor.attend(run, now, wait_s)
         for command in commands:
             _request(loop, run, command, monitor)
@@ -63,9 +63,9 @@ def operate(loop: CellLoop, run: TaskRun, monitor: RunMonitor, heartbeat: Callab
         drive(loop, run, attend)
 
 
-def _find_wait(run: TaskRun, now: float, pace: Pace) -> float:
+def _find_wait(run: TaskRun, now: float, pace: Pace, waits: bool) -> float:
     """Return how long to wait before the next tick, or before the next look: commands must not wait for a slow pace."""
-    remaining_s = pace.remaining_s(now, standing=run.stands)
+    remaining_s = pace.remaining_s(now, standing=run.stands or waits)
     return 0.0 if run.state == "stopping" else min(remaining_s, WAIT_S)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from contextlib import AbstractContextManager, closing, nullcontext
 from functools import partial
@@ -34,7 +35,7 @@ from skillc.services.run.result import (
 )
 from skillc.services.run.signal_files import check_signals, recorded_signals
 from skillc.services.run.unstarted_runs import CannotBegin, end_unstarted
-from skillc.services.scene.store_polling import StorePoller
+from skillc.services.scene.store_polling import POLL_PERIOD_S, StorePoller
 from skillc.services.space.run_looks import look_from, look_from_home
 from skillc.services.tasks.breakpoints import make_gate
 from skillc.services.tasks.loading import LoadedTask
@@ -230,10 +231,11 @@ class _Run(msgspec.Struct, frozen=True):
             look = look_from(self.cell.cell, library, spec.plan_cache) if spec.geometry else None
             return _start_planning(self.task, assignment, failures, self.options, look, self.cell.clock.now)
 
-        poller = StorePoller(self.cell.cell.world, self.reporter)
+        world = self.cell.cell.world
+        poller, follow_s = StorePoller(world, self.reporter), POLL_PERIOD_S if world.is_stored else math.inf
         hooks = (poller.poll, *recording, self.samples.sample)
         preparation = plan_again if planning is None else prepare_after(planning, plan_again)
-        return CellLoop(self.cell, self.task.library, preparation, self._origin, hooks)
+        return CellLoop(self.cell, self.task.library, preparation, self._origin, hooks, follow_s=follow_s)
 
     @property
     def _origin(self) -> CellOrigin:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from getpass import getuser
 from hashlib import sha256
 from pathlib import Path
+from socket import gethostname
 from typing import Protocol
 
 from skillc.errors import DiagnosticsError, RequestError, ServiceError
@@ -36,25 +39,31 @@ class OpenStore(Store, Protocol):
         """Raise StoreError if only somebody else may write to the store."""
 
 
-def open_store(place: str, reset: bool = False, cancel: CancelToken | None = None) -> OpenStore:
+def open_store(place: str, reset: bool = False, cancel: CancelToken | None = None, author: str = "") -> OpenStore:
     """Open the store in a folder or at an `http://` or `https://` address; with `reset`, delete its contents.
 
-    `cancel` ends all waits for a server or for other processes. StoreError when that is not possible, with the reason.
+    `cancel` ends all waits for a server or for other processes, `author` is who writes. StoreError when that is not
+    possible, with the reason.
     """
     if "://" in place:
-        return _open_on_server(place, reset, cancel)
+        from skillc_runtime.store.http import find_endpoint
+        from skillc_runtime.store.sparql import SparqlStore
+
+        return SparqlStore(find_endpoint(place, cancel=cancel), reset, cancel=cancel, author=author)
     try:
         from skillc_runtime.store.disk import DiskStore
     except ImportError as error:
         raise StoreError(f"a store in a folder needs the file locks of Linux or macOS ({error})") from error
-    return DiskStore(Path(place), reset, cancel)
+    return DiskStore(Path(place), reset, cancel, author=author)
 
 
-def _open_on_server(address: str, reset: bool, cancel: CancelToken | None) -> OpenStore:
-    from skillc_runtime.store.http import find_endpoint
-    from skillc_runtime.store.sparql import SparqlStore
-
-    return SparqlStore(find_endpoint(address, cancel=cancel), reset, cancel=cancel)
+def describe_author() -> str:
+    """Return who this process is, for others that read what it writes."""
+    try:
+        user = f"{getuser()}@"
+    except (OSError, KeyError, ImportError):
+        user = ""
+    return f"{user}{gethostname()}, process {os.getpid()}"
 
 
 _BEGINNING = re.compile(r"scene (.*) ([0-9a-f]{12})")
@@ -123,7 +132,7 @@ def open_chosen_store(choice: StoreChoice, place: str, scene: Path | None) -> Op
     if scene is None and "://" not in place and not Path(place).exists():
         raise ServiceError(f"there is no store {place}; name the scene to fill it with")
     try:
-        return open_store(place, choice.reset, choice.cancel)
+        return open_store(place, choice.reset, choice.cancel, describe_author())
     except StoreError as error:
         raise ServiceError(str(error)) from error
     except OSError as error:

@@ -66,6 +66,11 @@ class WorldModel:
         """The number of the last transaction in its store, with those that it had before."""
         return self._sequence
 
+    @property
+    def is_stored(self) -> bool:
+        """Whether it is in a store, to which others may write."""
+        return not isinstance(self._store, NullStore)
+
     def subscribe(self, listener: Listener) -> Callable[[], None]:
         """Call the listener after every write; return a function that ends the subscription."""
         self._listeners.append(listener)
@@ -201,8 +206,9 @@ class WorldModel:
 
     def _check_foreign(self, transaction: Transaction) -> ChangeEvent:
         """Return the event of a transaction of others; StoreError if this world, or its vocabulary, rejects it."""
+        author = f" ({transaction.author})" if transaction.author else ""
         try:
-            return self._check(transaction.changes, transaction.origin, None)
+            return self._check(transaction.changes, transaction.origin + author, None)
         except WorldError as error:
             raise StoreError(
                 f"transaction {transaction.sequence} in {self._store} does not go with these skills: {error}; "

@@ -33,11 +33,12 @@ class StoreError(RuntimeError):
 
 
 class Transaction(msgspec.Struct, frozen=True):
-    """A write in the store; `sequence` counts writes from 1, without gaps."""
+    """A write in the store; `sequence` counts writes from 1, without gaps; `author` is who wrote it, if it is known."""
 
     sequence: int
     origin: str
     changes: tuple[Change, ...]
+    author: str = ""
 
 
 class TransactionLog(Protocol):
