@@ -25,6 +25,7 @@ MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "cluster": ("distributed",),
         "learn": ("optuna", "sqlalchemy", "alembic"),
         "ontologies": ("pyhornedowl",),
+        "gym": ("gymnasium",),
         "vision": ("cv2",),
     }
 )

@@ -93,8 +93,9 @@ class Reader:
                 result = CliRunner().invoke(skillc, arguments)
                 return result.output, result.exit_code
             case ["pytest", *arguments]:
-                command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments]
-                ran = subprocess.run(command, capture_output=True, text=True, check=False)
+                return self.call(["python", "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments])
+            case ["python", *arguments]:
+                ran = subprocess.run([sys.executable, *arguments], capture_output=True, text=True, check=False)
                 return ran.stdout + ran.stderr, ran.returncode
             case _:
                 raise ValueError(f"no reader types {words}")

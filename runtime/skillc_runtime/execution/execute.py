@@ -65,7 +65,7 @@ def execute_task(
     in this process. When `interrupted` returns true everything is halted, and forces are released.
     """
     began = perf_counter()
-    loop = CellLoop(backend, library, prepare_after(Ready(prepared), prepare_here(library)), after_tick=(after_tick,))
+    loop = make_loop(prepared, library, backend, after_tick)
     run = loop.submit(prepared.assignment, listeners)
 
     def stop_if_interrupted() -> bool:
@@ -75,6 +75,13 @@ def execute_task(
 
     drive(loop, run, stop_if_interrupted)
     return describe_execution(run, backend, perf_counter() - began)
+
+
+def make_loop(
+    prepared: PreparedTask, library: SkillLibrary, backend: Backend, after_tick: Callable[[], None] = lambda: None
+) -> CellLoop:
+    """Return a loop of a cell that has what is prepared, and plans again in this process."""
+    return CellLoop(backend, library, prepare_after(Ready(prepared), prepare_here(library)), after_tick=(after_tick,))
 
 
 def drive(loop: CellLoop, run: TaskRun, attend: Callable[[], bool] = lambda: True) -> None:

@@ -28,7 +28,9 @@ from skillc_runtime.execution.assignment import (
     PreparedTask,
     prepare_task,
 )
-from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.cell_loop import CellLoop
+from skillc_runtime.execution.execute import execute_task, make_loop
+from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.recording.known_facts import unverified_facts
@@ -83,6 +85,18 @@ class TrialRunner:
         except (SheetError, FrameError) as error:
             return Trial(seed=seed, status="refused", reason=f"the scene cannot be simulated: {error}")
         return self._run(variant.library, variant.prepared, cell).measure(cell)
+
+    def begin(self, seed: int, listener: Listener) -> tuple[CellLoop, TaskRun]:
+        """Submit the run of the trial of a seed to a loop of its own, which the caller ticks and closes.
+
+        NotRecorded, SheetError or FrameError if it cannot start.
+        """
+        variant = self._prepare(())
+        if isinstance(variant.prepared, NotStarted):
+            raise NotRecorded(variant.prepared.reason)
+        cell = make_trial_cell(WorldModel(self._state), seed, self._disturbance)
+        loop = make_loop(variant.prepared, variant.library, cell)
+        return loop, loop.submit(variant.prepared.assignment, (listener,))
 
     def record(self, seed: int, recording: RecordTrial, *settings: Setting) -> tuple[TaskResult, Trial]:
         """Run the trial of a seed and record it; NotRecorded, SheetError or FrameError if it cannot start."""
