@@ -72,11 +72,12 @@ def test_a_part_for_a_narrow_slot_is_taken_by_its_top(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("seed", "kind"), [(9, "two-arms"), (31, "bases")])
-def test_another_place_is_found_for_a_part_in_a_small_bin_and_for_a_base_that_could_not_leave(
-    seed: int, kind: str, tmp_path: Path
-) -> None:
-    """In the middle of the bin the elbow would be bent too far; where the base is wanted it has no room to turn."""
+@pytest.mark.parametrize(("seed", "kind"), [(9, "two-arms"), (31, "bases"), (206, "crowd")])
+def test_another_place_or_part_is_found_where_the_first_one_does_not_go(seed: int, kind: str, tmp_path: Path) -> None:
+    """In the middle of the bin the elbow would be bent too far; where the base is wanted it has no room to turn.
+
+    Of the two parts that keep the hand from a third one, one cannot be taken, but the other can.
+    """
     name = write_layout(draw_layout(seed, kind), tmp_path / "drawn")
     with load_task(RunSpec(task=name), SilentReporter()) as task:
         assert look(task) == ("yes", "")

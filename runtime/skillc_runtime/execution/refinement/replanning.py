@@ -11,7 +11,7 @@ from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.execution.refinement.failure import Cause
 from skillc_runtime.execution.refinement.look import AnswerT, PlanLook, PlanWithout, look_at_plans
 from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement, refine_plan
-from skillc_runtime.execution.refinement.scope import call_of, find_excluded, limit_to_places
+from skillc_runtime.execution.refinement.scope import call_of, find_excluded
 from skillc_runtime.execution.refinement.siblings import list_siblings
 from skillc_runtime.execution.refinement.situation import Situation
 from skillc_runtime.execution.refinement.space_claim import claim_of_body, make_claim
@@ -94,10 +94,10 @@ def judge(
 def _exclude_siblings(
     library: SkillLibrary, begin: WorldState, before: Situation, step: Step, steps: Sequence[Step]
 ) -> Iterator[StepWhile]:
-    """Yield the steps that are like one that does not go, and do not go either for lack of reach."""
+    """Yield the steps like one that does not go that do not go either for lack of reach, each while that is so."""
     for sibling, there in list_siblings(library, before, step, steps):
         walk = Walk(library)
         went = next(walk.go(call_of(sibling, library), there, Scope({})), None) is not None
         why = walk.furthest
         if not went and why is not None and why.cause in OF_REACH:
-            yield limit_to_places(begin, there.state, StepWhile(sibling, And(()), why.message))
+            yield find_excluded(library, begin, there, sibling, why.message)

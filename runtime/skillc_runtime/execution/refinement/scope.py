@@ -48,10 +48,10 @@ def find_excluded(library: SkillLibrary, begin: WorldState, before: Situation, s
     condition = And(_find_blocking(library, before, step))
     if condition.parts:
         return StepWhile(step, condition, why)
-    return limit_to_places(begin, before.state, StepWhile(step, condition, why))
+    return _limit_to_places(begin, before.state, StepWhile(step, condition, why))
 
 
-def limit_to_places(begin: WorldState, now: WorldState, excluded: StepWhile) -> StepWhile:
+def _limit_to_places(begin: WorldState, now: WorldState, excluded: StepWhile) -> StepWhile:
     """Return what is excluded as long as the things that a step names, and no hand holds, are where they are now."""
     named = (each for each in excluded.step.arguments.values() if now.is_a(each, MANIPULATABLE))
     free = sorted({each for each in named if find_hand(now, each) is None})
