@@ -27,7 +27,7 @@ class Individual(msgspec.Struct, frozen=True, tag="individual"):
 
 
 class PropertyOf(msgspec.Struct, frozen=True, tag="property"):
-    """The value of a data property (stored or computed) of an individual."""
+    """The value of a data property (stored or computed) of an individual, or the one thing of a functional relation."""
 
     of: Expression
     property: str

@@ -12,7 +12,7 @@ from skillc_compiler.program.types import Thing, describe_type, fits
 from skillc_compiler.program.walk import all_conditions, all_values
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import HasProperty, PropertyOf
-from skillc_rdf.vocabulary.types import local_name
+from skillc_rdf.vocabulary.types import PropertyTerm, local_name
 
 NAMES = ("property-domain",)
 NEEDS = Need.NAMES
@@ -30,16 +30,20 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 
 def _check_domain(program: Program, iri: str, of: TypedExpression) -> Iterator[Diagnostic]:
-    term = program.vocabulary.properties.get(iri)
-    if term is None or not term.domains:
+    vocabulary = program.vocabulary
+    term = vocabulary.properties.get(iri) or vocabulary.relations.get(iri)
+    if term is None:
         return
-    if any(fits(program.vocabulary, of.type, Thing(domain)) for domain in term.domains):
+    is_property = isinstance(term, PropertyTerm)
+    allowed = term.domains if isinstance(term, PropertyTerm) else [each.domain for each in term.signatures]
+    if not allowed or any(fits(vocabulary, of.type, Thing(domain)) for domain in allowed):
         return
-    domains = " or ".join(local_name(domain) for domain in term.domains)
+    domains = " or ".join(dict.fromkeys(local_name(domain) for domain in allowed))
     yield Diagnostic(
         "property-domain",
         of.span,
-        f"`{local_name(iri)}` is a property of {domains}, and this is {describe_type(of.type)}",
+        f"`{local_name(iri)}` is a {'property' if is_property else 'relation'} of {domains}, and this is "
+        f"{describe_type(of.type)}",
         help="read it of another individual, or narrow the class of the parameter",
         labels=(*label_declaration(term), *label_values(of)),
     )

@@ -13,6 +13,7 @@ from skillc_compiler.program.typed import Implementation, Skill, Task, TypedNode
 from skillc_compiler.program.types import UNKNOWN, ListOf, Thing, Type, type_of
 from skillc_compiler.program.walk import nodes_in
 from skillc_compiler.resolve.individuals import most_specific_classes
+from skillc_compiler.resolve.links import type_of_link
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
@@ -36,9 +37,10 @@ class CursorContext(msgspec.Struct, frozen=True):
         if last.type == "RPAR":
             return self._result(tokens)
         if len(tokens) > 2 and tokens[-2].type == "DOT":
-            iri = self.visible.term("property", last.value)
-            known = self.visible.vocabulary.properties
-            return type_of(known[iri].type) if iri in known else UNKNOWN
+            iri, known = self.visible.read_term(last.value), self.visible.vocabulary
+            if iri in known.properties:
+                return type_of(known.properties[iri].type)
+            return type_of_link(known, known.relations[iri], UNKNOWN) if iri in known.relations else UNKNOWN
         if ":" in last.value:
             iri = self.visible.iri(last.value)
             return Thing(self.individuals.get(iri)) if iri else UNKNOWN

@@ -82,9 +82,16 @@ def offer_all_relations(around: CursorContext) -> Iterator[Offer]:
 
 
 def offer_properties(around: CursorContext, of: Type) -> Iterator[Offer]:
-    """Offer the properties that an individual of this type can have, with their dimensions."""
+    """Offer the properties that an individual of this type can have, with their dimensions, and its one relations."""
     for text, term in _properties_of(around, of):
         yield Offer(text, "property", format_bare_type(term.type), term.comment, rank=_generality(term))
+    vocabulary = around.visible.vocabulary
+    for text, iri in _terms(around, "relation"):
+        relation = vocabulary.relations.get(iri)
+        if relation and relation.functional:
+            ranges = {x.range for x in relation.signatures if fits(vocabulary, of, Thing(x.domain))}
+            if ranges:
+                yield Offer(text, "relation", " or ".join(sorted(map(local_name, ranges))), relation.comment, rank=1)
 
 
 def offer_values(around: CursorContext, wanted: ExpectedType) -> Iterator[Offer]:

@@ -41,6 +41,11 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
         if iri is not None:
             yield Occurrence(name.span, TermSymbol(kind, iri), declares)
 
+    def read(self, name: s.Name) -> Iterator[Occurrence]:
+        """Yield the occurrence of a property, or of a functional relation whose value is read."""
+        is_property = self.visible.term("property", name.text) is not None
+        return self.term("property" if is_property else "relation", name)
+
     def type(self, written: s.TypeName) -> Iterator[Occurrence]:
         """Yield the occurrences in a type."""
         match written:
@@ -67,7 +72,7 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
                 yield from self.reference(known, name)
             case s.Member(of=of, property=name):
                 yield from self.value(known, of)
-                yield from self.term("property", name)
+                yield from self.read(name)
             case s.Invoke(function=name, arguments=arguments):
                 if name.text in self.visible.functions:
                     yield Occurrence(name.span, FunctionSymbol(name.text))
@@ -99,7 +104,7 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
                 yield from self._compared(known, right)
             case s.Has(subject=subject, property=name):
                 yield from self.value(known, subject)
-                yield from self.term("property", name)
+                yield from self.read(name)
             case s.Is(subject=subject, cls=name):
                 yield from self.value(known, subject)
                 yield from self.term("class", name)

@@ -41,6 +41,10 @@ class VisibleNames(msgspec.Struct, frozen=True):
         }
         return iri if iri in tables[kind] else None
 
+    def read_term(self, text: str) -> str | None:
+        """Return the IRI of what a name after a `.` or a `has` refers to: a property, or a functional relation."""
+        return self.term("property", text) or self.term("relation", text)
+
     def iri(self, qualified: str) -> str | None:
         """Return the IRI of `prefix:name`, or None for an unknown prefix."""
         prefix, _, local = qualified.partition(":")

@@ -15,6 +15,7 @@ from skillc_compiler.resolve.called_conditions import (
     report_equals,
     report_relation_first,
 )
+from skillc_compiler.resolve.links import compare_links, say_of
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_property, resolve_value
 from skillc_dsl import syntax as s
@@ -49,10 +50,8 @@ def resolve_condition(context: FileContext, scope: Scope, written: s.Condition) 
             return _resolve_relation(context, scope, written)
         case s.Compare():
             return _resolve_compare(context, scope, written)
-        case s.Has(subject=subject, property=name, span=span):
-            of = resolve_value(context, scope, subject)
-            iri = resolve_property(context, of, name) or name.text
-            return TypedCondition(HasProperty(_to_term(context, of), iri), span, (of,))
+        case s.Has():
+            return _resolve_has(context, scope, written)
         case s.Is():
             return _resolve_is(context, scope, written)
         case s.Given(parameter=name, span=span):
@@ -75,11 +74,31 @@ def resolve_condition(context: FileContext, scope: Scope, written: s.Condition) 
             assert_never(written)
 
 
+def _resolve_has(context: FileContext, scope: Scope, written: s.Has) -> TypedCondition:
+    of = resolve_value(context, scope, written.subject)
+    iri = resolve_property(context, of, written.property) or written.property.text
+
+    def has(things: Sequence[TypedExpression]) -> TypedCondition:
+        if iri in context.vocabulary.relations:
+            anything = TypedExpression(VariableTerm("_"), UNKNOWN, written.property.span)
+            return TypedCondition(
+                Holds(_to_term(context, things[0]), iri, Anything()), written.span, (*things, anything)
+            )
+        return TypedCondition(HasProperty(_to_term(context, things[0]), iri), written.span, tuple(things))
+
+    return say_of(context, scope, (of,), has)
+
+
 def _resolve_is(context: FileContext, scope: Scope, written: s.Is) -> TypedCondition:
     if report_compared_by_is(context, written.subject, written.cls):
         return TypedCondition(And(()), written.span)
     of = resolve_value(context, scope, written.subject, ExpectedType(Thing(None)))
-    return TypedCondition(IsA(_to_term(context, of), _look_up_class(context, written.cls)), written.span, (of,))
+    cls = _look_up_class(context, written.cls)
+
+    def is_a(things: Sequence[TypedExpression]) -> TypedCondition:
+        return TypedCondition(IsA(_to_term(context, things[0]), cls), written.span, tuple(things))
+
+    return say_of(context, scope, (of,), is_a)
 
 
 def _not(body: TypedCondition, span: Span) -> TypedCondition:
@@ -100,8 +119,14 @@ def _resolve_relation(context: FileContext, scope: Scope, written: s.Relation) -
     subject = _resolve_side(context, scope, written.subject)
     object_ = _resolve_side(context, scope, written.object)
     iri = _look_up_relation(context, written.relation, subject, object_)
-    meaning = Holds(_to_term(context, subject), iri or written.relation.text, _to_term(context, object_))
-    return TypedCondition(meaning, written.span, (subject, object_))
+
+    def holds(things: Sequence[TypedExpression]) -> TypedCondition:
+        terms = (_to_term(context, each) for each in things)
+        return TypedCondition(
+            Holds(next(terms), iri or written.relation.text, next(terms)), written.span, tuple(things)
+        )
+
+    return say_of(context, scope, (subject, object_), holds)
 
 
 def _relation_in_place_of_subject(context: FileContext, scope: Scope, written: s.Relation) -> s.Name | None:
@@ -172,11 +197,20 @@ def _look_up_class(context: FileContext, name: s.Name) -> str:
 
 def _resolve_compare(context: FileContext, scope: Scope, written: s.Compare) -> TypedCondition:
     left, right = _resolve_sides(context, scope, written)
+    if written.operator in ("==", "!="):
+        linked = compare_links(context, scope, left, right, written.operator == "==", written.span)
+        if linked is not None:
+            return linked
     individuals = [kind for kind in (left.type, right.type) if isinstance(kind, Thing)]
     if individuals and written.operator in ("==", "!=") and _all_terms(left, right):
         same = TypedCondition(Same(_to_term(context, left), _to_term(context, right)), written.span, (left, right))
         return same if written.operator == "==" else _not(same, written.span)
-    return TypedCondition(Compare(left.meaning, written.operator, right.meaning), written.span, (left, right))
+
+    def compare(sides: Sequence[TypedExpression]) -> TypedCondition:
+        one, other = sides
+        return TypedCondition(Compare(one.meaning, written.operator, other.meaning), written.span, (one, other))
+
+    return say_of(context, scope, (left, right), compare)
 
 
 def _all_terms(*sides: TypedExpression) -> bool:

@@ -25,6 +25,7 @@ from skillc_compiler.program.types import (
 )
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.called_conditions import MISSING, NOTHING
+from skillc_compiler.resolve.links import type_of_link
 from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
@@ -164,7 +165,11 @@ def _resolve_member(context: FileContext, scope: Scope, written: s.Member) -> Ty
     iri = resolve_property(context, of, written.property)
     if iri is None:
         return TypedExpression(PropertyOf(of.meaning, written.property.text), UNKNOWN, written.span, (of,))
-    kind = type_of(context.vocabulary.properties[iri].type)
+    vocabulary = context.vocabulary
+    if iri in vocabulary.relations:
+        kind = type_of_link(vocabulary, vocabulary.relations[iri], of.type)
+    else:
+        kind = type_of(vocabulary.properties[iri].type)
     return TypedExpression(PropertyOf(of.meaning, iri), kind, written.span, (of,))
 
 
@@ -184,14 +189,17 @@ def _part_of_failure(context: FileContext, scope: Scope, written: s.Member) -> T
 
 
 def resolve_property(context: FileContext, of: TypedExpression, name: s.Name) -> str | None:
-    """Return the IRI of a property; suggestions are those that `of` can have."""
+    """Return the IRI of a property, or of a functional relation; suggestions are properties that `of` can have."""
     names, vocabulary = context.names, context.vocabulary
     if names.is_term("relation", name.text) and not names.is_term("property", name.text):
+        iri = names.look_up_term("relation", name)
+        if iri is None or vocabulary.relations[iri].functional:
+            return iri
         context.report(
             "unknown-property",
             name.span,
-            f"`{name.text}` is a relation between individuals, not a property",
-            f"write it between two individuals: `a {name.text} b`",
+            f"`{name.text}` is a relation that may hold of several things, not a property",
+            f"write it between two individuals: `a {name.text} b`, or declare it `functional`",
         )
         return None
     return names.look_up_term(

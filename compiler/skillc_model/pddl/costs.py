@@ -114,11 +114,11 @@ def action_cost(
 
 def _moving(expression: Expression, symbols: Symbols) -> str | None:
     """Return a term (IRI or function) that the duration depends on and skills may change, None if there is none."""
-    properties, functions = symbols.vocabulary.properties, symbols.vocabulary.functions
+    functions = symbols.vocabulary.functions
     for each in walk(expression):
         match each:
             case PropertyOf(property=iri):
-                computed = properties[iri].computed_by is not None and symbols.changing
+                computed = symbols.vocabulary.is_computed(iri) and symbols.changing
                 if computed or symbols.affected(iri):
                     return iri
             case Invoke(function=name):

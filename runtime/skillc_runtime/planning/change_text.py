@@ -114,8 +114,8 @@ class ChangeText:
 
     def _describe_statement(self, missing: PropertyOf) -> str:
         """Return what to state of a property that an individual lacks; empty if it is computed."""
-        term = self._state.vocabulary.properties[missing.property]
-        if term.computed_by is not None or not isinstance(missing.of, Individual):
+        term = self._state.vocabulary.properties.get(missing.property)
+        if term is None or term.computed_by is not None or not isinstance(missing.of, Individual):
             return ""
         return f": state `{self._short(missing.of.iri)} {self._short(term.iri)} {placeholder(term)}`"
 

@@ -89,7 +89,7 @@ def _find_missing_fact(
 def _find_missing_property(
     part: PropertyOf | Invoke, bound: Mapping[str, Value], state: WorldState
 ) -> tuple[str, str] | None:
-    if not isinstance(part, PropertyOf) or state.vocabulary.properties[part.property].computed_by is not None:
+    if not isinstance(part, PropertyOf) or state.vocabulary.is_computed(part.property):
         return None
     try:
         owner = value_of(part.of, state, bound)

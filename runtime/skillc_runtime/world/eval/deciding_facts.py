@@ -114,6 +114,9 @@ def _related(subject: str | None, relation: str, object_: str | None, state: Wor
 def _value(individual: str, property_: str, state: WorldState) -> Iterator[LabelledFact]:
     """Yield the value of a property, and the numbers from which it was judged if they are known."""
     words = state.vocabulary
+    if property_ in words.relations:
+        yield from _related(individual, property_, None, state)
+        return
     with suppress(EvaluationError):
         yield label_property(individual, property_, property_of(state, individual, property_), words)
     term = words.properties[property_]

@@ -170,7 +170,9 @@ class _Explainer:
         """Return the number from which a property was judged, beside its threshold: ` (coverage 0.98 of 1)`."""
         if not isinstance(expression, PropertyOf):
             return ""
-        term = self._state.vocabulary.properties[expression.property]
+        term = self._state.vocabulary.properties.get(expression.property)
+        if term is None:
+            return ""
         owner = str(compile_expression(expression.of)(self._state, bindings))
         measured, needed = (self._number(owner, each) for each in (term.measure, term.threshold))
         of = f" of {needed}" if needed else ""

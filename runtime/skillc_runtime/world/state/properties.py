@@ -12,8 +12,13 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 def property_of(state: WorldState, individual: str, property_: str) -> Value | None:
-    """Return the value of a property, stored or computed; None when missing, EvaluationError when its Python fails."""
-    term = state.vocabulary.properties[property_]
+    """Return the value of a property, stored or computed; None when missing, EvaluationError when its Python fails.
+
+    The value of a functional relation is the one thing to which it leads.
+    """
+    term = state.vocabulary.properties.get(property_)
+    if term is None:
+        return next(iter(state.objects(individual, property_)), None)
     if term.computed_by is None:
         return state.value(individual, property_)
     return value_from_python(term.computed_by, local_name(property_), state, individual)
