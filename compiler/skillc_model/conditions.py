@@ -1,144 +1,33 @@
-"""Expressions and conditions as the runtime evaluates them: names resolved to IRIs, quantities in SI units."""
+"""Expressions and conditions as the runtime evaluates them, and the effects of skills."""
 
 from __future__ import annotations
 
-from typing import Literal as OneOf
 from typing import TypeAlias
 
 import msgspec
 
-
-class Literal(msgspec.Struct, frozen=True, tag="literal"):
-    """A constant; numbers in SI units, enumeration values as text."""
-
-    value: bool | int | float | str
-
-
-class Variable(msgspec.Struct, frozen=True, tag="variable"):
-    """A parameter, let, loop variable, output or quantified variable in scope."""
-
-    name: str
-
-
-class Individual(msgspec.Struct, frozen=True, tag="individual"):
-    """A named individual of the world."""
-
-    iri: str
-
-
-class PropertyOf(msgspec.Struct, frozen=True, tag="property"):
-    """The value of a data property (stored or computed) of an individual, or the one thing of a functional relation."""
-
-    of: Expression
-    property: str
-
-
-class Arithmetic(msgspec.Struct, frozen=True, tag="arithmetic"):
-    """`left operator right` on numbers, or vectors where the types allow it."""
-
-    operator: OneOf["+", "-", "*", "/"]
-    left: Expression
-    right: Expression
-
-
-class Invoke(msgspec.Struct, frozen=True, tag="invoke"):
-    """A vocabulary function applied to values."""
-
-    function: str
-    arguments: tuple[Expression, ...]
-
-
-Expression: TypeAlias = Literal | Variable | Individual | PropertyOf | Arithmetic | Invoke
-
-
-class Anything(msgspec.Struct, frozen=True, tag="anything"):
-    """`_`: any individual."""
-
-
-Term: TypeAlias = Variable | Individual | Anything
-
-
-class Holds(msgspec.Struct, frozen=True, tag="holds"):
-    """`subject relation object`"""
-
-    subject: Term
-    relation: str
-    object: Term
-
-
-Operator: TypeAlias = OneOf["==", "!=", "<", "<=", ">", ">="]
-
-
-class Compare(msgspec.Struct, frozen=True, tag="compare"):
-    """`left operator right` on data values; false when a property read on either side is missing."""
-
-    left: Expression
-    operator: Operator
-    right: Expression
-
-
-class Same(msgspec.Struct, frozen=True, tag="same"):
-    """Both terms are the same individual."""
-
-    left: Term
-    right: Term
-
-
-class HasProperty(msgspec.Struct, frozen=True, tag="has"):
-    """The individual has a value for the property."""
-
-    subject: Term
-    property: str
-
-
-class IsA(msgspec.Struct, frozen=True, tag="is"):
-    """The individual is of the class or of a subclass."""
-
-    subject: Term
-    cls: str
-
-
-class Given(msgspec.Struct, frozen=True, tag="given"):
-    """The optional parameter was passed."""
-
-    parameter: str
-
-
-class Not(msgspec.Struct, frozen=True, tag="not"):
-    """The body does not hold."""
-
-    body: Condition
-
-
-class And(msgspec.Struct, frozen=True, tag="and"):
-    """All parts hold; true when empty."""
-
-    parts: tuple[Condition, ...]
-
-
-class Or(msgspec.Struct, frozen=True, tag="or"):
-    """Some part holds; false when empty. `a implies b` is `not a or b`."""
-
-    parts: tuple[Condition, ...]
-
-
-class Exists(msgspec.Struct, frozen=True, tag="exists"):
-    """The body holds for some individual of the class."""
-
-    variable: str
-    cls: str
-    body: Condition
-
-
-class Forall(msgspec.Struct, frozen=True, tag="forall"):
-    """The body holds for every individual of the class."""
-
-    variable: str
-    cls: str
-    body: Condition
-
-
-Condition: TypeAlias = Holds | Compare | Same | HasProperty | IsA | Given | Not | And | Or | Exists | Forall
+from skillc_rdf.vocabulary.conditions import And as And
+from skillc_rdf.vocabulary.conditions import Anything as Anything
+from skillc_rdf.vocabulary.conditions import Arithmetic as Arithmetic
+from skillc_rdf.vocabulary.conditions import Compare as Compare
+from skillc_rdf.vocabulary.conditions import Condition as Condition
+from skillc_rdf.vocabulary.conditions import Exists as Exists
+from skillc_rdf.vocabulary.conditions import Expression as Expression
+from skillc_rdf.vocabulary.conditions import Forall as Forall
+from skillc_rdf.vocabulary.conditions import Given as Given
+from skillc_rdf.vocabulary.conditions import HasProperty as HasProperty
+from skillc_rdf.vocabulary.conditions import Holds as Holds
+from skillc_rdf.vocabulary.conditions import Individual as Individual
+from skillc_rdf.vocabulary.conditions import Invoke as Invoke
+from skillc_rdf.vocabulary.conditions import IsA as IsA
+from skillc_rdf.vocabulary.conditions import Literal as Literal
+from skillc_rdf.vocabulary.conditions import Not as Not
+from skillc_rdf.vocabulary.conditions import Operator as Operator
+from skillc_rdf.vocabulary.conditions import Or as Or
+from skillc_rdf.vocabulary.conditions import PropertyOf as PropertyOf
+from skillc_rdf.vocabulary.conditions import Same as Same
+from skillc_rdf.vocabulary.conditions import Term as Term
+from skillc_rdf.vocabulary.conditions import Variable as Variable
 
 
 class Assert(msgspec.Struct, frozen=True, tag="assert"):

@@ -18,7 +18,7 @@ def test_each_form_begins_with_its_word() -> None:
 @pytest.mark.parametrize(
     ("text", "form"),
     [
-        ("relation near\n", "`relation NAME(CLASS, CLASS)`"),
+        ("relation near\n", "`relation NAME(CLASS, CLASS)` or `relation NAME(NAME: CLASS, NAME: CLASS) = CONDITION`"),
         ("skill X {\n    infer a\n}\n", "`infer NAME: CLASS`"),
         ("impl x of X {\n    do seq {\n        wait\n    }\n}\n", "`wait 1 s` or `wait until C`"),
     ],

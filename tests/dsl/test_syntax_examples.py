@@ -51,7 +51,7 @@ def test_the_vocabulary() -> None:
     board, eraser, *_, at, holds, force, _, lanes = file.declarations
     assert shape(board) == ("ClassDeclaration", "Whiteboard", ("Surface",), (), "")
     assert shape(eraser) == ("ClassDeclaration", "Eraser", ("Tool",), ("Gripper",), "")
-    assert shape(at) == ("RelationDeclaration", "at", "Thing", "Location", (("Trait", "functional", None),), "")
+    assert shape(at) == ("RelationDeclaration", "at", "Thing", "Location", (("Trait", "functional", None),), "", None)
     assert isinstance(holds, s.RelationDeclaration)
     assert [(t.kind, t.name and t.name.text) for t in holds.traits] == [
         ("inverse", "heldBy"),

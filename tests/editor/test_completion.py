@@ -54,6 +54,8 @@ EXACT = [
 AMONG = [
     ("infer at", "    pre arm |", "hasA hasGripper at", "fixedTo target deviceState duration"),
     ("infer at", "    pre panel |", "fixedTo", "hasGripper pre"),
+    ("class Panel", "relation isAt(x: Panel, y: Location) = x |", "fixedTo", "hasGripper pre"),
+    ("class Panel", "relation isAt(x: Panel, y: Location) = |", "x y exists not", "pre"),
     ("infer at", "    pre arm.|", "deviceState pose", "isClean wear normal"),
     ("infer at", "    pre panel.is|", "isClean wear normal", "deviceState"),
     ("infer at", "    pre |", "panel arm not exists forall", "pre Move"),

@@ -13,8 +13,22 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Requirement
 from skillc_dsl.diagnostics import Diagnostic, Label
-from skillc_model.conditions import Assert, Assign, Compare, Effect, Expression, HasProperty, Holds, Literal, Retract
+from skillc_dsl.source import Span
+from skillc_model.conditions import (
+    Anything,
+    Assert,
+    Assign,
+    Compare,
+    Effect,
+    Expression,
+    HasProperty,
+    Holds,
+    Literal,
+    Not,
+    Retract,
+)
 from skillc_model.foresight import CLAIMED
+from skillc_model.format_condition import format_condition
 from skillc_model.rewriting import substitute
 from skillc_rdf.vocabulary.types import PropertyTerm, RelationTerm, Vocabulary, local_name
 
@@ -48,8 +62,7 @@ def _check_posts(
                 if not post.sensed:
                     yield _not_literal(effect)
                 continue
-            if not post.sensed:
-                yield from _check_computed(conflicts.vocabulary, effect, post)
+            yield from _check_computed(conflicts.vocabulary, effect, post)
             seen = substitute(effect, names)
             yield from islice(known.contradictions(seen, post), MOST_CONFLICTS)
             known.add(seen, post)
@@ -120,6 +133,11 @@ def _check_computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -
         term = vocabulary.properties.get(effect.property)
     else:
         term = vocabulary.relations.get(effect.relation)
+        if effect.relation in vocabulary.definitions:
+            yield _defined(vocabulary, effect, post)
+            return
+    if post.sensed:
+        return
     if term is not None and term.computed_by is not None and term.iri not in CLAIMED:
         yield Diagnostic(
             "computed-property",
@@ -127,6 +145,28 @@ def _check_computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -
             f"`{local_name(term.iri)}` follows from other facts and cannot be set",
             help="mark the post `sensed`, or state the facts it follows from",
         )
+
+
+def _defined(vocabulary: Vocabulary, effect: Assert | Retract, post: Requirement) -> Diagnostic:
+    """Return that a post is about a defined relation, with what would make it so in its place."""
+    definition = vocabulary.definitions[effect.relation]
+    sides = ((definition.subject, effect.subject), (definition.object, effect.object))
+    values = {side.name: term for side, term in sides if not isinstance(term, Anything)}
+    meant = substitute(definition.condition, values)
+    if isinstance(effect, Retract):
+        meant = Not(meant)
+    return Diagnostic(
+        "computed-property",
+        post.condition.span,
+        f"`{local_name(effect.relation)}` is defined by a condition, so no skill makes it true or false",
+        help=f"state the facts that make this so: {format_condition(meant, vocabulary)}",
+        labels=(Label(at, "defined here"),) if (at := _place_of(vocabulary.relations[effect.relation])) else (),
+    )
+
+
+def _place_of(term: RelationTerm) -> Span | None:
+    place = term.source
+    return Span(place.path, place.line, 1, place.line, 2) if place else None
 
 
 def _find_conflict(conflicts: Conflicts, effect: Effect, other: Effect) -> tuple[str, str] | None:

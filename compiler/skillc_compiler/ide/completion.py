@@ -26,7 +26,7 @@ from skillc_dsl.units import UNITS
 
 _BEGINNING = frozenset(each.words[0].text for each in CONSTRUCTS if each.group in ("declaration", "member", "flag"))
 _VALUES = frozenset(("true", "false"))
-_CLASS_LISTS = {"CLASS": ("LESS", "DISJOINT", "COMMA"), "RELATION": ("LPAR", "COMMA"), "PROPERTY": ("LPAR",)}
+_CLASS_LISTS = {"CLASS": ("LESS", "DISJOINT", "COMMA"), "RELATION": ("LPAR", "COMMA", "LABEL"), "PROPERTY": ("LPAR",)}
 
 
 class Completion(msgspec.Struct, frozen=True):
@@ -100,6 +100,8 @@ def _names(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterato
         case ("USE",), _:
             written = {token.value for token in cursor.before}
             yield from (Offer(p, "vocabulary") for p in analysis.library.vocabulary.prefixes if p not in written)
+        case ("RELATION",), _ if "EQUAL" in types:
+            yield from _in_members(analysis, around, cursor)
         case (head,), (last,) if last in _CLASS_LISTS.get(head, ()):
             yield from offers.offer_classes(around)
         case ("RELATION",), ("INVERSE" | "SUB",):

@@ -100,7 +100,9 @@ def _bound(step: TypedNode) -> Iterator[tuple[str, Type]]:
 
 
 def _quantified(tokens: Sequence[Token], visible: VisibleNames) -> Iterator[tuple[str, Type]]:
+    """Yield the variables of quantifiers, and the sides of a relation that is being defined."""
+    sides = ("LPAR", "COMMA") if tokens and tokens[0].type == "RELATION" else ()
     for first, label, cls in zip(tokens, tokens[1:], tokens[2:], strict=False):
-        if first.type in ("EXISTS", "FORALL") and label.type == "LABEL":
+        if first.type in ("EXISTS", "FORALL", *sides) and label.type == "LABEL":
             iri = visible.term("class", cls.value)
             yield label.value.rstrip(":"), Thing(iri) if iri else UNKNOWN

@@ -77,6 +77,15 @@ class FileOccurrences(BodyOccurrences, frozen=True):
         for trait in written.traits:
             if trait.name is not None:
                 yield from self.term("relation", trait.name)
+        if written.definition is not None:
+            yield from self._definition(written.definition)
+
+    def _definition(self, written: s.Definition) -> Iterator[Occurrence]:
+        known: dict[str, Symbol] = {}
+        for name in (written.subject, written.object):
+            known[name.text] = LocalSymbol("variable", written.span, name.text)
+            yield Occurrence(name.span, known[name.text], declares=True)
+        yield from self.condition(known, written.condition)
 
     def _function(self, written: s.FunctionDeclaration) -> Iterator[Occurrence]:
         yield Occurrence(written.name.span, FunctionSymbol(written.name.text), declares=True)

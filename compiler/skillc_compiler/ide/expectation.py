@@ -42,7 +42,8 @@ def _compared(around: CursorContext, tokens: Sequence[Token]) -> ExpectedType:
 def _declared(around: CursorContext, tokens: Sequence[Token]) -> ExpectedType:
     """Return the type declared after the last label, for a default or the bounds of a range."""
     labels = [index for index, token in enumerate(tokens) if token.type == "LABEL"]
-    if not labels or labels[-1] + 1 >= len(tokens) or tokens[-2].type == "LET":
+    defines = tokens[0].type == "RELATION"
+    if defines or not labels or labels[-1] + 1 >= len(tokens) or tokens[-2].type == "LET":
         return ANYTHING
     name, *rest = tokens[labels[-1] + 1 :]
     if name.value == "Vector" and len(rest) > 1 and rest[0].type == "OF" and rest[1].value in DIMENSIONS:

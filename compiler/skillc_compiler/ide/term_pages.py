@@ -129,9 +129,17 @@ def _relation(vocabulary: Vocabulary, term: RelationTerm) -> str:
         ", ".join(trait for trait, has in traits.items() if has),
         f"inverse of `{local_name(term.inverse)}`" if term.inverse else "",
         f"implies `{_names(term.parents)}`" if term.parents else "",
-        f"computed by `{term.computed_by}`" if term.computed_by else "",
+        _origin(vocabulary, term),
         f"`{vocabulary.short(term.iri)}`",
     )
+
+
+def _origin(vocabulary: Vocabulary, term: RelationTerm) -> str:
+    definition = vocabulary.definitions.get(term.iri)
+    if definition is None:
+        return f"computed by `{term.computed_by}`" if term.computed_by else ""
+    sides = f"{definition.subject.name} {local_name(term.iri)} {definition.object.name}"
+    return f"`{sides}` is defined as `{definition.text}`"
 
 
 def _property(vocabulary: Vocabulary, term: PropertyTerm) -> str:

@@ -13,10 +13,10 @@ import msgspec
 from msgspec import structs
 
 from skillc_compiler.program.called import called_by
-from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Task
+from skillc_compiler.program.typed import DefinedRelation, Implementation, ParsedFile, Program, Skill, Task
 from skillc_dsl import syntax as s
 
-Declared = TypeVar("Declared", Skill, Implementation, Task)
+Declared = TypeVar("Declared", Skill, Implementation, Task, DefinedRelation)
 
 
 class Reads(Enum):
@@ -47,7 +47,12 @@ class Part(msgspec.Struct, frozen=True):
 
 def resolved_parts(program: Program) -> Iterator[Part]:
     """Yield every declaration of a program as it is resolved."""
-    resolved: list[Skill | Implementation | Task] = [*program.skills.values(), *program.implementations, *program.tasks]
+    resolved: list[Skill | Implementation | Task | DefinedRelation] = [
+        *program.defined,
+        *program.skills.values(),
+        *program.implementations,
+        *program.tasks,
+    ]
     for each in resolved:
         yield Part((each, program.vocabulary), partial(_alone, program, each))
 
@@ -88,7 +93,7 @@ def split_by_file(program: Program) -> dict[str, Program]:
     """Return, by path, a program with the declarations of one file only."""
     files = {unit.file.path: unit for unit in program.files}
     skills, implementations = _by_path(program.skills.values()), _by_path(program.implementations)
-    tasks = _by_path(program.tasks)
+    tasks, defined = _by_path(program.tasks), _by_path(program.defined)
     return {
         path: replace(
             program,
@@ -96,8 +101,9 @@ def split_by_file(program: Program) -> dict[str, Program]:
             skills={each.name: each for each in skills[path]},
             implementations=tuple(implementations[path]),
             tasks=tuple(tasks[path]),
+            defined=tuple(defined[path]),
         )
-        for path in dict.fromkeys((*files, *skills, *implementations, *tasks))
+        for path in dict.fromkeys((*files, *skills, *implementations, *tasks, *defined))
     }
 
 
@@ -108,7 +114,7 @@ def _by_path(declared: Iterable[Declared]) -> defaultdict[str, list[Declared]]:
     return found
 
 
-def _alone(program: Program, each: Skill | Implementation | Task) -> Program:
+def _alone(program: Program, each: Skill | Implementation | Task | DefinedRelation) -> Program:
     return Program(
         name=program.name,
         vocabulary=program.vocabulary,
@@ -117,6 +123,7 @@ def _alone(program: Program, each: Skill | Implementation | Task) -> Program:
         implementations=(each,) if isinstance(each, Implementation) else (),
         tasks=(each,) if isinstance(each, Task) else (),
         used={},
+        defined=(each,) if isinstance(each, DefinedRelation) else (),
     )
 
 

@@ -252,6 +252,18 @@ class Test(Task, frozen=True):
         return (*(() if self.goal is None else (self.goal,)), *self.starts, *expected)
 
 
+class DefinedRelation(msgspec.Struct, frozen=True):
+    """A relation that is defined by a condition on its sides; `text` is the condition as written."""
+
+    iri: str
+    subject: s.Name
+    object: s.Name
+    condition: TypedCondition
+    text: str
+    name_span: Span
+    span: Span
+
+
 class ParsedFile(msgspec.Struct, frozen=True):
     """A parsed file, the library it belongs to with the namespace of its terms, and the files it imports.
 
@@ -287,6 +299,7 @@ class Program:
     lost: LostNames = field(default_factory=LostNames)
     neighbours: tuple[Implementation, ...] = ()
     terms: Mapping[str, Span] = field(default_factory=dict)
+    defined: tuple[DefinedRelation, ...] = ()
 
     @cached_property
     def implementations_of(self) -> Mapping[str, tuple[Implementation, ...]]:

@@ -57,6 +57,8 @@ def all_requirements(program: Program) -> Iterator[Requirement]:
 
 def all_conditions(program: Program) -> Iterator[TypedCondition]:
     """Yield every condition and its parts."""
+    for relation in program.defined:
+        yield from conditions_in(relation.condition)
     for requirement in all_requirements(program):
         yield from conditions_in(requirement.condition)
     for event in all_events(program):

@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 from msgspec import structs
 
-from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Task
+from skillc_compiler.program.typed import DefinedRelation, Implementation, ParsedFile, Program, Skill, Task
 from skillc_compiler.program.unknown import LostNames, find_lost, limit_candidates
 from skillc_compiler.resolve.declarations import (
     Bare,
@@ -20,6 +20,7 @@ from skillc_compiler.resolve.declarations import (
     merge_imported,
     prefixes_in,
 )
+from skillc_compiler.resolve.definitions import define_relations
 from skillc_compiler.resolve.duplicates import remove_duplicates
 from skillc_compiler.resolve.editions import read_older_editions
 from skillc_compiler.resolve.homes import Homes, names_by_import
@@ -66,7 +67,7 @@ def resolve_program(
     files = unique.files
     lost = structs.replace(_find_lost(read, base), twice=unique.twice)
     names = _names(files, declared, bare, base, memo, importable)
-    vocabulary, of_terms = _terms(files, declared, names, base, memo)
+    vocabulary, defined, of_terms = _terms(files, declared, names, base, memo)
     resolver = Resolver(memo, {path: [found] for path, found in of_terms.items()})
     contexts = _contexts(files, declared, names, vocabulary, memo)
     skills = _skills(files, contexts, resolver)
@@ -88,6 +89,7 @@ def resolve_program(
             limit_candidates(name for found in resolver.found.values() for each in found for name in each.unknown)
         ),
         lost=lost,
+        defined=defined,
     )
     problems = (problem for found in resolver.found.values() for each in found for problem in each.problems)
     return Outcome(program, (*_headers(files, base), *unique.diagnostics, *problems))
@@ -118,18 +120,18 @@ def _terms(
     names: Mapping[str, Names],
     base: Vocabulary,
     memo: Memo,
-) -> tuple[Vocabulary, Mapping[str, Findings]]:
-    """Return the vocabulary with the terms that the files declare, and what was found in each file on the way."""
+) -> tuple[Vocabulary, tuple[DefinedRelation, ...], Mapping[str, Findings]]:
+    """Return the vocabulary with the terms that the files declare, those that they define, and what else was found."""
     written = tuple((unit, names[unit.file.path]) for unit in map(_without_skills, files) if _changes_terms(unit.file))
     inputs = memo.same("declared terms", "", (base, written))
 
-    def extend() -> tuple[Vocabulary, Mapping[str, Findings]]:
+    def extend() -> tuple[Vocabulary, tuple[DefinedRelation, ...], Mapping[str, Findings]]:
         own = {path: replace(each, problems=[], unknown=[], used=set(), terms={}) for path, each in names.items()}
-        vocabulary = extend_vocabulary(base, files, declared, own)
-        return vocabulary, {path: Findings.of(each) for path, each in own.items()}
+        vocabulary, defined = define_relations(extend_vocabulary(base, files, declared, own), files, declared, own)
+        return vocabulary, defined, {path: Findings.of(each) for path, each in own.items()}
 
-    vocabulary, found = memo.ask("terms", (inputs,), extend)
-    return memo.same("vocabulary", "", vocabulary), {path: found.get(path, NOTHING) for path in names}
+    vocabulary, defined, found = memo.ask("terms", (inputs,), extend)
+    return memo.same("vocabulary", "", vocabulary), defined, {path: found.get(path, NOTHING) for path in names}
 
 
 def _without_skills(unit: ParsedFile) -> ParsedFile:

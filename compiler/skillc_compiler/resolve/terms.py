@@ -36,6 +36,7 @@ def extend_vocabulary(
     """
     classes, relations = dict(vocabulary.classes), dict(vocabulary.relations)
     properties, functions = dict(vocabulary.properties), dict(vocabulary.functions)
+    defined = set[str]()
     for unit in files:
         here, look_up = declared[unit.file.path], names[unit.file.path]
         look_up.problems += _report_extended(unit, here, vocabulary)
@@ -50,6 +51,9 @@ def extend_vocabulary(
                         classes[iri] = term
                 case s.RelationDeclaration():
                     iri = _declared_iri("relation", declaration.name, here, look_up)
+                    if iri in relations and (iri in defined or declaration.definition is not None):
+                        look_up.problems.append(_not_only_defined(declaration.name, relations[iri], vocabulary))
+                    defined |= {iri} if declaration.definition is not None else set()
                     relations[iri] = _relation(declaration, iri, relations.get(iri), look_up)
                 case s.PropertyDeclaration():
                     iri = _declared_iri("property", declaration.name, here, look_up)
@@ -75,6 +79,16 @@ def _another_thing(name: s.Name) -> Diagnostic:
         name.span,
         f"`{name.text}` is already the class of all things, `owl:Thing`, to which nothing can be added",
         help="choose another name",
+    )
+
+
+def _not_only_defined(name: s.Name, old: RelationTerm, vocabulary: Vocabulary) -> Diagnostic:
+    return Diagnostic(
+        "contradicting-declaration",
+        name.span,
+        f"`{vocabulary.short(old.iri)}` is declared elsewhere: a relation that is defined has one declaration",
+        help="give the relation another name, or make one condition of both with `or`",
+        labels=_declared_at(old),
     )
 
 

@@ -14,7 +14,11 @@ _DECLARATIONS = (
     Construct("declaration", words("prefix"), "prefix lab: <http://example.org/lab#>"),
     Construct("declaration", words("import"), 'import "NAME.skill"'),
     Construct("declaration", (*reserved("class"), *words("disjoint")), "class NAME < PARENT"),
-    Construct("declaration", reserved("relation"), "relation NAME(CLASS, CLASS)"),
+    Construct(
+        "declaration",
+        reserved("relation"),
+        "relation NAME(CLASS, CLASS)` or `relation NAME(NAME: CLASS, NAME: CLASS) = CONDITION",
+    ),
     Construct("declaration", reserved("property"), "property NAME(CLASS): TYPE"),
     Construct(
         "declaration",

@@ -70,14 +70,14 @@ class FileFormatter(MemberFormatter):
             content, last = self._class(rest)
         else:
             content, last = self._signature(rest)
-        if tree.data in ("function", "property") or not last:
+        if tree.data in ("function", "property") or not last or _is_tree(rest[-1], "definition"):
             return MemberLine(above, (first,), d.concatenate(content, *last))
         return MemberLine(above, (first, ColumnCell(str(tree.data), content, gap=2)), d.concatenate(*last[1:]))
 
     def _class(self, rest: Sequence[Branch]) -> tuple[d.Document, list[d.Document]]:
         """Return the name of a class with its parents, and the disjoint classes."""
         *content, last = rest
-        if isinstance(last, Tree) and last.data == "disjoint":
+        if _is_tree(last, "disjoint"):
             return self.spaced(content), [d.Gap(), self.of(last)]
         return self.spaced(rest), []
 
@@ -98,6 +98,10 @@ def _keyword(tree: Tree) -> Token:
     if not isinstance(first, Token):
         raise TypeError(f"a keyword was expected, not {first!r}")
     return first
+
+
+def _is_tree(branch: Branch, rule: str) -> bool:
+    return isinstance(branch, Tree) and branch.data == rule
 
 
 def _has_blank(above: d.Document) -> bool:

@@ -16,6 +16,7 @@ from skillc_dsl.syntax.conditions import Quantified as Quantified
 from skillc_dsl.syntax.conditions import Relation as Relation
 from skillc_dsl.syntax.declarations import ClassDeclaration as ClassDeclaration
 from skillc_dsl.syntax.declarations import Declaration as Declaration
+from skillc_dsl.syntax.declarations import Definition as Definition
 from skillc_dsl.syntax.declarations import ErrorNode as ErrorNode
 from skillc_dsl.syntax.declarations import Expect as Expect
 from skillc_dsl.syntax.declarations import File as File

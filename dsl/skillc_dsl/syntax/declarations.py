@@ -68,8 +68,18 @@ class Trait(msgspec.Struct, frozen=True):
     span: Span
 
 
+class Definition(msgspec.Struct, frozen=True):
+    """`(subject: Class, object: Class) = condition`; `text` is the condition as written, in one line."""
+
+    subject: Name
+    object: Name
+    condition: Condition
+    text: str
+    span: Span
+
+
 class RelationDeclaration(msgspec.Struct, frozen=True):
-    """`relation name(Domain, Range) traits`; repeated, a further signature."""
+    """`relation name(Domain, Range) traits`, repeated a further signature; or with a definition instead of traits."""
 
     name: Name
     domain: Name
@@ -77,6 +87,7 @@ class RelationDeclaration(msgspec.Struct, frozen=True):
     traits: tuple[Trait, ...]
     doc: str
     span: Span
+    definition: Definition | None = None
 
 
 class PropertyDeclaration(msgspec.Struct, frozen=True):

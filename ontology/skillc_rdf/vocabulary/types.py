@@ -11,6 +11,7 @@ import msgspec
 from skillc_dsl.position import Position
 from skillc_rdf.vocabulary.closure import RelationClosure
 from skillc_rdf.vocabulary.components import components
+from skillc_rdf.vocabulary.conditions import Condition, Variable
 
 T = TypeVar("T")
 
@@ -114,6 +115,20 @@ class RelationTerm(msgspec.Struct, frozen=True, kw_only=True):
         return tuple(name.replace("_", " ") for name in CHARACTERISTICS if getattr(self, name))
 
 
+class Definition(msgspec.Struct, frozen=True, kw_only=True):
+    """What a relation of two individuals is defined as: a condition on `subject` and `object`.
+
+    `text` is the condition as its author wrote it. `group` are the relations that are defined by one another, itself
+    included, sorted; empty if its condition does not lead back to it.
+    """
+
+    subject: Variable
+    object: Variable
+    condition: Condition
+    text: str
+    group: tuple[str, ...] = ()
+
+
 class Bounds(msgspec.Struct, frozen=True, kw_only=True):
     """Bounds of a number: `least` and `greatest` are inclusive, `above` and `below` exclusive."""
 
@@ -178,6 +193,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     bodies, so that they need not state what a simulation has to know: sizes, poses and data sheets. `idle` are the
     relations and properties of other ontologies than the shipped ones that no skill reads (`with_named`), sorted:
     scenes may contradict them. `individuals` are those of these ontologies, such as units, with their classes.
+    `definitions` are those of the relations that the library defines by conditions.
     """
 
     symbolic: bool = False
@@ -187,6 +203,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     since: dict[str, int] = {}
     classes: dict[str, ClassTerm] = {}
     relations: dict[str, RelationTerm] = {}
+    definitions: dict[str, Definition] = {}
     properties: dict[str, PropertyTerm] = {}
     functions: dict[str, FunctionTerm] = {}
     idle: tuple[str, ...] = ()

@@ -13,11 +13,15 @@ ANY_PREFIX = "?"
 
 
 class AliasTypes(msgspec.Struct, frozen=True):
-    """The class of each name, as far as known. A name with ANY_PREFIX is any individual of the class after it."""
+    """The class of each name, as far as known. A name with ANY_PREFIX is any individual of the class after it.
+
+    `unfolds` is how often definitions that lead back to themselves are looked into.
+    """
 
     vocabulary: Vocabulary
     axioms: CanonicalAxioms
     classes: dict[str, str] = msgspec.field(default_factory=dict)
+    unfolds: int = 2
 
     def class_of(self, thing: IndividualTerm) -> str:
         """Return the declared class of a name; `owl:Thing` for a named individual."""

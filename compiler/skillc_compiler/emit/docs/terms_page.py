@@ -126,5 +126,9 @@ def _relation(term: RelationTerm, links: LinkWriter) -> Iterator[Markup]:
     yield from (Markup("implies {}").format(links.term(iri)) for iri in term.parents)
     if term.inverse:
         yield Markup("inverse of {}").format(links.term(term.inverse))
-    if term.computed_by:
+    definition = links.vocabulary.definitions.get(term.iri)
+    if definition is not None:
+        sides = f"{definition.subject.name} {local_name(term.iri)} {definition.object.name}"
+        yield Markup("<code>{}</code> is defined as <code>{}</code>").format(sides, definition.text)
+    elif term.computed_by:
         yield Markup("computed by <code>{}</code>").format(term.computed_by)

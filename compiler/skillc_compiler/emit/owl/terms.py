@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from skillc_compiler.emit.owl.turtle import RDF_TYPE, AnonymousNode, IriNode, ListNode, Object
 from skillc_compiler.emit.owl.words import DATATYPES, OWL, RDFS, SKILLC, XSD, declare_frame
 from skillc_model.conditions import IsA
+from skillc_model.format_condition import format_condition
 from skillc_model.format_type import SI_UNITS
 from skillc_model.read_write import terms_read
 from skillc_model.skills import Implementation, Skill, SkillLibrary
@@ -20,6 +21,7 @@ from skillc_rdf.vocabulary.types import (
     RelationTerm,
     VectorType,
     Vocabulary,
+    local_name,
 )
 
 Statement = tuple[str, str, Object]
@@ -43,6 +45,7 @@ def describe_terms(library: SkillLibrary) -> Iterator[Statement]:
     yield from declare_frame()
     for term in relations:
         yield from _relation(term)
+        yield from _definition(term, vocabulary)
     for each in properties:
         yield from _property(each)
     for iri in sorted(classes):
@@ -104,6 +107,15 @@ def _relation(term: RelationTerm) -> Iterator[Statement]:
             yield term.iri, f"{RDFS}{side}", _union(ends)
     if term.comment:
         yield term.iri, f"{RDFS}comment", term.comment
+
+
+def _definition(term: RelationTerm, vocabulary: Vocabulary) -> Iterator[Statement]:
+    """Yield what a relation is defined as, as an annotation: OWL cannot say that nothing else implies it."""
+    definition = vocabulary.definitions.get(term.iri)
+    if definition is not None:
+        condition = format_condition(definition.condition, vocabulary)
+        sides = f"{definition.subject.name} {local_name(term.iri)} {definition.object.name}"
+        yield term.iri, f"{SKILLC}definition", f"{sides} = {condition}"
 
 
 def _property(term: PropertyTerm) -> Iterator[Statement]:

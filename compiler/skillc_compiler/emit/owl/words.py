@@ -51,9 +51,9 @@ RELATIONS = (
 )
 PROPERTIES = tuple(f"{SKILLC}{name}" for name in ("desiredState", "operator", "conditionText"))
 _NOTES = """
-    comparedValue conditionProperty conditionRelation definedAt defaultValue dimension direction duration durationUnit
-    greatestValue implements isList keep keepUnit leastValue parameterType pause preference python rank sensed sha256
-    unit
+    comparedValue conditionProperty conditionRelation definedAt defaultValue definition dimension direction duration
+    durationUnit greatestValue implements isList keep keepUnit leastValue parameterType pause preference python rank
+    sensed sha256 unit
 """
 ANNOTATIONS = tuple(f"{SKILLC}{name}" for name in _NOTES.split())
 

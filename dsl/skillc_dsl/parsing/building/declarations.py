@@ -65,10 +65,28 @@ class FileBuilder(MemberBuilder):
         return self.part("disjoint", children)
 
     def relation(self, children: list[Child]) -> s.RelationDeclaration:
-        """`relation name(Domain, Range) traits`"""
-        name, domain, range_ = children_of_type(children, s.Name)
-        span = self.over(children)
-        return s.RelationDeclaration(name, domain, range_, children_of_type(children, s.Trait), self.doc(span), span)
+        """`relation name(Domain, Range) traits` or `relation name(x: Domain, y: Range) = condition`"""
+        span, written = self.over(children), find_part(children, "definition")
+        if written is None:
+            name, domain, range_ = children_of_type(children, s.Name)
+            traits = children_of_type(children, s.Trait)
+            return s.RelationDeclaration(name, domain, range_, traits, self.doc(span), span)
+        (subject, domain), (object_, range_) = (
+            (self.label(part.children[0]), self.as_name(part.children[1]))
+            for part in children_of_type(children, MemberPart)
+            if part.rule == "side"
+        )
+        condition = self.condition(written.children[1])
+        definition = s.Definition(subject, object_, condition, self.written(condition.span), written.span)
+        return s.RelationDeclaration(self.as_name(children[1]), domain, range_, (), self.doc(span), span, definition)
+
+    def side(self, children: list[Child]) -> MemberPart:
+        """`x: Class` in the head of a defined relation"""
+        return self.part("side", children)
+
+    def definition(self, children: list[Child]) -> MemberPart:
+        """`= condition`"""
+        return self.part("definition", children)
 
     def trait(self, children: list[Child]) -> s.Trait:
         """`functional`, `inverse NAME` and their like"""

@@ -15,18 +15,12 @@ from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.closure import reachable
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.planning.plan import Excluded, LeftOut
+from skillc_runtime.planning.problem.definitions import LONG_CHAINS, MOST_STEPS, expand_definitions
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem, with_vocabulary
 from skillc_runtime.planning.stated_facts import LibraryKey, StatedTerms, VocabularyKey
 from skillc_runtime.world.state.versioned import PairIndex, PairIndexBuilder
 from skillc_runtime.world.state.world_state import WorldState
-
-MOST_STEPS = 3
-"""How many facts that skills change a chain may have at most; longer ones are not planned with."""
-
-LONG_CHAINS = LeftOut(
-    ("longer chains",), f"what follows from more than {MOST_STEPS} facts that skills change", False, kind="chains"
-)
 
 
 class UnrolledProblem(msgspec.Struct, frozen=True):
@@ -51,10 +45,11 @@ class UnrolledProblem(msgspec.Struct, frozen=True):
 
 def unroll_chains(library: SkillLibrary, state: WorldState, goal: Condition) -> UnrolledProblem:
     """Return what a planner is to plan with instead of chains of facts that skills change; the same without such."""
-    library = with_vocabulary(library, state.vocabulary)
+    whole = with_vocabulary(library, state.vocabulary)
+    library, goal, left_out = expand_definitions(whole, state, goal)
     chains = _find_chains(LibraryKey(library), goal)
     if not chains:
-        return UnrolledProblem(library, state, goal, library)
+        return UnrolledProblem(library, state, goal, whole, left_out)
     links = {each.relation: _Links(each, state) for each in chains}
     lengths = tuple((each, links[each.relation].length) for each in chains)
     unrolled = _unroll_library(LibraryKey(library), VocabularyKey(library.vocabulary), lengths)
@@ -62,8 +57,9 @@ def unroll_chains(library: SkillLibrary, state: WorldState, goal: Condition) -> 
     facts = {each.fixed: links[each.relation].fixed for each in chains}
     facts |= {each.moving: links[each.relation].moving for each in chains}
     wanted = _GoalUnrolling(links, _unrolling(lengths, library.vocabulary)).of(goal)
-    left_out = (LONG_CHAINS,) if any(each.cut for _, each in lengths) else ()
-    return UnrolledProblem(unrolled, stated.apply(state, facts), wanted, library, left_out)
+    if any(each.cut for _, each in lengths):
+        left_out = (LONG_CHAINS,)
+    return UnrolledProblem(unrolled, stated.apply(state, facts), wanted, whole, left_out)
 
 
 class _Length(NamedTuple):

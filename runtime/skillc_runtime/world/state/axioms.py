@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from skillc_rdf.vocabulary.closure import Directed, OnDemand
 from skillc_rdf.vocabulary.types import THING, Vocabulary
-from skillc_runtime.world.state.computed import ComputedRelation
+from skillc_runtime.world.state.computed import ComputedRelation, ReasonedRelation
+from skillc_runtime.world.state.python_calls import load_python
 
 
 class WorldAxioms:
@@ -12,13 +13,15 @@ class WorldAxioms:
 
     `implied`, `sources` and `transitive` are those of the vocabulary's closure. `carriers[x]`, for a relation x that is
     not transitive, are the transitive relations of which every fact also holds in x. `plain` relations have only
-    asserted facts. `computed` relations have no stored facts: their reasoners decide whether they hold.
+    asserted facts. `computed` relations have no stored facts: reasoners, or conditions, decide whether they hold.
     """
 
     def __init__(self, vocabulary: Vocabulary) -> None:
         self._vocabulary = vocabulary
-        self.computed = {
-            iri: ComputedRelation(term, term.computed_by)
+        self.computed: dict[str, ComputedRelation] = {
+            iri: load_python(term.computed_by)(term, vocabulary.definitions[iri])
+            if iri in vocabulary.definitions
+            else ReasonedRelation(term, term.computed_by)
             for iri, term in vocabulary.relations.items()
             if term.computed_by is not None
         }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from functools import cached_property
 from typing import Protocol, TypeVar
@@ -44,11 +45,11 @@ class Reasoner(Protocol[State]):
         ...
 
 
-class ComputedRelation:
-    """A relation with the reasoner that decides whether it holds."""
+class ComputedRelation(ABC):
+    """A relation that follows from facts."""
 
-    def __init__(self, term: RelationTerm, target: str) -> None:
-        self._term, self._target, self._name = term, target, local_name(term.iri)
+    def __init__(self, term: RelationTerm) -> None:
+        self._term = term
 
     def holds(self, state: ClassIndex, subject: str, object_: str) -> bool:
         """Whether the relation holds; EvaluationError when the reasoner is missing or fails."""
@@ -56,12 +57,17 @@ class ComputedRelation:
 
     def obstacle(self, state: ClassIndex, subject: str, object_: str) -> str | None:
         """Return why the relation does not hold; None when it holds. EvaluationError as for `holds`."""
-        for each in self._term.signatures:
-            if state.is_a(subject, each.domain) and state.is_a(object_, each.range):
-                return call_python(self._ask, self._name, state, subject, object_)
+        if self.takes(state, subject, object_):
+            return self._ask(state, subject, object_)
         short = state.vocabulary.short
         taken = " or ".join(f"({short(each.domain)}, {short(each.range)})" for each in self._term.signatures)
         return f"{short(self._term.iri)} takes {taken}"
+
+    def takes(self, state: ClassIndex, subject: str, object_: str) -> bool:
+        """Whether the two are of the relation's domain and range."""
+        return any(
+            state.is_a(subject, each.domain) and state.is_a(object_, each.range) for each in self._term.signatures
+        )
 
     def objects(self, state: ClassIndex, subject: str) -> frozenset[str]:
         """Return all individuals that the subject has the relation to; asks the reasoner about each candidate."""
@@ -81,7 +87,22 @@ class ComputedRelation:
         for subject in sorted(subjects):
             yield from ((subject, object_) for object_ in sorted(self.objects(state, subject)))
 
+    @abstractmethod
     def _ask(self, state: ClassIndex, subject: str, object_: str) -> str | None:
+        """Return as `obstacle` for individuals of the domain and range."""
+
+
+class ReasonedRelation(ComputedRelation):
+    """A relation with the reasoner that decides whether it holds."""
+
+    def __init__(self, term: RelationTerm, target: str) -> None:
+        super().__init__(term)
+        self._target, self._name = target, local_name(term.iri)
+
+    def _ask(self, state: ClassIndex, subject: str, object_: str) -> str | None:
+        return call_python(self._reason, self._name, state, subject, object_)
+
+    def _reason(self, state: ClassIndex, subject: str, object_: str) -> str | None:
         try:
             return self._reasoner.obstacle(state, subject, object_)
         except InsufficientFacts as missing:

@@ -148,8 +148,9 @@ class EvidenceLedger:
         """Return the write that decides the evidence for a fact of the current `state`; None for a given fact."""
         match fact:
             case RelationFact(relation=relation) if relation in state.axioms.computed:
-                term = state.vocabulary.relations[relation]
-                read = [each for each in term.computed_from if each in state.vocabulary.properties]
+                defined = relation in state.vocabulary.definitions
+                known = () if defined else state.vocabulary.relations[relation].computed_from
+                read = [each for each in known if each in state.vocabulary.properties]
                 inputs = [PropertyFact(individual, each) for individual in (fact.subject, fact.object) for each in read]
                 return weakest(map(self._last, inputs)) or self._last(fact)
             case RelationFact() if fact.holds:
