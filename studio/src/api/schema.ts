@@ -891,7 +891,7 @@ export interface components {
         };
         /**
          * PropertyOf
-         * @description The value of a data property (stored or computed) of an individual.
+         * @description The value of a data property (stored or computed) of an individual, or the one thing of a functional relation.
          */
         PropertyOf: {
             /** @enum {unknown} */
