@@ -25,6 +25,8 @@ from skillc_runtime.world.state.data_sheet import SheetError
 with naming_extras():
     import gymnasium
 
+__all__ = ["SearchEnv"]
+
 Observation = NDArray[np.float32]
 PERIOD_S, LIMIT_S = 0.05, 20.0
 FORCE_N, SUNK_M = 20.0, 0.005

@@ -20,6 +20,7 @@ from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
 from skillc_runtime.world.state.consistency.axiom_violations import (
+    CONTAINMENT_CIRCLE,
     AxiomViolation,
     axiom_violations,
     standalone_violation,
@@ -54,6 +55,8 @@ def _violations(state: WorldState, change: Change) -> Iterator[AxiomViolation]:
     """Yield the violations of a change; for a functional relation, preferably one that the change violates alone."""
     for violation in axiom_violations(state, change):
         match change:
+            case _ if violation.axiom == CONTAINMENT_CIRCLE:
+                pass  # each circle is reported once, by a check of its own
             case AddRelation(subject, relation, object_) if violation.axiom == "functional-relation":
                 yield standalone_violation(state, (subject, relation, object_)) or violation
             case _:

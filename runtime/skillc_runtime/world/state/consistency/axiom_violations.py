@@ -25,6 +25,8 @@ from skillc_runtime.world.state.facts import IriTriple
 from skillc_runtime.world.state.values import Value, show
 from skillc_runtime.world.state.world_state import WorldState
 
+CONTAINMENT_CIRCLE = "containment-circle"
+
 
 class AxiomViolation(msgspec.Struct, frozen=True):
     """A violated axiom, by name, with a message that states the axiom and the facts.
@@ -150,9 +152,9 @@ def _asymmetry_violations(state: WorldState, subject: str, relation: str, object
         if (term.asymmetric or term.is_acyclic) and start != end and state.holds(end, term.iri, start):
             short = state.vocabulary.short
             opposite = f"{short(end)} {short(term.iri)} {short(start)}"
-            kind = "asymmetric" if term.asymmetric else "acyclic"
+            axiom, kind = ("asymmetric-relation", "asymmetric") if term.asymmetric else (CONTAINMENT_CIRCLE, "acyclic")
             rivals = asserted_facts(state, end, term.iri, start)
-            yield AxiomViolation("asymmetric-relation", f"{short(term.iri)} is {kind}, and `{opposite}` holds", rivals)
+            yield AxiomViolation(axiom, f"{short(term.iri)} is {kind}, and `{opposite}` holds", rivals)
 
 
 def _signature_violations(state: WorldState, subject: str, relation: str, object_: str) -> Iterator[AxiomViolation]:
