@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from pathlib import Path
+
+from msgspec.structs import replace
 
 from refinement.two_arms import PREFIXES
 from skillc.services.reporting.reporter import SilentReporter
@@ -55,8 +58,14 @@ class RunWithPost:
     claims: list[str]
 
 
-def run_with_post(folder: Path, height_m: float, x: float, y: float, physics: bool) -> RunWithPost:
-    """Put the part into the box; a post 6 cm thick stands on the table at x and y, in m from its middle."""
+def run_with_post(
+    folder: Path, height_m: float, x: float, y: float, physics: bool, bears_n: float = inf
+) -> RunWithPost:
+    """Put the part into the box; a post 6 cm thick stands on the table at x and y, in m from its middle.
+
+    `bears_n`: the force on the tool beyond which the arm stops by itself, if it is less than that of its data sheet;
+    somebody acknowledges such a stop, and it is tried again.
+    """
     post = f"skiros:SizeX 0.06 ; skiros:SizeY 0.06 ; skiros:SizeZ {height_m} ; skillc:on lab:Table"
     (folder / "cell.ttl").write_text(
         f"{CELL}lab:Post a skillc:Furniture ; {post} ; skillc:atX {x} ; skillc:atY {y} .\n"
@@ -67,6 +76,9 @@ def run_with_post(folder: Path, height_m: float, x: float, y: float, physics: bo
         world = WorldModel(task.assignment.state)
         cell = SimulatedCell(world) if physics else KinematicCell(world)
         world.commit([RemoveIndividual(POST)], "test", None)
+        if isinstance(cell, SimulatedCell):
+            safety = cell.arm(ARM)._safety
+            safety.limits = replace(safety.limits, contact_force_n=min(bears_n, safety.limits.contact_force_n))
 
         def plan(assignment: Assignment, failures: FailedSteps) -> Ready:
             look = SpaceLook(measure_postures(cell) if claims else None)
@@ -76,6 +88,11 @@ def run_with_post(folder: Path, height_m: float, x: float, y: float, physics: bo
             return Ready(answer)
 
         loop = CellLoop(cell, task.library, plan)
-        run = loop.submit(Assignment("put", world.snapshot(), task.assignment.objective), (events.append,), RunSpec())
-        drive(loop, run)
+        for _ in range(4):
+            assignment = Assignment("put", world.snapshot(), task.assignment.objective)
+            run = loop.submit(assignment, (events.append,), RunSpec())
+            drive(loop, run)
+            if cell.stops.report is None:
+                break
+            cell.stops.clear()
     return RunWithPost(run, events, world, claims)

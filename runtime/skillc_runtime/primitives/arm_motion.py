@@ -117,7 +117,9 @@ class ArmMotion(Primitive):
             raise SkillFailure("the arm has stood still for {standing} before the end of its motion", standing=standing)
 
     def halt(self, reason: str) -> None:
-        """Stop the arm."""
+        """Stop the arm, and note what resists it: its limits may have stopped it before `tick` has felt a touch."""
+        if self._guard.feel_touch() is not None and not self.is_near_end():
+            self.note_touch()
         self.arm.motion.stop()
 
     def pause(self) -> None:

@@ -53,18 +53,22 @@ class TouchGuard:
 
     def find_touch(self) -> SkillFailure | None:
         """Stop the arm if something resists, and return what is touched; else None."""
-        if self._arm.compliance.released:
-            return None
         velocity = self._arm.motion.path_velocity
         speed = hypot(*velocity.tolist())
         if speed > MOVING_M_S:
             self._way = velocity / speed
+        touch = self.feel_touch()
+        if touch is not None:
+            self._hold_here()
+        return touch
+
+    def feel_touch(self) -> SkillFailure | None:
+        """Return what is touched if something resists on the way last taken; the arm is left as it is."""
+        if self._arm.compliance.released:
+            return None
         force = self._arm.measured.wrench[:3].copy()
         resistance_n = -float(force @ self._way)
-        if resistance_n <= self._limit_n:
-            return None
-        self._hold_here()
-        return self._describe(resistance_n, -force / np.linalg.norm(force))
+        return self._describe(resistance_n, -force / np.linalg.norm(force)) if resistance_n > self._limit_n else None
 
     def note_unknown(self, origin: str) -> None:
         """Write to the world model what was touched if nothing is known to be there."""
