@@ -7,6 +7,13 @@ import pytest
 from click.testing import CliRunner
 
 from skillc.cli.main import skillc
+from skillc.services.planning.planning import plan_goal, prepare_planners
+from skillc.services.reporting.reporter import SilentReporter
+from skillc.services.tasks.loading import load_task
+from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.execution.refinement.replanning import plan_in_space
+from skillc_runtime.planning.plan import GaveUp
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_skills import sorting
 
 CELL = (Path(sorting.__path__[0]) / "panda.ttl").read_text()
@@ -81,6 +88,29 @@ lab:Cell skiros:contain lab:Roof .
     answer = plan(tmp_path, (PART_A, PART_A + roof))
     assert answer["status"] != "solved"
     assert "lab:Part-A" in answer["failure"]
+
+
+@pytest.mark.slow
+def test_a_plan_that_does_not_go_is_no_answer_when_the_time_is_up(tmp_path):
+    text = CELL.replace(PART_B, "skillc:on lab:Part-A .")
+    (tmp_path / "cell.ttl").write_text(text)
+    spec = RunSpec(library="sorting", scene=str(tmp_path / "cell.ttl"), goal="lab:Box-A contain lab:Part-A")
+    with load_task(spec, SilentReporter()) as task:
+        cancel, planners, asked = CancelToken(60.0), prepare_planners(False), list[int]()
+
+        def plan_once(without):
+            asked.append(len(without))
+            if without:
+                cancel.cancel("it was stopped")
+                return GaveUp("it was stopped")
+            return plan_goal(task, "work", planners, cancel)
+
+        answer, _ = plan_in_space(task.library, task.assignment.state, plan_once, cancel)
+    assert asked == [0, 1] and isinstance(answer, GaveUp)
+    assert answer.why.startswith(
+        "it was stopped before one was found that the arms can carry out; of the last one: Pick("
+    )
+    assert "lab:Part-B is in the way" in answer.why
 
 
 @pytest.mark.slow

@@ -17,7 +17,7 @@ MOST = 20
 
 
 def name_goal_places(answer: T, goal: Condition, state: WorldState) -> T | GaveUp:
-    """Return an answer to a goal; if no plan was found, it also says which things cannot be put where that wants them.
+    """Return an answer to a goal; if no plan was found, it says first which things cannot be put where that wants them.
 
     That is so as everything stands now, of each thing on its own.
     """
@@ -31,4 +31,4 @@ def name_goal_places(answer: T, goal: Condition, state: WorldState) -> T | GaveU
     wanted = list(list_wanted(state, goal))[:MOST]
     problems = (str(each) for each in (find_place_problem(state, *one) for one in wanted) if each is not None)
     more = [each for each in dict.fromkeys(problems) if each not in answer.why]
-    return structs.replace(answer, why="; ".join((answer.why, *(f"also: {each}" for each in more))))
+    return structs.replace(answer, why="; ".join((*more, answer.why)))

@@ -41,18 +41,16 @@ class PlanLook(msgspec.Struct, frozen=True, kw_only=True):
         """What other plans may not contain; nothing if all steps go, or a value has to be measured first."""
         return () if self.cause == "no-value" else tuple(each.step if each.always else each for each in self.found)
 
-    def explain(self, state: WorldState, needed: tuple[LeftOut, ...] = ()) -> GaveUp:
+    def explain(self, state: WorldState, needed: tuple[LeftOut, ...] = (), ended: str | None = None) -> GaveUp:
         """Return the answer that no plan is known all of whose steps go in space, after this look at the last one.
 
-        `needed` is as of `GaveUp`.
+        `needed` is as of `GaveUp`; `ended` says why no other plan was looked for, None if there is none.
         """
         assert self.failed is not None, "all steps go"
         named = ", ".join(state.vocabulary.short(each) for each in self.failed.arguments.values())
-        return GaveUp(
-            "the arms can carry out none, for the grasps, postures and places that were tried: "
-            f"{self.failed.skill}({named}) does not go: {self.claim.failure}",
-            needed=needed,
-        )
+        tried = "the arms can carry out none, for the grasps, postures and places that were tried"
+        tried = tried if ended is None else f"{ended} before one was found that the arms can carry out; of the last one"
+        return GaveUp(f"{tried}: {self.failed.skill}({named}) does not go: {self.claim.failure}", needed=needed)
 
 
 def look_at_plans(

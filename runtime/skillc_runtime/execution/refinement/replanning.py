@@ -16,7 +16,7 @@ from skillc_runtime.execution.refinement.siblings import list_siblings
 from skillc_runtime.execution.refinement.situation import Situation
 from skillc_runtime.execution.refinement.space_claim import claim_of_body, make_claim
 from skillc_runtime.execution.refinement.walk import Scope, Walk
-from skillc_runtime.planning.plan import GaveUp, Step, StepWhile
+from skillc_runtime.planning.plan import GaveUp, LeftOut, Step, StepWhile
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -27,11 +27,11 @@ OF_REACH: frozenset[Cause] = frozenset(("out-of-reach", "joint-range", "torque",
 def plan_in_space(
     library: SkillLibrary, state: WorldState, plan: PlanWithout[AnswerT], cancel: CancelToken
 ) -> tuple[AnswerT | GaveUp, PlanRefinement | None]:
-    """Return the first plan whose steps all go in space, and how; else the last answer, and what was found before it.
+    """Return the first plan whose steps all go in space, and how; else that none is known, and what was found last.
 
     `plan` plans without some steps, until `cancel` ends it. The arms begin at home. A plan with a step that depends on
-    a value which only a run will know is returned as it is: nothing is known against it. What an answer without a plan
-    says to be `needed` has all been excluded because of space.
+    a value which only a run will know is returned as it is: nothing is known against it; so is one at which there was
+    no time to look. What an answer without a plan says to be `needed` has all been excluded because of space.
     """
     found: PlanRefinement | None = None
     in_space = True
@@ -49,17 +49,20 @@ def plan_in_space(
         return seen
 
     before: tuple[AnswerT, PlanLook] | None = None
+    needed: tuple[LeftOut, ...] = ()
     for answer, seen in look_at_plans(plan, look):
-        if seen is None and before is not None and cancel.reason is None:
-            needed = answer.needed if isinstance(answer, GaveUp) and in_space else ()
-            return before[1].explain(state, needed), found
         if seen is None or seen.claim.stopped:
-            return (answer, None) if before is None else (before[0], found)
+            if before is None:
+                return answer, None
+            needed = answer.needed if isinstance(answer, GaveUp) and in_space and cancel.reason is None else ()
+            break
         before = answer, seen
         if cancel.reason is not None:
             break
     assert before is not None, "there is an answer"
-    return before[0], found
+    if not before[1].excluded:
+        return before[0], found
+    return before[1].explain(state, needed, cancel.reason), found
 
 
 def look_at_plan(
