@@ -13,6 +13,7 @@ from skillc_runtime.control.contact_stiffness import (
     identify_stiffness,
     stiffest_contact,
 )
+from skillc_runtime.control.passivity import make_tank, watch_energy
 
 ADMITTANCE, LAG_S, APPROACH_M_S, PERIOD_S = 0.008, 0.03, 0.05, 0.001
 GAP_M = 0.005
@@ -23,19 +24,22 @@ stiffnesses = st.floats(3.0, 5.3).map(lambda power: 10.0**power)
 def press(stiffness: float, delay_s: float, known_s: float = 0.0, adapts: bool = True, noise_n: float = 0.0) -> tuple:
     """Push a tool by an admittance with a lag against a spring; return forces (n,) in N and the stiffness found, N/m.
 
-    The force is felt `delay_s` late, of which the law knows `known_s`.
+    The tool moves `delay_s` late, of which the law knows `known_s`. A tank keeps it passive, as in the law.
     """
     x, v, memory, late = -GAP_M, 0.0, np.zeros(4), deque([0.0] * (1 + round(delay_s / PERIOD_S)))
+    tank = make_tank()
     wanted, forces, rng = APPROACH_M_S / ADMITTANCE, [], np.random.default_rng(0)
     for _ in range(4000):
         forces.append(stiffness * max(x, 0.0))
-        late.append(forces[-1])
-        felt = late.popleft() + noise_n * rng.standard_normal()
+        late.append(v)
+        moving = late.popleft()
+        felt = forces[-1] + noise_n * rng.standard_normal()
         identify_stiffness(memory, v, -felt, APPROACH_M_S, PERIOD_S)
         stiffest = stiffest_contact(ADMITTANCE, LAG_S, known_s)
-        share = min(1.0, stiffest / max(memory[STIFFNESS], 1.0)) if adapts else 1.0
+        passive = watch_energy(tank, np.full(1, wanted - felt), np.full(1, moving), PERIOD_S)
+        share = min(passive, stiffest / max(memory[STIFFNESS], 1.0)) if adapts else 1.0
         v += (1.0 - np.exp(-PERIOD_S / LAG_S)) * (share * ADMITTANCE * (wanted - felt) - v)
-        x += PERIOD_S * v
+        x += PERIOD_S * moving
     return np.array(forces), float(memory[STIFFNESS])
 
 

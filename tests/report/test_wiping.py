@@ -8,11 +8,14 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
+
 import skillc_runtime
 import skillc_skills
 from skillc_dsl.position import Position
 from skillc_model.format_type import SI_UNITS
-from skillc_runtime.evaluation.report.wiping import Wiping, find_wipings
+from skillc_runtime.devices.ground_truth import Recording
+from skillc_runtime.evaluation.report.wiping import Wiping, find_recorded_wipings, find_wipings
 from skillc_runtime.recording.history.history import RecordedAttempt, RecordedCall, RunHistory
 from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledQuantity, LabelledValue
 from skillc_runtime.world.state.terms import ARM_DEVICE, SURFACE, TOOL
@@ -73,6 +76,17 @@ def test_a_surface_that_is_wiped_again_has_two_wipings() -> None:
 def test_nothing_is_wiped_where_nothing_is_pressed_or_led() -> None:
     assert find_wipings(history(washed("", "follow-path")), STATE) == ()
     assert find_wipings(history(washed("press", "")), STATE) == ()
+
+
+def test_nothing_is_said_of_a_wiping_without_its_tool() -> None:
+    """The tool was lost before: nothing was recorded of it while the path was followed."""
+    done = history(washed("press", "follow-path"))
+    for start, count in ((3.0, 1), (6.0, 0)):
+        rows = np.zeros((100, 25))
+        rows[:, 0] = start + np.arange(100) / 100
+        truth: Any = SimpleNamespace(recording=lambda tool, rows=rows: Recording(rows))
+        assert len(find_recorded_wipings(done, STATE, truth)) == count
+    assert len(find_recorded_wipings(done, STATE, None)) == 1
 
 
 def test_only_primitives_know_the_names_of_shipped_skills() -> None:

@@ -180,7 +180,7 @@ def control_by_forward_dynamics(memory: ForwardDynamicsPeriod, now: float) -> in
     compute_virtual(
         memory.chain, commanded, law.dq, tool.position, tool.rotation, virtual.jacobian, virtual.inertia, virtual.bias
     )
-    if not move_virtual_arm(law, virtual, arm.state.q, law.felt, memory.plan, memory.compliance, period):
+    if not move_virtual_arm(law, virtual, arm.state.q, arm.state.dq, law.felt, memory.plan, memory.compliance, period):
         return events | BLOCKED
     if not squared(commanded) + squared(law.limits[DRIVEN]) < inf:
         return events | BAD_COMMAND

@@ -3,7 +3,8 @@
 w_C = -K sat(e) + W + W_ext;  a = A w_C / T + nu_d / T + a_d;  ddq = H^-1 (J_C^T a - c)
 dq <- g dq + (1 - g) T ddq, g = exp(-h/T);  q <- q + h dq
 Scherzinger, Roennau, Dillmann 2017; gains per second, Coriolis forces c, feed-forward along stiff axes. C: compliance
-frame. Along the axis of a push A is less where something stiff is touched, see `contact_stiffness`. Most of the speed
+frame. Along the axis of a push A is less where something stiff is touched, see `contact_stiffness`, and along all axes
+where the tool would oscillate, see `passivity`. Most of the speed
 beyond the limit of the compliance is removed.
 """
 
@@ -33,6 +34,7 @@ from skillc_runtime.control.laws.task_error import (
 )
 from skillc_runtime.control.laws.virtual_arm import VirtualArm, VirtualState
 from skillc_runtime.control.limits import COMMANDED, FASTEST, JointLimit, limit_joints
+from skillc_runtime.control.passivity import fill_tank, make_tank, watch_energy
 from skillc_runtime.control.push_memory import FALL_SHARE
 from skillc_runtime.devices.arm import ArmState, Command
 from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
@@ -50,7 +52,8 @@ class ForwardDynamicsMemory(msgspec.Struct, frozen=True):
 
     dq (nv,): rad/s, of the virtual arm; task: errors along C; limits (9, nv): see `JointLimit`; rate (6,): admittance
     over its lag, 1/kg and 1/(kg m^2); lag: s; felt (6,): the wrench on the tool, N and N m, base axes;
-    contact (4,): see `contact_stiffness`; stiffest: N/m, up to which the rate is not reduced.
+    contact (4,): see `contact_stiffness`; stiffest: N/m, up to which the rate is not reduced; tank (4,): see
+    `passivity`.
     """
 
     dq: OutVector
@@ -61,6 +64,7 @@ class ForwardDynamicsMemory(msgspec.Struct, frozen=True):
     felt: OutVector
     contact: OutVector
     stiffest: float
+    tank: OutVector
 
 
 class ForwardDynamics:
@@ -82,6 +86,7 @@ class ForwardDynamics:
             felt=np.zeros(6),
             contact=np.zeros(4),
             stiffest=stiffest_contact(law.admittance, law.admittance_time, delay_s),
+            tank=make_tank(),
         )
 
     @property
@@ -121,7 +126,9 @@ class ForwardDynamics:
         arm, limit = self._arm, self._limit
         arm.update_kinematics(limit.q)
         arm.update_dynamics(self._memory.dq)
-        followed = virtual_motion(self._memory, arm.state, state.q, state.wrench, reference, compliance, period)
+        followed = virtual_motion(
+            self._memory, arm.state, state.q, state.dq, state.wrench, reference, compliance, period
+        )
         return limit.command_if_followed(followed, state)
 
 
@@ -146,10 +153,25 @@ def _watch_contact(
 
 
 @inlined
+def _watch_energy(
+    memory: ForwardDynamicsMemory, virtual: VirtualState, wrench: Vector, speeds: Vector, period: float
+) -> float:
+    """Return the share of the admittance with which the tool is passive, while it pushes."""
+    rows, axes, in_base, velocity = memory.task.rows, memory.task.axes, np.empty(6), np.empty(6)
+    times(virtual.jacobian, speeds, in_base)
+    transposed_times(axes, in_base[:3], velocity[:3])
+    transposed_times(axes, in_base[3:], velocity[3:])
+    for i in range(6):
+        velocity[i] -= rows[TWIST, i]
+    return watch_energy(memory.tank, wrench, velocity, period)
+
+
+@inlined
 def move_virtual_arm(
     memory: ForwardDynamicsMemory,
     virtual: VirtualState,
     measured: Vector,
+    speeds: Vector,
     felt: Vector,
     reference: SampledReference,
     compliance: AppliedCompliance,
@@ -159,6 +181,7 @@ def move_virtual_arm(
 
     Return False if the arm does not follow.
     measured: (nv,) in rad, the joints.
+    speeds: (nv,) in rad/s, of the joints.
     felt: (6,) in N and N m, the wrench on the tool, base axes.
     period: s.
     """
@@ -167,9 +190,14 @@ def move_virtual_arm(
     push, in_base, torque, ddq = np.empty(6), np.empty(6), np.empty(dq.size), np.empty(dq.size)
     pushed, reduced = _watch_contact(memory, virtual, compliance, period)
     for i in range(6):
-        force = rows[MEASURED, i] + compliance.wrench[i] - compliance.stiffness[i] * rows[ERROR, i]
-        rate = memory.rate[i] * (reduced if i == pushed else 1.0)
-        push[i] = rate * force + rows[TWIST, i] / lag + rows[ACCELERATION, i]
+        push[i] = rows[MEASURED, i] + compliance.wrench[i] - compliance.stiffness[i] * rows[ERROR, i]
+    share = _watch_energy(memory, virtual, push, speeds, period)
+    if pushed < 0:
+        fill_tank(memory.tank)
+        share = 1.0
+    for i in range(6):
+        push[i] *= memory.rate[i] * min(share, reduced if i == pushed else 1.0)
+        push[i] += rows[TWIST, i] / lag + rows[ACCELERATION, i]
     for i in range(3):
         push[i] -= BRAKED * speed_excess(lag * push[i], compliance.fastest[i]) / lag
     times(axes, push[:3], in_base[:3])
@@ -194,6 +222,7 @@ def virtual_motion(
     memory: ForwardDynamicsMemory,
     virtual: VirtualState,
     measured: Vector,
+    speeds: Vector,
     felt: Vector,
     reference: Reference,
     compliance: Compliance,
@@ -202,7 +231,8 @@ def virtual_motion(
     """Compute dq (nv,) in rad/s and the limited command; see `move_virtual_arm`.
 
     measured: (nv,) in rad, the joints.
+    speeds: (nv,) in rad/s, of the joints.
     felt: (6,) in N and N m, the wrench on the tool, base axes.
     period: s.
     """
-    return move_virtual_arm(memory, virtual, measured, felt, reference, compliance, period)
+    return move_virtual_arm(memory, virtual, measured, speeds, felt, reference, compliance, period)

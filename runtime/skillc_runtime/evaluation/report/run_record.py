@@ -12,7 +12,7 @@ import numpy as np
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.report.handlings import Handling, find_handlings
 from skillc_runtime.evaluation.report.run_trace import ARM_COLUMNS, ArmPath, RunTrace
-from skillc_runtime.evaluation.report.wiping import Wiping, WipingDrawing, find_wipings, make_wiping_drawing
+from skillc_runtime.evaluation.report.wiping import Wiping, WipingDrawing, find_recorded_wipings, make_wiping_drawing
 from skillc_runtime.recording.history.history import RunHistory
 from skillc_runtime.world.state.terms import ARM_DEVICE, CONTAIN, FORCE_TORQUE_SENSOR, HAS_GRIPPER, HAS_SENSOR
 from skillc_runtime.world.state.world_state import WorldState
@@ -33,7 +33,7 @@ class RunRecord:
     @cached_property
     def wipings(self) -> tuple[Wiping, ...]:
         """The wipings of surfaces, in order of time."""
-        return find_wipings(self.history, self.state)
+        return find_recorded_wipings(self.history, self.state, self.truth)
 
     @cached_property
     def wiping_drawings(self) -> tuple[WipingDrawing, ...]:

@@ -78,6 +78,16 @@ def find_wipings(history: RunHistory, state: WorldState) -> tuple[Wiping, ...]:
     return tuple(sorted(found, key=lambda wiping: wiping.began))
 
 
+def find_recorded_wipings(history: RunHistory, state: WorldState, truth: GroundTruth | None) -> tuple[Wiping, ...]:
+    """Return the wipings of which something can be said: not those of a tool that was lost before."""
+    found = find_wipings(history, state)
+    return tuple(each for each in found if truth is None or _is_recorded(each, truth.recording(each.tool)))
+
+
+def _is_recorded(wiping: Wiping, recording: Recording) -> bool:
+    return any(len(recording.between(*each).time) > 1 for each in wiping.undisturbed)
+
+
 def _find_below(call: RecordedCall, history: RunHistory, state: WorldState) -> list[Wiping]:
     """Return the wipings in a call: those of the calls inside, else its own."""
     return [each for inner in call.calls for each in _find_below(inner, history, state)] or list(

@@ -15,7 +15,7 @@ from skillc_runtime.evaluation.measures.evidence import RunEvidence
 from skillc_runtime.evaluation.measures.work import Work
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_run
-from skillc_runtime.evaluation.report.wiping import find_wipings
+from skillc_runtime.evaluation.report.wiping import find_recorded_wipings
 from skillc_runtime.evaluation.trials.disturbance import PushDisturbance, TakeDisturbance, TrialCell
 from skillc_runtime.evaluation.trials.settings import Setting, apply_settings
 from skillc_runtime.evaluation.trials.trial import Trial, TrialDisturbance
@@ -126,7 +126,7 @@ class TrialRunner:
         update = take.update if self._disturbance == "take" else push.update
         execution = execute_task(prepared, library, cell, (told, *disturbances, *listeners), update)
         history, state, truth = told.history, cell.world.snapshot(), cell.ground_truth
-        wipings = find_wipings(history, state)
+        wipings = find_recorded_wipings(history, state, truth)
         result = summarise_run(execution, history, wipings, cell)
         rated = {each.surface: (each, how) for each, how in zip(wipings, result.wipings, strict=True)}
         evidence = RunEvidence(library, state, truth, history, tuple(rated.values()))
