@@ -44,16 +44,13 @@ LEVEL, SHARE, MOST, FALLS = range(4)
 
 
 def make_tank() -> Array:
-    """Return the full tank, (4,) in J and shares, see `LEVEL`, of a tool that begins to push."""
+    """Return the full tank, (4,) in N m and shares, see `LEVEL`, of a push in any frame."""
     return np.array([CAPACITY_J, 1.0, 1.0, 0.0])
 
 
 @inlined
 def fill_tank(tank: OutVector) -> None:
-    """Begin anew with a tank: nothing is pushed.
-
-    tank: (4,) in J and shares, see `LEVEL`.
-    """
+    """Begin anew with a tank (4,) in N m and shares, see `LEVEL`: nothing is pushed, in any frame."""
     tank[LEVEL], tank[SHARE], tank[MOST], tank[FALLS] = CAPACITY_J, 1.0, 1.0, 0.0
 
 
@@ -61,7 +58,7 @@ def fill_tank(tank: OutVector) -> None:
 def watch_energy(tank: OutVector, wrench: Vector, velocity: Vector, period: float) -> float:
     """Let the level of a tank follow a period; return the share s to use.
 
-    tank: (4,) in J and shares, see `LEVEL`; it is changed.
+    tank: (4,) in N m and shares, see `LEVEL`; it is changed.
     wrench: (n,) in N and N m, w, along n axes of the compliance frame.
     velocity: (n,) in m/s and rad/s, v along these, as it was measured, relative to the reference.
     period: s.
