@@ -28,14 +28,17 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
-from skillc_rdf.vocabulary.types import Vocabulary, local_name
+from skillc_rdf.vocabulary.types import Vocabulary, local_name, value_name
 
 
 def format_condition(condition: Condition, vocabulary: Vocabulary) -> str:
     """Return the condition in the syntax of the language; an empty `and` is `true`, an empty `or` is `false`."""
     match condition:
         case Holds(subject=subject, relation=relation, object=object_):
-            return format_relation(_term(subject, vocabulary), relation, _term(object_, vocabulary))
+            term = vocabulary.relations.get(relation)
+            is_value = isinstance(object_, Individual) and object_.iri in vocabulary.enumerated
+            written = format_property if term and term.functional and is_value else format_relation
+            return written(_term(subject, vocabulary), relation, _term(object_, vocabulary))
         case Compare(left=left, operator=operator, right=right):
             return f"{format_expression(left, vocabulary)} {operator} {format_expression(right, vocabulary)}"
         case Same(left=left, right=right):
@@ -114,7 +117,7 @@ def format_expression(expression: Expression, vocabulary: Vocabulary) -> str:
         case Variable(name=name):
             return name
         case Individual(iri=iri):
-            return vocabulary.short(iri)
+            return value_name(iri) if iri in vocabulary.enumerated else vocabulary.short(iri)
         case PropertyOf(of=of, property=iri):
             return f"{format_expression(of, vocabulary)}.{local_name(iri)}"
         case Arithmetic(operator=operator, left=left, right=right):

@@ -190,7 +190,7 @@ EXAMPLES = (
     ("declaration", "skill X extends Y {\n    noplan\n}", None),
     ("declaration", "def X { noplan }", "skill X { noplan }"),
     ("declaration", "def X(a) { noplan }", None),
-    ("declaration", "enum Color { Red }", None),
+    ("declaration", "struct Color { Red }", None),
     ("declaration", "namespace lab", None),
     ("declaration", "class Blue < Box { }", "class Blue < Box"),
     ("declaration", "relation near(a: Box, b: Box)", "relation near(Box, Box)"),

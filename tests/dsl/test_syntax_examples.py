@@ -49,8 +49,8 @@ def test_the_vocabulary() -> None:
     assert [type(h).__name__ for h in file.header] == ["Use", "Prefix", "Import"]
     assert shape(file.header[1]) == ("Prefix", "lab", "http://example.org/lab#")
     board, eraser, *_, at, holds, force, _, lanes = file.declarations
-    assert shape(board) == ("ClassDeclaration", "Whiteboard", ("Surface",), (), "")
-    assert shape(eraser) == ("ClassDeclaration", "Eraser", ("Tool",), ("Gripper",), "")
+    assert shape(board) == ("ClassDeclaration", "Whiteboard", ("Surface",), (), "", ())
+    assert shape(eraser) == ("ClassDeclaration", "Eraser", ("Tool",), ("Gripper",), "", ())
     assert shape(at) == ("RelationDeclaration", "at", "Thing", "Location", (("Trait", "functional", None),), "", None)
     assert isinstance(holds, s.RelationDeclaration)
     assert [(t.kind, t.name and t.name.text) for t in holds.traits] == [

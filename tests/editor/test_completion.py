@@ -12,7 +12,20 @@ from skillc_dsl.descriptions.members import FLAGS
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
 
-BEGINNINGS = ("class", "function", "impl", "import", "prefix", "property", "relation", "skill", "task", "test", "use")
+BEGINNINGS = (
+    "class",
+    "enum",
+    "function",
+    "impl",
+    "import",
+    "prefix",
+    "property",
+    "relation",
+    "skill",
+    "task",
+    "test",
+    "use",
+)
 DIMENSIONS = " ".join(units.DIMENSIONS)
 EXACT = [
     (

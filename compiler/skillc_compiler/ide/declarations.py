@@ -7,6 +7,7 @@ from typing import Literal, assert_never
 
 from skillc_compiler.ide.bodies import BodyContext, BodyOccurrences
 from skillc_compiler.ide.symbols import (
+    ChoiceSymbol,
     FileSymbol,
     FunctionSymbol,
     ImplementationSymbol,
@@ -49,14 +50,15 @@ class FileOccurrences(BodyOccurrences, frozen=True):
     def declaration(self, written: s.Declaration) -> Iterator[Occurrence]:
         """Yield the occurrences in a declaration."""
         match written:
-            case s.ClassDeclaration(name=name, parents=parents, disjoint=disjoint):
+            case s.ClassDeclaration(name=name, parents=parents, disjoint=disjoint, values=values):
                 yield from self.term("class", name, declares=True)
+                yield from (Occurrence(value.span, ChoiceSymbol(value.text)) for value in values)
                 for other in (*parents, *disjoint):
                     yield from self.term("class", other)
             case s.RelationDeclaration():
                 yield from self._relation(written)
             case s.PropertyDeclaration(name=name, domain=domain, type=type_):
-                yield from self.term("property", name, declares=True)
+                yield from self.read(name, declares=True)
                 yield from self.term("class", domain)
                 yield from self.type(type_)
             case s.FunctionDeclaration():

@@ -19,7 +19,7 @@ from skillc_compiler.resolve.type_names import BUILT_IN
 from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl import syntax as s
 from skillc_dsl.units import DIMENSIONS
-from skillc_rdf.vocabulary.types import THING, PropertyTerm, RelationTerm, local_name
+from skillc_rdf.vocabulary.types import THING, PropertyTerm, RelationTerm, local_name, value_name
 
 OfferKind: TypeAlias = Literal[
     "keyword", "class", "type", "relation", "property", "function", "skill", "implementation", "parameter", "variable",
@@ -97,6 +97,9 @@ def offer_properties(around: CursorContext, of: Type) -> Iterator[Offer]:
 def offer_values(around: CursorContext, wanted: ExpectedType) -> Iterator[Offer]:
     """Offer values of the wanted type: choices, local names, their properties, functions, individuals."""
     vocabulary = around.visible.vocabulary
+    closed = wanted.type.cls if isinstance(wanted.type, Thing) else None
+    for value in vocabulary.enumerations.get(closed or "", ()):
+        yield Offer(value_name(value), "value", describe_type(wanted.type))
     yield from (Offer(text, "value", "a value of the property") for text in wanted.values)
     if wanted.type in (BOOL, UNKNOWN):
         yield from (Offer(text, "keyword", rank=0 if wanted.type == BOOL else 5) for text in ("true", "false"))

@@ -23,6 +23,7 @@ from skillc_rdf.vocabulary.types import (
     VectorType,
     Vocabulary,
     local_name,
+    value_name,
 )
 
 ABOUT = {
@@ -66,9 +67,14 @@ def format_function_head(term: FunctionTerm) -> str:
 
 
 def choice_page(vocabulary: Vocabulary, text: str) -> str:
-    """Return the page of a text value: the properties that allow it."""
-    terms = [term for _, term in sorted(vocabulary.properties.items()) if text in term.values]
-    return "\n\n".join(f"`{text}`: a value of {format_names([term.iri])}: {', '.join(term.values)}" for term in terms)
+    """Return the page of a value: the enumerations and text properties that have it."""
+    homes = {iri: tuple(map(value_name, values)) for iri, values in sorted(vocabulary.enumerations.items())}
+    homes |= {iri: term.values for iri, term in sorted(vocabulary.properties.items())}
+    return "\n\n".join(
+        f"`{text}`: a value of {format_names([iri])}: {', '.join(values)}"
+        for iri, values in homes.items()
+        if text in values
+    )
 
 
 def format_bare_type(kind: ValueType) -> str:
@@ -110,8 +116,10 @@ def format_names(iris: Sequence[str]) -> str:
 def _class(vocabulary: Vocabulary, term: ClassTerm) -> str:
     parents = f" < {_names(term.parents)}" if term.parents else ""
     below = [iri for iri, other in vocabulary.classes.items() if term.iri in other.parents]
+    values = ", ".join(map(value_name, vocabulary.enumerations.get(term.iri, ())))
+    name = local_name(term.iri)
     return format_page(
-        f"class {local_name(term.iri)}{parents}",
+        f"enum {name} {{ {values} }}" if values else f"class {name}{parents}",
         term.comment,
         f"disjoint with `{_names(term.disjoint)}`" if term.disjoint else "",
         f"subclasses: {format_names(below)}" if below else "",

@@ -41,10 +41,10 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
         if iri is not None:
             yield Occurrence(name.span, TermSymbol(kind, iri), declares)
 
-    def read(self, name: s.Name) -> Iterator[Occurrence]:
+    def read(self, name: s.Name, declares: bool = False) -> Iterator[Occurrence]:
         """Yield the occurrence of a property, or of a functional relation whose value is read."""
         is_property = self.visible.term("property", name.text) is not None
-        return self.term("property" if is_property else "relation", name)
+        return self.term("property" if is_property else "relation", name, declares)
 
     def type(self, written: s.TypeName) -> Iterator[Occurrence]:
         """Yield the occurrences in a type."""
@@ -91,6 +91,8 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
             yield Occurrence(name.span, known[name.text])
         elif iri is not None:
             yield Occurrence(name.span, IndividualSymbol(iri))
+        elif name.text in self.visible.vocabulary.value_names:
+            yield Occurrence(name.span, ChoiceSymbol(name.text))
 
     def condition(self, known: Locals, written: s.Condition) -> Iterator[Occurrence]:
         """Yield the occurrences in a condition."""

@@ -117,7 +117,7 @@ def _resolve_relation(context: FileContext, scope: Scope, written: s.Relation) -
     if report_equals(context, written.relation):
         return TypedCondition(And(()), written.span)
     subject = _resolve_side(context, scope, written.subject)
-    object_ = _resolve_side(context, scope, written.object)
+    object_ = _resolve_side(context, scope, written.object, _closed_range(context, written.relation))
     iri = _look_up_relation(context, written.relation, subject, object_)
 
     def holds(things: Sequence[TypedExpression]) -> TypedCondition:
@@ -137,10 +137,20 @@ def _relation_in_place_of_subject(context: FileContext, scope: Scope, written: s
     return None
 
 
-def _resolve_side(context: FileContext, scope: Scope, written: s.Value | s.Anything) -> TypedExpression:
+def _closed_range(context: FileContext, name: s.Name) -> str | None:
+    """Return the enumeration to which a relation leads, None if it leads elsewhere."""
+    vocabulary = context.vocabulary
+    terms = (vocabulary.relations.get(iri) for iri in context.names.bare["relation"].get(name.text, ()))
+    ranges = {each.range for term in terms if term is not None for each in term.signatures}
+    return next(iter(ranges & vocabulary.enumerations.keys()), None) if len(ranges) == 1 else None
+
+
+def _resolve_side(
+    context: FileContext, scope: Scope, written: s.Value | s.Anything, cls: str | None = None
+) -> TypedExpression:
     if isinstance(written, s.Anything):
         return TypedExpression(VariableTerm("_"), UNKNOWN, written.span)
-    return resolve_value(context, scope, written, ExpectedType(Thing(None)))
+    return resolve_value(context, scope, written, ExpectedType(Thing(cls)))
 
 
 def _look_up_relation(
@@ -219,11 +229,15 @@ def _all_terms(*sides: TypedExpression) -> bool:
 
 def _resolve_sides(context: FileContext, scope: Scope, written: s.Compare) -> tuple[TypedExpression, TypedExpression]:
     """Resolve both sides; the side with the property first, as it determines the values that a bare name may be."""
-    if isinstance(written.left, s.NameReference) and isinstance(written.right, s.Member):
+    if isinstance(written.left, s.NameReference) and not _is_local(scope, written.left):
         right = resolve_value(context, scope, written.right)
         return _resolve_other_side(context, scope, written.left, right), right
     left = resolve_value(context, scope, written.left)
     return left, _resolve_other_side(context, scope, written.right, left)
+
+
+def _is_local(scope: Scope, written: s.NameReference) -> bool:
+    return ":" in written.name.text or written.name.text in scope.variables
 
 
 def _resolve_other_side(
@@ -244,7 +258,8 @@ def _expected_type(context: FileContext, other: TypedExpression) -> ExpectedType
         case PropertyOf(property=iri) if iri in context.vocabulary.properties:
             return ExpectedType(other.type, context.vocabulary.properties[iri].values)
         case VariableTerm() | Individual():
-            return ExpectedType(Thing(None)) if isinstance(other.type, Thing) else ExpectedType(other.type)
+            closed = isinstance(other.type, Thing) and other.type.cls in context.vocabulary.enumerations
+            return ExpectedType(Thing(None) if isinstance(other.type, Thing) and not closed else other.type)
     return ANYTHING if other.type == UNKNOWN else ExpectedType(other.type)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from functools import partial
 from typing import TypeAlias
@@ -12,6 +12,7 @@ from typing import TypeAlias
 from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.names import KINDS, Kind, bare_terms
 from skillc_compiler.resolve.spelling import suggest_fix
+from skillc_compiler.resolve.type_names import is_built_in
 from skillc_dsl import syntax as s
 from skillc_dsl.query import Memo
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -33,12 +34,14 @@ class FileDeclarations:
         return {*self.functions, *self.skills, *(name for table in self.terms.values() for name in table)}
 
 
-def term_kind(declaration: TermDeclaration) -> Kind:
-    """Return the kind of a declared term."""
+def term_kind(declaration: TermDeclaration, is_class: Callable[[str], bool]) -> Kind:
+    """Return the kind of a declared term: a property whose type is a class is a functional relation."""
     match declaration:
         case s.ClassDeclaration():
             return "class"
         case s.RelationDeclaration():
+            return "relation"
+        case s.PropertyDeclaration(type=s.Name(text=text)) if is_class(text) and not is_built_in(text, True):
             return "relation"
         case s.PropertyDeclaration():
             return "property"
@@ -113,10 +116,20 @@ def _declarations_in(
     known = merge_imported(bare, (others[path] for _, path in unit.imports if path in others), later)
     prefixes = prefixes_in(unit.file, vocabulary)
     declared = FileDeclarations()
+    classes = {each.name.text for each in unit.file.declarations if isinstance(each, s.ClassDeclaration)}
+
+    def is_class(text: str) -> bool:
+        before, _, local = text.rpartition(":")
+        return (
+            text in classes
+            or (prefixes[before] + local in vocabulary.classes if before in prefixes else False)
+            or (text in known["class"])
+        )
+
     for declaration in unit.file.declarations:
         match declaration:
             case s.ClassDeclaration() | s.RelationDeclaration() | s.PropertyDeclaration():
-                kind, name = term_kind(declaration), declaration.name.text
+                kind, name = term_kind(declaration, is_class), declaration.name.text
                 before, _, local = name.rpartition(":")
                 if before in prefixes:
                     iri = prefixes[before] + local

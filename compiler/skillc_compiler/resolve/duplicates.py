@@ -113,7 +113,8 @@ def _identity(declaration: s.Declaration, declared: FileDeclarations) -> tuple[s
         case s.RelationDeclaration(domain=domain, range=range_):
             return ("relation", declared.terms["relation"][name], domain.text, range_.text)
         case s.PropertyDeclaration(domain=domain):
-            return ("property", declared.terms["property"][name], domain.text)
+            kind = "property" if name in declared.terms["property"] else "relation"
+            return (kind, declared.terms[kind][name], domain.text)  # type: ignore[index]
         case s.FunctionDeclaration():
             return ("function", name)
         case s.SkillDeclaration():

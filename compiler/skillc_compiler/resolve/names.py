@@ -109,6 +109,10 @@ class Names:
         """Return the kind of term that an IRI denotes, None for an individual."""
         return next((kind for kind in KINDS if iri in self.known[kind]), None)
 
+    def is_class(self, text: str) -> bool:
+        """Whether a bare or qualified name denotes a class here."""
+        return self.is_term("class", text)
+
     def is_term(self, kind: Kind, text: str) -> bool:
         """Whether a bare or qualified name denotes a term of this kind here."""
         prefix, _, local = text.rpartition(":")

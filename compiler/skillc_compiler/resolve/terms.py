@@ -16,11 +16,13 @@ from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import (
     THING,
     ClassTerm,
+    ClassType,
     FunctionTerm,
     PropertyTerm,
     RelationTerm,
     Signature,
     Vocabulary,
+    value_iri,
 )
 
 
@@ -37,9 +39,10 @@ def extend_vocabulary(
     classes, relations = dict(vocabulary.classes), dict(vocabulary.relations)
     properties, functions = dict(vocabulary.properties), dict(vocabulary.functions)
     defined = set[str]()
+    enumerations = dict(vocabulary.enumerations)
     for unit in files:
         here, look_up = declared[unit.file.path], names[unit.file.path]
-        look_up.problems += _report_extended(unit, here, vocabulary)
+        look_up.problems += [*_report_extended(unit, here, look_up, vocabulary)]
         for declaration in unit.file.declarations:
             match declaration:
                 case s.ClassDeclaration():
@@ -49,12 +52,17 @@ def extend_vocabulary(
                         look_up.problems.append(_another_thing(declaration.name))
                     else:
                         classes[iri] = term
+                    if declaration.values:
+                        enumerations.setdefault(iri, _values(declaration, iri, look_up))
                 case s.RelationDeclaration():
                     iri = _declared_iri("relation", declaration.name, here, look_up)
                     if iri in relations and (iri in defined or declaration.definition is not None):
                         look_up.problems.append(_not_only_defined(declaration.name, relations[iri], vocabulary))
                     defined |= {iri} if declaration.definition is not None else set()
                     relations[iri] = _relation(declaration, iri, relations.get(iri), look_up)
+                case s.PropertyDeclaration() if term_kind(declaration, look_up.is_class) == "relation":
+                    iri = _declared_iri("relation", declaration.name, here, look_up)
+                    relations[iri] = _link(declaration, iri, relations.get(iri), look_up)
                 case s.PropertyDeclaration():
                     iri = _declared_iri("property", declaration.name, here, look_up)
                     properties[iri] = _property(declaration, iri, properties.get(iri), look_up)
@@ -70,6 +78,7 @@ def extend_vocabulary(
         relations=_complete_inverses(relations),
         properties=properties,
         functions=functions,
+        enumerations=enumerations,
     )
 
 
@@ -99,7 +108,9 @@ def _declared_iri(kind: Kind, name: s.Name, here: FileDeclarations, names: Names
     return here.terms[kind][name.text]
 
 
-def _report_extended(unit: ParsedFile, here: FileDeclarations, vocabulary: Vocabulary) -> Iterator[Diagnostic]:
+def _report_extended(
+    unit: ParsedFile, here: FileDeclarations, look_up: Names, vocabulary: Vocabulary
+) -> Iterator[Diagnostic]:
     """Report the first declaration of each bare name that adds to a term of a vocabulary instead of making a new one.
 
     A property of another type is reported elsewhere.
@@ -108,7 +119,7 @@ def _report_extended(unit: ParsedFile, here: FileDeclarations, vocabulary: Vocab
     for declaration in unit.file.declarations:
         if not isinstance(declaration, s.ClassDeclaration | s.RelationDeclaration | s.PropertyDeclaration):
             continue
-        name, kind = declaration.name, term_kind(declaration)
+        name, kind = declaration.name, term_kind(declaration, look_up.is_class)
         table = {"class": vocabulary.classes, "relation": vocabulary.relations, "property": vocabulary.properties}
         old: ClassTerm | RelationTerm | PropertyTerm | None = table[kind].get(here.terms[kind][name.text])  # type: ignore[attr-defined]
         if old is None or ":" in name.text or old.iri in reported or _differs(declaration, old):
@@ -161,6 +172,27 @@ def _relation(written: s.RelationDeclaration, iri: str, old: RelationTerm | None
         symmetric=term.symmetric or "symmetric" in traits,
         transitive=term.transitive or "transitive" in traits,
     )
+
+
+def _values(written: s.ClassDeclaration, iri: str, names: Names) -> tuple[str, ...]:
+    """Return the individuals of an enumeration; one that is named twice is reported."""
+    first: dict[str, s.Name] = {}
+    for name in written.values:
+        former = first.setdefault(name.text, name)
+        if former is not name:
+            message = f"`{name.text}` is twice in `{written.name.text}`"
+            labels = (Label(former.span, "first named here"),)
+            names.problems.append(Diagnostic("duplicate-declaration", name.span, message, "remove one", labels=labels))
+    return tuple(value_iri(iri, name) for name in first)
+
+
+def _link(written: s.PropertyDeclaration, iri: str, old: RelationTerm | None, names: Names) -> RelationTerm:
+    """Return the relation for a property whose values are things: it leads to one of them."""
+    domain, range_ = names.look_up_term("class", written.domain), resolve_type(names, written.type)
+    signatures = (Signature(domain, range_.iri),) if domain and isinstance(range_, ClassType) else ()
+    term = old or RelationTerm(iri=iri, signatures=(), comment=written.doc, source=written.span.start)
+    both = tuple(dict.fromkeys((*term.signatures, *signatures)))
+    return msgspec.structs.replace(term, signatures=both, functional=True)
 
 
 def _property(written: s.PropertyDeclaration, iri: str, old: PropertyTerm | None, names: Names) -> PropertyTerm:

@@ -32,6 +32,7 @@ from skillc_dsl.diagnostics import Label
 from skillc_dsl.units import NUMBER, TEMPERATURE, dimension_of, sum_dimension, to_si
 from skillc_model.conditions import Arithmetic, Individual, Invoke, Literal, PropertyOf, Variable
 from skillc_model.tree import FAILURE_PARTS
+from skillc_rdf.vocabulary.types import local_name, value_name
 
 
 class ExpectedType(msgspec.Struct, frozen=True):
@@ -91,6 +92,10 @@ def _resolve_reference(
         return TypedExpression(Variable(text), known.type, span, declared=known.span)
     if text in wanted.values:
         return TypedExpression(Literal(text), TEXT, span)
+    enumeration = wanted.type.cls if isinstance(wanted.type, Thing) else None
+    value = context.vocabulary.find_value(enumeration, text)
+    if value is not None:
+        return TypedExpression(Individual(value), wanted.type, span)
     if wanted.values:
         _unknown_value(context, written.name, wanted)
     else:
@@ -105,7 +110,12 @@ def _unknown_value(context: FileContext, name: s.Name, wanted: ExpectedType) -> 
 
 
 def _unknown_name(context: FileContext, scope: Scope, written: s.NameReference, wanted: ExpectedType) -> None:
-    name = written.name.text
+    name, cls = written.name.text, wanted.type.cls if isinstance(wanted.type, Thing) else None
+    if cls in context.vocabulary.enumerations:
+        values = tuple(map(value_name, context.vocabulary.enumerations[cls]))
+        message, help_ = f"`{name}` is not a value of `{local_name(cls)}`", f"it is {' or '.join(values)}"
+        context.report_unknown(UnknownName("value", written.name, message, values, help_))
+        return
     fitting = [n for n, v in scope.variables.items() if fits(context.vocabulary, v.type, wanted.type)]
     otherwise = "an individual is written with its prefix: `lab:Board-1`"
     if name in NOTHING:

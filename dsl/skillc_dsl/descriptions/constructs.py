@@ -14,6 +14,7 @@ _DECLARATIONS = (
     Construct("declaration", words("prefix"), "prefix lab: <http://example.org/lab#>"),
     Construct("declaration", words("import"), 'import "NAME.skill"'),
     Construct("declaration", (*reserved("class"), *words("disjoint")), "class NAME < PARENT"),
+    Construct("declaration", words("enum", since=2), "enum NAME { VALUE, VALUE }"),
     Construct(
         "declaration",
         reserved("relation"),

@@ -66,6 +66,8 @@ class FileFormatter(MemberFormatter):
         """Return the declaration of a class, a relation, a property or a function."""
         head, rest = _keyword(tree), tree.children[1:]
         above, first = self.notes.above(head), ColumnCell(KEYWORD, self.bare(head))
+        if tree.data == "enum":
+            return MemberLine(above, (first,), self._enum(rest))
         if tree.data == "class_":
             content, last = self._class(rest)
         else:
@@ -80,6 +82,18 @@ class FileFormatter(MemberFormatter):
         if _is_tree(last, "disjoint"):
             return self.spaced(content), [d.Gap(), self.of(last)]
         return self.spaced(rest), []
+
+    def _enum(self, rest: Sequence[Branch]) -> d.Document:
+        """Return the name of an enumeration with its values, on separate lines if they do not fit one."""
+        name, opening, *values, closing = rest
+        if not isinstance(opening, Token) or not isinstance(closing, Token):
+            raise TypeError(f"braces were expected, not {rest!r}")
+        parts: list[d.Document] = [d.SoftBreak()]
+        for value in values:
+            parts += [self.comma(value), d.SoftBreak()] if isinstance(value, Token) else [self.of(value)]
+        head = d.concatenate(d.Punctuation(" {"), self.notes.behind(opening))
+        inside = d.Indent(d.concatenate(head, *parts, self.above_closing(closing)))
+        return d.DocumentGroup(d.concatenate(self.of(name), inside, d.SoftBreak(), self.bare(closing)))
 
     def _signature(self, rest: Sequence[Branch]) -> tuple[d.Document, list[d.Document]]:
         """Return the name with its brackets, and the rest; no space precedes the `:` of a property."""

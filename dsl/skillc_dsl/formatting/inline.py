@@ -65,7 +65,7 @@ class InlineFormatter:
         parts: list[d.Document] = [self.bare(first) if isinstance(first, Token) else self.of(first)]
         for child in others:
             if isinstance(child, Token) and child.type == "COMMA":
-                parts.append(self._comma(child))
+                parts.append(self.comma(child))
                 gap = d.SoftBreak()
             else:
                 parts += [gap, self.of(child)]
@@ -85,7 +85,7 @@ class InlineFormatter:
         for index, child in enumerate(inner):
             if isinstance(child, Token) and child.type == "COMMA":
                 last = index == len(inner) - 1
-                parts.append(self._comma(child, d.WhenBroken(end) if last else d.Punctuation(",")))
+                parts.append(self.comma(child, d.WhenBroken(end) if last else d.Punctuation(",")))
                 parts += [] if last else [d.SoftBreak()]
             else:
                 parts.append(self.of(child))
@@ -101,7 +101,8 @@ class InlineFormatter:
         notes = self.notes.above(token)
         return notes if notes == d.NOTHING else d.concatenate(d.HardBreak(), notes)
 
-    def _comma(self, token: Token, mark: d.Document | None = None) -> d.Document:
+    def comma(self, token: Token, mark: d.Document | None = None) -> d.Document:
+        """Return a comma with its comments."""
         return d.concatenate(mark or d.Punctuation(","), self.notes.behind(token))
 
     def _chain(self, tree: Tree) -> d.Document:

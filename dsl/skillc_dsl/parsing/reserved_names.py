@@ -18,6 +18,7 @@ from skillc_dsl.parsing.tokens import Token
 _NAMED = MappingProxyType(
     {
         "CLASS": "class",
+        "ENUM": "enumeration",
         "RELATION": "relation",
         "PROPERTY": "property",
         "FUNCTION": "function",
@@ -77,7 +78,7 @@ def _find(tokens: Sequence[Token]) -> Iterator[tuple[int, str, str]]:
             kind, word = _NAMED.get(before), token.value
         if before == "IMPL" and [each.type for each in tokens[index + 1 : index + 2]] != ["OF"]:
             kind = None  # its name is what is missing
-        if before == "TEST" and [each.type for each in tokens[index + 1 : index + 2]] != ["LBRACE"]:
+        if before in ("ENUM", "TEST") and [each.type for each in tokens[index + 1 : index + 2]] != ["LBRACE"]:
             kind = None  # it is a name itself
         if kind is not None and terminals.get(word) in reserved[kind]:
             yield index, kind, word

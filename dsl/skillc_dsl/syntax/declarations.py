@@ -51,13 +51,14 @@ class Import(msgspec.Struct, frozen=True):
 
 
 class ClassDeclaration(msgspec.Struct, frozen=True):
-    """`class Name < Parent, .. disjoint Other, ..`"""
+    """`class Name < Parent, .. disjoint Other, ..`, or `enum Name { Value, .. }`: then `values` are all of it."""
 
     name: Name
     parents: tuple[Name, ...]
     disjoint: tuple[Name, ...]
     doc: str
     span: Span
+    values: tuple[Name, ...] = ()
 
 
 class Trait(msgspec.Struct, frozen=True):

@@ -194,6 +194,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     relations and properties of other ontologies than the shipped ones that no skill reads (`with_named`), sorted:
     scenes may contradict them. `individuals` are those of these ontologies, such as units, with their classes.
     `definitions` are those of the relations that the library defines by conditions.
+    `enumerations` are the closed classes, each with all its individuals in order, which are part of every world.
     """
 
     symbolic: bool = False
@@ -208,6 +209,7 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     functions: dict[str, FunctionTerm] = {}
     idle: tuple[str, ...] = ()
     individuals: dict[str, tuple[str, ...]] = {}
+    enumerations: dict[str, tuple[str, ...]] = {}
 
     @cached_property
     def ancestors(self) -> dict[str, frozenset[str]]:
@@ -246,6 +248,21 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     def is_a(self, cls: str, ancestor: str) -> bool:
         """Whether every individual of `cls` is one of `ancestor`; an unknown class is only itself and a Thing."""
         return ancestor in self.ancestors.get(cls, (cls, THING))
+
+    def find_value(self, cls: str | None, name: str) -> str | None:
+        """Return the individual of an enumeration that is called `name`; None for other names and classes."""
+        values = self.enumerations.get(cls or "", ())
+        return next((iri for iri in values if value_name(iri) == name), None)
+
+    @cached_property
+    def enumerated(self) -> dict[str, str]:
+        """Each individual of an enumeration, with its class."""
+        return {iri: cls for cls, values in self.enumerations.items() for iri in values}
+
+    @cached_property
+    def value_names(self) -> frozenset[str]:
+        """The names of all values of enumerations."""
+        return frozenset(map(value_name, self.enumerated))
 
     def later_than(self, edition: int) -> frozenset[str]:
         """Return the terms that came after an edition of the language."""
@@ -290,6 +307,16 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
 def local_name(iri: str) -> str:
     """Return the part of an IRI after its last `#` or `/`."""
     return iri.rsplit("#", 1)[-1].rsplit("/", 1)[-1]
+
+
+def value_iri(enumeration: str, name: str) -> str:
+    """Return the IRI of a value of an enumeration; values of the same name in others are different individuals."""
+    return f"{enumeration}-{name}"
+
+
+def value_name(iri: str) -> str:
+    """Return the name of a value of an enumeration, by its IRI."""
+    return iri.rpartition("-")[2]
 
 
 def namespace_of(iri: str) -> str:

@@ -26,7 +26,7 @@ from skillc_runtime.scene.documents import Document, SceneError, parse, unreadab
 from skillc_runtime.scene.interpretation import interpret_table
 from skillc_runtime.scene.memory import PLACED_BYTES, TooLittleMemory, check_available
 from skillc_runtime.scene.mistakes import LocatedFacts
-from skillc_runtime.scene.ontology_individuals import described_elsewhere, without_elsewhere
+from skillc_runtime.scene.ontology_individuals import described_elsewhere, enumerated, without_elsewhere
 from skillc_runtime.scene.statements import (
     SUBCLASS,
     iri_of,
@@ -95,7 +95,7 @@ def load_in_bulk(documents: Sequence[Document], vocabulary: Vocabulary) -> World
     """
     with gc_disabled():
         try:
-            table = read_table(documents, vocabulary)
+            table = read_table([*documents, *enumerated(vocabulary)], vocabulary)
         except (SyntaxError, UnicodeEncodeError):
             return None
         if table.is_unusual:
@@ -139,7 +139,7 @@ def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Loa
     Any numeric literal is a number. Prefixes and classes that a document declares are added to the vocabulary of the
     world; templates and annotations are ignored.
     """
-    parsed = [parse(document, vocabulary.namespaces) for document in documents]
+    parsed = [parse(document, vocabulary.namespaces) for document in (*documents, *enumerated(vocabulary))]
     parsed += described_elsewhere(parsed, vocabulary)
     said = [with_canonical_terms(each, vocabulary.aliases) for document in parsed for each in document.statements]
     here = parsed[0].statements[0].lines.path if parsed and parsed[0].statements else ""

@@ -16,6 +16,7 @@ from skillc_runtime.scene.checks.plausible import check_plausible
 from skillc_runtime.scene.checks.required import check_required
 from skillc_runtime.scene.checks.surface_regions import check_surface_regions
 from skillc_runtime.scene.mistakes import LocatedChange
+from skillc_runtime.scene.ontology_individuals import check_enumerations
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.violation import SceneViolation
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, SetProperty
@@ -127,7 +128,7 @@ def _fact(change: Change) -> IriTriple | None:
 def check_individuals(state: WorldState) -> Iterator[SceneViolation]:
     """Yield the violations of checks that need no poses; of worlds without bodies those that concern none."""
     of_bodies = () if state.vocabulary.symbolic else (check_required, check_plausible, check_data_sheets)
-    for check in (check_containment, *of_bodies):
+    for check in (check_containment, check_enumerations, *of_bodies):
         yield from check(state)
 
 

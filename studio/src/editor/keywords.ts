@@ -3,15 +3,15 @@
 // prettier-ignore
 export const KEYWORDS: ReadonlySet<string> = new Set([
   "_", "after", "all", "and", "any", "anywhere", "apply", "as", "before", "between", "check",
-  "class", "disjoint", "do", "duration", "else", "endless", "eventually", "exists", "expect",
-  "fail", "failure", "fallback", "false", "finally", "for", "forall", "function", "functional",
-  "given", "goal", "has", "hold", "if", "impl", "implies", "import", "in", "infer", "inverse",
-  "invert", "is", "keep", "lead", "let", "max", "never", "no", "noplan", "not", "of", "on", "once",
-  "opt", "or", "out", "outside", "par", "pause", "plan", "post", "pre", "prefer", "prefix",
-  "property", "python", "race", "range", "reactive", "refine", "relation", "repeat", "retry", "run",
-  "scene", "scoped", "sel", "sensed", "seq", "shares", "skill", "start", "steps", "sub",
-  "symmetric", "task", "test", "timeout", "transitive", "true", "try", "until", "use", "uses",
-  "verify", "wait", "while", "with",
+  "class", "disjoint", "do", "duration", "else", "endless", "enum", "eventually", "exists",
+  "expect", "fail", "failure", "fallback", "false", "finally", "for", "forall", "function",
+  "functional", "given", "goal", "has", "hold", "if", "impl", "implies", "import", "in", "infer",
+  "inverse", "invert", "is", "keep", "lead", "let", "max", "never", "no", "noplan", "not", "of",
+  "on", "once", "opt", "or", "out", "outside", "par", "pause", "plan", "post", "pre", "prefer",
+  "prefix", "property", "python", "race", "range", "reactive", "refine", "relation", "repeat",
+  "retry", "run", "scene", "scoped", "sel", "sensed", "seq", "shares", "skill", "start", "steps",
+  "sub", "symmetric", "task", "test", "timeout", "transitive", "true", "try", "until", "use",
+  "uses", "verify", "wait", "while", "with",
 ]);
 
 // prettier-ignore

@@ -12,7 +12,15 @@ from skillc_compiler.emit.docs import prose
 from skillc_compiler.emit.docs.linking import LinkWriter, make_anchor
 from skillc_compiler.emit.docs.mentions import find_terms
 from skillc_model.skills import SkillLibrary
-from skillc_rdf.vocabulary.types import ClassTerm, FunctionTerm, PropertyTerm, RelationTerm, Vocabulary, local_name
+from skillc_rdf.vocabulary.types import (
+    ClassTerm,
+    FunctionTerm,
+    PropertyTerm,
+    RelationTerm,
+    Vocabulary,
+    local_name,
+    value_name,
+)
 
 Term: TypeAlias = ClassTerm | RelationTerm | PropertyTerm | FunctionTerm
 
@@ -97,6 +105,9 @@ def _entry(name: str, term: Term, users: frozenset[str], links: LinkWriter) -> T
 def _facts(term: Term, links: LinkWriter) -> Iterator[Markup]:
     match term:
         case ClassTerm():
+            values = links.vocabulary.enumerations.get(term.iri, ())
+            if values:
+                yield Markup("one of {}").format(", ".join(map(value_name, values)))
             yield from (Markup("is a {}").format(links.term(iri)) for iri in term.parents)
             yield from (Markup("never a {}").format(links.term(iri)) for iri in term.disjoint)
         case RelationTerm():

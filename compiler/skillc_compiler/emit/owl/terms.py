@@ -89,6 +89,22 @@ def _class(iri: str, classes: set[str], vocabulary: Vocabulary) -> Iterator[Stat
     yield from ((iri, f"{OWL}disjointWith", IriNode(other)) for other in term.disjoint if other in classes)
     if term.comment:
         yield iri, f"{RDFS}comment", term.comment
+    if iri in vocabulary.enumerations:
+        yield from _enumeration(iri, vocabulary.enumerations[iri])
+
+
+def _enumeration(iri: str, values: tuple[str, ...]) -> Iterator[Statement]:
+    """Yield that a class has these different individuals and no others."""
+    members = ListNode(tuple(IriNode(each) for each in values))
+    yield (
+        iri,
+        f"{OWL}equivalentClass",
+        AnonymousNode(((RDF_TYPE, IriNode(f"{OWL}Class")), (f"{OWL}oneOf", members))),
+    )
+    for place, value in enumerate(values):
+        yield value, RDF_TYPE, IriNode(f"{OWL}NamedIndividual")
+        yield value, RDF_TYPE, IriNode(iri)
+        yield from ((value, f"{OWL}differentFrom", IriNode(other)) for other in values[place + 1 :])
 
 
 def _relation(term: RelationTerm) -> Iterator[Statement]:

@@ -64,6 +64,11 @@ class FileBuilder(MemberBuilder):
         """`disjoint Other, ..`"""
         return self.part("disjoint", children)
 
+    def enum(self, children: list[Child]) -> s.ClassDeclaration:
+        """`enum Name { Value, .. }`"""
+        (name, *values), span = children_of_type(children, s.Name), self.over(children)
+        return s.ClassDeclaration(name, (), (), self.doc(span), span, tuple(values))
+
     def relation(self, children: list[Child]) -> s.RelationDeclaration:
         """`relation name(Domain, Range) traits` or `relation name(x: Domain, y: Range) = condition`"""
         span, written = self.over(children), find_part(children, "definition")

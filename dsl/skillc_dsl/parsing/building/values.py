@@ -24,7 +24,7 @@ class ValueBuilder(TreeBuilder):
         """`contain`, `skiros:contain`"""
         return s.Name(children[0].value, self.place(children[0]))
 
-    plain = relation_name = callee = name
+    plain = relation_name = callee = enum_value = name
 
     def label(self, token: Child) -> s.Name:
         """Return the name of a label, without its `:`."""

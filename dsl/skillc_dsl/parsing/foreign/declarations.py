@@ -55,7 +55,7 @@ FORMS = (
     leading(r"(?:def|action|procedure|behaviou?r)\s+(?=\w+\s*\{)", "skill ", where="CLASS"),
     leading(r"(?:def|action|procedure|behaviou?r)\b.*", None, "write `skill NAME { .. }`", "CLASS"),
     leading(r"(?:public|private|abstract|static|export)\s+(?=\w)", "", where="CLASS"),
-    leading(r"(?:enum|struct|interface)\b.*", None, "write `class NAME < PARENT`", "CLASS"),
+    leading(r"(?:struct|interface)\b.*", None, "write `class NAME < PARENT`", "CLASS"),
     leading(r"(?:namespace|module|package)\b.*", None, "delete it: the files of a folder are a library", "CLASS"),
     leading(
         rf"class\s+(?P<a>\w+)\s*(?:(?::|\bextends\b|\bis\b|\bsubClassOf\b)\s*(?P<b>{_NAME})|\((?P<c>{_NAME})\))",
