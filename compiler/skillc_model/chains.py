@@ -84,7 +84,7 @@ def find_chains(library: SkillLibrary, goal: Condition | None = None) -> tuple[C
     relations = sorted({closure.canonical(iri).relation for iri in read & closure.transitive})
     if not relations:
         return ()
-    written = terms_written((post for each in planned for post in each.post), library.vocabulary)
+    written = terms_written((result for each in planned for result in each.results), library.vocabulary)
     found = (_chains(relation, written, planned, library.vocabulary) for relation in relations)
     return tuple(each for each in found if each is not None)
 
@@ -162,7 +162,7 @@ def _effects_on(
 ) -> Iterator[tuple[Assert | Retract, Directed, bool]]:
     """Yield the effects that make or end steps, with the relation of the step, and whether its subject is moved."""
     flipped, closure = {each.relation: each.flipped for each in steps}, vocabulary.closure
-    effects = [each for post in skill.post for each in post.effects if isinstance(each, Assert | Retract)]
+    effects = [each for result in skill.results for each in result.effects if isinstance(each, Assert | Retract)]
     for effect in effects:
         for each in {closure.canonical(effect.relation), *closure.canonical_sources.get(effect.relation, ())}:
             if each.relation in flipped:

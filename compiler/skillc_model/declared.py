@@ -47,6 +47,18 @@ def act_as_declared(library: SkillLibrary) -> SkillLibrary:
     )
 
 
+def settle_outcomes(library: SkillLibrary, outcomes: Mapping[str, str]) -> SkillLibrary:
+    """Return a library in which it is certain what comes of some skills: the label of an outcome, by skill."""
+    settled = {
+        name: replace(
+            library.skills[name],
+            outcomes=tuple(replace(each, likely=float(each.label == label)) for each in library.skills[name].outcomes),
+        )
+        for name, label in outcomes.items()
+    }
+    return replace(library, skills={**library.skills, **settled})
+
+
 def _implement(skill: Skill) -> Implementation:
     return Implementation(
         name=UNIMPLEMENTED,

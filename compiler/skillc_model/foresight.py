@@ -46,7 +46,7 @@ def computes_foreseen(vocabulary: Vocabulary) -> bool:
 def find_terms_of_skills(library: SkillLibrary) -> frozenset[str]:
     """Return the terms that planned skills read, or claim in postconditions."""
     planned = [each for each in library.skills.values() if each.planned]
-    claimed = terms_written((post for each in planned for post in each.post), library.vocabulary)
+    claimed = terms_written((result for each in planned for result in each.results), library.vocabulary)
     return claimed.union(*(terms_read_by(each, library) for each in planned))
 
 

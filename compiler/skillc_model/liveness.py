@@ -23,7 +23,10 @@ def find_live_parameters(library: SkillLibrary) -> dict[str, Names]:
     """
     skills = {name: library.implementations_of(name) for name in library.skills}
     live = {
-        name: frozenset(_of_classes(each for one in found for each in one.parameters)) for name, found in skills.items()
+        name: frozenset(_of_classes(each for one in found for each in one.parameters)).union(
+            *(free_variables(each.condition) for each in library.skills[name].outcomes)
+        )
+        for name, found in skills.items()
     }
     while True:
         more = {

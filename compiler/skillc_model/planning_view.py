@@ -8,8 +8,8 @@ from typing import TypeAlias
 import msgspec
 
 from skillc_dsl.position import Position
-from skillc_model.conditions import Expression, Given, Individual, Variable
-from skillc_model.skills import Implementation, Let, Parameter, Post, Requirement, Skill
+from skillc_model.conditions import Expression, Given, Individual, PropertyOf, Variable
+from skillc_model.skills import Implementation, Let, Outcome, Parameter, Post, Requirement, Skill
 from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.closure import reachable
 from skillc_rdf.vocabulary.types import ClassType
@@ -39,6 +39,8 @@ class _View(msgspec.Struct, frozen=True):
     flags: tuple[bool, ...]
     implementations: tuple[str, ...]
     conditions: tuple[_Conditions, ...]
+    senses: tuple[PropertyOf, ...]
+    outcomes: tuple[Outcome, ...]
     places: tuple[Position, ...]
 
 
@@ -58,6 +60,8 @@ def encode_view(skill: Skill, implementations: Sequence[Implementation]) -> byte
         flags=(skill.scoped, skill.planned, skill.fallback),
         implementations=skill.implementations,
         conditions=tuple(_conditions_of(each, read, len(implementations) > 1) for each in described),
+        senses=skill.senses,
+        outcomes=tuple(msgspec.structs.replace(each, source=_NOWHERE) for each in skill.outcomes),
         places=tuple(_places(described)) if any(map(_names_individual, _items(described))) else (),
     )
     return msgspec.msgpack.encode(view)
@@ -104,8 +108,9 @@ def _items(described: Iterable[Description]) -> Iterator[msgspec.Struct]:
     """Yield the conditions, effects, durations and individuals by default of descriptions."""
     for each in described:
         yield from (requirement.condition for requirement in (*each.pre, *each.hold))
-        yield from (post.condition for post in each.post)
-        yield from (effect for post in each.post for effect in post.effects)
+        results = each.results if isinstance(each, Skill) else each.post
+        yield from (result.condition for result in results)
+        yield from (effect for result in results for effect in result.effects)
         yield from () if each.duration is None else (each.duration,)
         yield from (one.default for one in each.parameters if isinstance(one.default, Individual))
 
@@ -128,4 +133,4 @@ def _places(described: Iterable[Description]) -> Iterator[Position]:
         yield each.source
         yield from (parameter.source for parameter in each.parameters)
         yield from (requirement.source for requirement in (*each.pre, *each.hold))
-        yield from (post.source for post in each.post)
+        yield from (result.source for result in (each.results if isinstance(each, Skill) else each.post))

@@ -22,7 +22,7 @@ from skillc_model.conditions import (
     Retract,
     Variable,
 )
-from skillc_model.skills import Implementation, Post, Skill, SkillLibrary
+from skillc_model.skills import Implementation, Outcome, Post, Skill, SkillLibrary
 from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -131,23 +131,23 @@ def terms_read_by(skill: Skill, library: SkillLibrary) -> frozenset[str]:
         if one.duration is not None:
             read |= terms_read(one.duration)
     vocabulary = library.vocabulary
-    for post in skill.post:
-        read |= terms_read(post.condition)
-        asserted = (effect.relation for effect in post.effects if isinstance(effect, Assert))
+    for result in skill.results:
+        read |= terms_read(result.condition)
+        asserted = (effect.relation for effect in result.effects if isinstance(effect, Assert))
         implied = (each.relation for relation in asserted for each in vocabulary.closure.implied[relation])
         read |= {iri for iri in implied if vocabulary.relations[iri].asymmetric}
     return frozenset(read)
 
 
-def terms_written(posts: Iterable[Post], vocabulary: Vocabulary) -> frozenset[str]:
-    """Return the canonical relations and the properties that posts change, directly or through axioms.
+def terms_written(results: Iterable[Post | Outcome], vocabulary: Vocabulary) -> frozenset[str]:
+    """Return the canonical relations and the properties that posts and outcomes change, directly or through axioms.
 
     A measured number is included: no effect gives its value, but its old value no longer holds.
     """
     written: set[str] = set()
-    for post in posts:
-        written.update(*(terms_written_by(effect, vocabulary) for effect in post.effects))
-        match post:
+    for result in results:
+        written.update(*(terms_written_by(effect, vocabulary) for effect in result.effects))
+        match result:
             case Post(effects=(), condition=Compare(left=PropertyOf(property=iri)) | HasProperty(property=iri)):
                 written.add(iri)
     return frozenset(written)
@@ -186,7 +186,8 @@ def changing_terms(library: SkillLibrary) -> frozenset[str]:
     """Return the relations and properties that some skill changes, directly or through axioms."""
     vocabulary = library.vocabulary
     posts = (post for implementation in library.implementations.values() for post in implementation.post)
-    written = terms_written(posts, vocabulary)
+    outcomes = (outcome for skill in library.skills.values() for outcome in skill.outcomes)
+    written = terms_written((*posts, *outcomes), vocabulary)
     terms = (*vocabulary.relations, *vocabulary.properties)
     return frozenset(iri for iri in terms if may_change(iri, written, vocabulary))
 

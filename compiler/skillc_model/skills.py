@@ -8,12 +8,12 @@ from typing import TypeAlias
 import msgspec
 
 from skillc_dsl.position import Position
-from skillc_model.conditions import Condition, Effect, Expression
+from skillc_model.conditions import And, Assign, Compare, Condition, Effect, Expression, Not, PropertyOf
 from skillc_model.properties import Property
 from skillc_model.tree import Node
 from skillc_rdf.vocabulary.types import ValueType, Vocabulary
 
-FORMAT = 5
+FORMAT = 6
 KEEP_S = 2.0
 """How long a paused tool goes on pressing, in s, if no running skill states it."""
 
@@ -52,6 +52,20 @@ class Post(msgspec.Struct, frozen=True, kw_only=True):
     source: Position
 
 
+class Outcome(msgspec.Struct, frozen=True, kw_only=True):
+    """What can come of a skill, with its effects, and how likely that is, from 0 to 1.
+
+    Exactly one outcome of a skill holds after it succeeded.
+    """
+
+    label: str
+    condition: Condition
+    effects: tuple[Effect, ...]
+    likely: float
+    text: str
+    source: Position
+
+
 class PausePolicy(msgspec.Struct, frozen=True):
     """Where a skill may be paused, and for how many seconds a paused tool goes on pressing before it is taken off.
 
@@ -64,7 +78,10 @@ class PausePolicy(msgspec.Struct, frozen=True):
 
 
 class Skill(msgspec.Struct, frozen=True, kw_only=True):
-    """A skill description. `implementations` are names in rank order; the first that is applicable is run."""
+    """A skill description. `implementations` are names in rank order; the first that is applicable is run.
+
+    `senses` are the properties that it makes known, `outcomes` what can come of it.
+    """
 
     name: str
     doc: str = ""
@@ -72,6 +89,8 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True):
     pre: tuple[Requirement, ...] = ()
     hold: tuple[Requirement, ...] = ()
     post: tuple[Post, ...] = ()
+    senses: tuple[PropertyOf, ...] = ()
+    outcomes: tuple[Outcome, ...] = ()
     duration: Expression | None = None
     uses: tuple[str, ...] = ()
     shares: tuple[str, ...] = ()
@@ -82,6 +101,24 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True):
     pause: PausePolicy = PausePolicy()
     implementations: tuple[str, ...] = ()
     source: Position
+
+    @property
+    def results(self) -> tuple[Post | Outcome, ...]:
+        """What it says of the world after it: its postconditions, and what can come of it."""
+        return (*self.post, *self.outcomes)
+
+    def find_outcome(self, label: str) -> Outcome | None:
+        """Return the outcome with a label; None if there is none, as for the empty label."""
+        return next((each for each in self.outcomes if each.label == label), None)
+
+    def find_possibility(self, outcome: Outcome) -> Condition:
+        """Return under which condition an outcome may come: what the skill senses is not known to be otherwise."""
+        known = (
+            Not(Compare(PropertyOf(each.subject, each.property), "!=", each.value))
+            for each in outcome.effects
+            if isinstance(each, Assign) and PropertyOf(each.subject, each.property) in self.senses
+        )
+        return And(tuple(known))
 
 
 class Compound(msgspec.Struct, frozen=True, tag="compound"):
@@ -162,9 +199,13 @@ class Expectation(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Test(Task, frozen=True, kw_only=True):
-    """A task that starts after `starts`, as changes of the facts of its scene, and what is expected of it."""
+    """A task that starts after `starts`, as changes of the facts of its scene, and what is expected of it.
+
+    `outcomes` are the labels of what comes of skills, by the name of the skill.
+    """
 
     starts: tuple[Effect, ...] = ()
+    outcomes: dict[str, str] = {}
     expects: tuple[Expectation, ...] = ()
 
 

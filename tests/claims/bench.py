@@ -31,6 +31,7 @@ from skillc_runtime.world.state.terms import (
     FRAME_ID,
     HAS_SHEET,
     IS_CLEAN,
+    LOCATED,
     ORIENTATION,
     POSITION,
     SKILLC,
@@ -155,6 +156,20 @@ class Measures(Does):
 
     def done(self, world: WorldModel, *, surface: str) -> None:
         world.commit([SetProperty(surface, IS_CLEAN, True)], "Measure", "sensed")
+
+
+class Finds(Does):
+    """Reads a device."""
+
+    def done(self, world: WorldModel, *, surface: str) -> None:
+        world.commit([SetProperty(surface, LOCATED, True)], "Find", "sensed")
+
+
+class Guesses(Does):
+    """Writes what it never looked at."""
+
+    def done(self, world: WorldModel, *, surface: str) -> None:
+        world.commit([SetProperty(surface, LOCATED, True)], "Find")
 
 
 class Looks(Does):

@@ -91,6 +91,24 @@ def test_a_sensed_post_that_nothing_sensed_fails(call: str, clean: bool, words: 
     assert words in execution.failure.message
 
 
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        ("Find[blind](surface: lab:table)", "Find succeeded, and none of its outcomes came true, where one has to"),
+        ("Find[written](surface: lab:table)", "`surface.located == true` must be sensed, but"),
+    ],
+)
+def test_an_outcome_that_nothing_sensed_fails(call: str, words: str) -> None:
+    execution = run(call, bench())
+    assert execution.status == "failed" and execution.failure is not None and execution.failure.kind == "post"
+    assert words in execution.failure.message
+
+
+def test_an_outcome_that_was_sensed_is_claimed() -> None:
+    execution = run("Find[camera](surface: lab:table)", bench())
+    assert execution.verified is True and how(execution.facts) == {"lab:table.located == true": "sensed by Find"}
+
+
 def test_who_looks_when_it_must_is_believed() -> None:
     assert run("LookOnce(surface: lab:table)", bench(clean=False)).verified is True
 

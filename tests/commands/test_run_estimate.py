@@ -7,7 +7,8 @@ import pytest
 from skillc.cli.progress.run_display import format_estimate
 from skillc.cli.progress.run_estimate import PlanProgress
 from skillc_dsl.position import Position
-from skillc_runtime.recording.events import NodeEnded, NodeStarted, PlanMade, PlanStep, Replanned
+from skillc_runtime.recording.events import NodeEnded, NodeStarted, PlanMade, Replanned
+from skillc_runtime.recording.recorded_plan import PlanStep
 
 HERE = Position("a.skill", 1, 1)
 PLAN = PlanMade(

@@ -27,13 +27,13 @@ from skillc_runtime.planning.cp_sat.solver import CpSat, find_cp_sat
 from skillc_runtime.planning.fast_downward import solver as fast_downward
 from skillc_runtime.planning.fast_downward.solver import FastDownward
 from skillc_runtime.planning.makespan.lower_bound import price_device_work
-from skillc_runtime.planning.makespan.minimise import ScheduleResult, minimise_makespan
+from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
-from skillc_runtime.planning.schedule import FoundSchedule, Schedule, Scheduled
+from skillc_runtime.planning.schedule import FoundSchedule, PlanAnswer, Schedule, Scheduled
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.search.h_max import critical_path_s
 from skillc_runtime.planning.solve import solve
@@ -89,7 +89,7 @@ def ask(
     world: WorldState = TWO_AWAY,
     goal: Condition = BOTH_AWAY,
     planner: Planner = AStar(),  # noqa: B008  it has no state
-) -> ScheduleResult:
+) -> PlanAnswer:
     scheduler = None if answer is None else Says(answer)
     return minimise_makespan(LIBRARY, world, goal, Planners((planner,), scheduler), CancelToken(20.0))
 

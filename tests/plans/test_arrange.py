@@ -19,10 +19,9 @@ from skillc_runtime.planning.arrangement import (
     arrange_plan,
     step_numbers,
 )
-from skillc_runtime.planning.makespan.scheduling import schedule_plan
+from skillc_runtime.planning.makespan.scheduling import keep_apart, schedule_plan
 from skillc_runtime.planning.plan import Plan, Solved, Step
 from skillc_runtime.planning.schedule import Scheduled
-from skillc_runtime.planning.separation import keep_apart
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import validate
 from skillc_runtime.world.state.world_state import WorldState

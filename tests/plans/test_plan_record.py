@@ -18,7 +18,7 @@ from skillc_runtime.execution.plans.plan_record import (
 )
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries, arrange_plan
 from skillc_runtime.planning.plan import LeftOut, Solved, describe_quality
-from skillc_runtime.recording.events import ArrivedPlan, StepGroup
+from skillc_runtime.recording.recorded_plan import ArrivedPlan, StepGroup
 from skillc_runtime.recording.space_claim import ChosenImplementation, SpaceClaim
 
 STATE = world({"ann": "a", "bob": "b"}, {"crate": "a", "box": "b"})

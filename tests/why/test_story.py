@@ -22,7 +22,6 @@ from skillc_runtime.recording.events import (
     NodeStarted,
     Note,
     PlanMade,
-    PlanStep,
     Replanned,
     TaskEnded,
 )
@@ -30,6 +29,7 @@ from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.history.history import RecordedCall, RunHistory
 from skillc_runtime.recording.history.history_builder import listen_to, read_history
 from skillc_runtime.recording.history.node_outcome import NodeOutcome
+from skillc_runtime.recording.recorded_plan import PlanStep
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labels.labelled import LabelledIri

@@ -24,7 +24,7 @@ from skillc_compiler.analysis.knowledge.writes import Write
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, extend_path
 from skillc_compiler.analysis.summaries import hide_names, in_caller_terms
 from skillc_compiler.program.typed import Call, Requirement
-from skillc_model.conditions import Variable
+from skillc_model.conditions import HasProperty, Individual, PropertyOf, Variable
 from skillc_model.traversal import free_variables
 
 
@@ -99,17 +99,19 @@ def _end_call(
     ends: EndStates,
 ) -> None:
     name, span = binding.skill.name, call.written.span
-    succeeded, failed = extend_path(path, span, f"`{name}` succeeds"), extend_path(path, span, f"`{name}` fails")
+    failed = extend_path(path, span, f"`{name}` fails")
     started = _assume_started(run, binding, (*conditions[0], *conditions[1]), state)
-    after = havoc_concurrent(run, _assume_succeeded(run, call, binding, started), context)
     less = havoc_concurrent(
         run, havoc(run.types, state, _hide_unstable(run, run.summaries.writes_of_call(call, failing=True))), context
     )
     breaks = run.summaries.may_break_hold(binding.skill)
-    for outcome, ended, trail in _monitored_ends(run, call, state, (after, less), (succeeded, failed), breaks):
-        if outcome == "success" and "endless" in binding.skill.flags:
-            continue
-        add_state({"success": ends.success, "failure": ends.failure, "broken": ends.broken}[outcome], ended, trail)
+    for label, done in _list_outcomes(run, call, binding, _assume_succeeded(run, call, binding, started)):
+        after = havoc_concurrent(run, done, context)
+        succeeded = extend_path(path, span, f"`{name}` succeeds" + (f" with `{label}`" if label else ""))
+        for outcome, ended, trail in _monitored_ends(run, call, state, (after, less), (succeeded, failed), breaks):
+            if outcome == "success" and "endless" in binding.skill.flags:
+                continue
+            add_state({"success": ends.success, "failure": ends.failure, "broken": ends.broken}[outcome], ended, trail)
 
 
 def _monitored_ends(
@@ -161,6 +163,31 @@ def _assume_succeeded(run: Exploration, call: Call, binding: Binding, state: Sta
     for post in posts:
         state = assume(run.types, state, binding.at_end(post.condition.meaning)) or state
     return state.replace(assigned=state.assigned | {call.out.text}) if call.out is not None else state
+
+
+def _list_outcomes(run: Exploration, call: Call, binding: Binding, state: State) -> Iterator[tuple[str, State]]:
+    """Yield the label of each outcome that may come of a call that succeeded, and the state in which it has come true.
+
+    What is known is not unlearned: an outcome that contradicts it, or that would change what the skill senses, does not
+    come. A skill without outcomes has one state, without a label.
+    """
+    if not binding.skill.outcomes:
+        yield "", state
+        return
+    sensed = [
+        HasProperty(each.meaning.of, each.meaning.property)
+        for each in binding.skill.senses
+        if isinstance(each.meaning, PropertyOf) and isinstance(each.meaning.of, Variable | Individual)
+    ]
+    known = bool(sensed) and all(evaluate(run.types, state, binding.at_end(each)) for each in sensed)
+    for outcome in binding.skill.outcomes:
+        condition = binding.at_end(outcome.condition.meaning)
+        if known and evaluate(run.types, state, condition) is False:
+            continue
+        had = [CallEffect(call, outcome, binding.effect(effect)) for _, effect in definite_effects((outcome,))]
+        run.effects.update({(id(call), id(one.post), one.effect): one for one in had})
+        after = apply_effects(run.types, state, [one.effect for one in had])
+        yield outcome.label.text if outcome.label else "", assume(run.types, after, condition) or after
 
 
 def _declare_output(run: Exploration, call: Call) -> None:

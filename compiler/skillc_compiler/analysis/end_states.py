@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+
+from msgspec import structs
 
 from skillc_compiler.analysis.binding import definite_effects
 from skillc_compiler.analysis.exploration import CallEffect, Exploration
@@ -15,7 +17,7 @@ from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import PropertyWrite, RelationWrite, Write, write_of, written_condition
 from skillc_compiler.analysis.paths import EndStates, Path, StatePaths, path_length
-from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedNode
+from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedCondition, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s
 from skillc_model.conditions import (
@@ -28,6 +30,7 @@ from skillc_model.conditions import (
     Invoke,
     IsA,
     Not,
+    Or,
     PropertyOf,
     Same,
     Variable,
@@ -37,11 +40,11 @@ from skillc_model.traversal import free_variables, walk
 
 
 def end_findings(
-    run: Exploration, implementation: Implementation, before: tuple[State, State], ends: EndStates
+    run: Exploration, implementation: Implementation, before: Sequence[State], ends: EndStates
 ) -> Iterator[Finding]:
     """Yield the findings about the states in which an implementation ends.
 
-    `before` are the state at its start and the declared one.
+    `before` are the state at its start and the declared ones.
 
     If a postcondition is not established, an undeclared effect usually has the same cause and is not reported.
     """
@@ -52,11 +55,11 @@ def end_findings(
         if parameter.direction == "out" and states:
             unassigned.add(parameter.name)
             yield UnassignedOutput(implementation, parameter, min(states, key=path_length))
-    for post in requirements_of(implementation, "post"):
+    for post in (*requirements_of(implementation, "post"), *_join_outcomes(implementation)):
         if unassigned.isdisjoint(free_variables(post.condition.meaning)):
             unproved += _check_post(run, implementation, post, ends.success)
     yield from unproved
-    start, _ = before
+    start = before[0]
     effects = {one.effect: one for one in reversed(run.effects.values())}
     for one in effects.values():
         condition = effect_condition(one.effect)
@@ -67,11 +70,11 @@ def end_findings(
 
 
 def undeclared_writes(
-    run: Exploration, implementation: Implementation, before: tuple[State, State], ends: EndStates
+    run: Exploration, implementation: Implementation, before: Sequence[State], ends: EndStates
 ) -> frozenset[Write]:
     """Return the writes that a successful execution may leave behind and that the description does not declare.
 
-    `before` are the state at its start and the declared one.
+    `before` are the state at its start and the declared ones.
     """
     found = set()
     for write in run.summaries.all_writes(implementation):
@@ -96,7 +99,7 @@ def effect_condition(effect: Effect) -> Condition | None:
     )
 
 
-def _is_accounted_for(types: AliasTypes, condition: Condition, before: tuple[State, State], state: State) -> bool:
+def _is_accounted_for(types: AliasTypes, condition: Condition, before: Sequence[State], state: State) -> bool:
     now = evaluate(types, state, condition)
     return now is not None and any(evaluate(types, _with_identities(each, state), condition) is now for each in before)
 
@@ -107,8 +110,8 @@ def _with_identities(state: State, other: State) -> State:
 
 
 def _is_declared(run: Exploration, implementation: Implementation, write: Write) -> bool:
-    """Whether a postcondition declares the write, for any individual."""
-    for _, effect in definite_effects(requirements_of(implementation, "post")):
+    """Whether a postcondition or an outcome declares the write, for any individual."""
+    for _, effect in definite_effects((*requirements_of(implementation, "post"), *implementation.skill.outcomes)):
         own = write_of(effect)
         if isinstance(own, RelationWrite) and own == write and own.value is True:
             return True
@@ -148,13 +151,27 @@ def _is_beyond(types: AliasTypes, condition: Condition) -> bool:
     return False
 
 
-def declared_state(run: Exploration, implementation: Implementation, start: State) -> State:
-    """Return what a caller assumes after a success."""
+def declared_states(run: Exploration, implementation: Implementation, start: State) -> tuple[State, ...]:
+    """Return what a caller may assume after a success, one state an outcome."""
     posts = requirements_of(implementation, "post")
+    endings = [(*posts, each) for each in implementation.skill.outcomes] or [posts]
+    return tuple(_declared_state(run, each, start) for each in endings)
+
+
+def _declared_state(run: Exploration, posts: Sequence[Requirement], start: State) -> State:
     state = apply_effects(run.types, start, [effect for _, effect in definite_effects(posts)])
     for post in posts:
         state = assume(run.types, state, post.condition.meaning) or state
     return state
+
+
+def _join_outcomes(implementation: Implementation) -> Iterator[Requirement]:
+    """Yield the promise that an outcome comes true, if there are any; which exclude each other."""
+    outcomes = implementation.skill.outcomes
+    if outcomes:
+        either = TypedCondition(Or(tuple(each.condition.meaning for each in outcomes)), outcomes[0].condition.span)
+        text = " or ".join(each.text for each in outcomes)
+        yield structs.replace(outcomes[0], condition=either, text=text)
 
 
 def _check_declared(
@@ -162,7 +179,7 @@ def _check_declared(
     implementation: Implementation,
     one: CallEffect,
     condition: Condition,
-    before: tuple[State, State],
+    before: Sequence[State],
     states: StatePaths,
 ) -> Iterator[Finding]:
     if one.post.sensed or (

@@ -173,7 +173,7 @@ class Prover:
         run = self.new_exploration(implementation, body)
         start = initial_state(run.types, implementation, self.summaries.all_writes(implementation))
         ends = explore(run, body, {start: None}, EvalContext())
-        before = start, end_states.declared_state(run, implementation, start)
+        before = start, *end_states.declared_states(run, implementation, start)
         end_findings = (
             *end_states.end_findings(run, implementation, before, ends),
             *self._verify_findings(implementation, body, start),

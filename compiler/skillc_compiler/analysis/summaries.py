@@ -61,7 +61,8 @@ class WriteSummaries:
     def _keeps_promises(self, implementation: Implementation) -> bool:
         """Whether a primitive's posts hold once they are written, so that writing them is the last thing it does."""
         posts = requirements_of(implementation, "post")
-        if any(post.sensed for post in posts) or any(p.direction == "out" for p in implementation.parameters):
+        sensed = bool(implementation.skill.outcomes) or any(post.sensed for post in posts)
+        if sensed or any(p.direction == "out" for p in implementation.parameters):
             return False
         types = AliasTypes(self._program.vocabulary, self._axioms)
         declare_names(types, implementation)
@@ -150,7 +151,9 @@ class WriteSummaries:
                 (write for write in whole if isinstance(write, RelationWrite | PropertyWrite)), visible
             )
             return
-        for post, effect in definite_effects(requirements_of(implementation, "post")):
+        for post, effect in definite_effects(
+            (*requirements_of(implementation, "post"), *implementation.skill.outcomes)
+        ):
             yield with_unknown_value(write_of(effect)) if post.sensed else write_of(effect)
 
     def _writes_of_node(self, node: TypedNode, implementation: Implementation | None) -> Iterator[Write]:

@@ -68,7 +68,7 @@ def _may_change(node: TypedNode) -> bool:
     for each in nodes_in(node):
         if each.conditions:
             return True
-        if each.call and each.call.skill and any(r.kind == "post" for r in each.call.skill.requirements):
+        if each.call and each.call.skill and any(r.says_what_comes for r in each.call.skill.requirements):
             return True
     return False
 
@@ -100,7 +100,7 @@ def _check_endless(implementation: Implementation, body: TypedNode) -> Iterator[
 def _check_promises(skill: Skill) -> Iterator[Diagnostic]:
     """Report posts, outputs and the flag `scoped` of an endless skill, as they have no effect."""
     help_ = "remove it, or the flag `endless`"
-    for post in (r for r in skill.requirements if r.kind == "post"):
+    for post in (r for r in skill.requirements if r.says_what_comes):
         message = f"`{skill.name}` is `endless`, so this is never reached"
         yield Diagnostic("not-endless", post.span, message, help_)
     for parameter in (p for p in skill.parameters if p.direction == "out"):

@@ -63,6 +63,6 @@ def _may_change(term: str, written: frozenset[str], vocabulary: Vocabulary) -> b
 def _written(program: Program) -> frozenset[str]:
     """Return the terms that plannable skills write, as defined by `terms_written_by`."""
     planned = (skill for skill in program.skills.values() if "noplan" not in skill.flags)
-    posts = (post for skill in planned for post in skill.requirements if post.kind == "post")
+    posts = (post for skill in planned for post in skill.requirements if post.says_what_comes)
     found = (effect for post in posts for effect in effects_of(post.condition) if not isinstance(effect, NoEffect))
     return frozenset[str]().union(*(terms_written_by(effect, program.vocabulary) for effect in found))

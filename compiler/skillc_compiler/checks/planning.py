@@ -37,7 +37,7 @@ def check_skill(program: Program, skill: Skill) -> Iterator[Diagnostic]:
 
 
 def _check_effect(skill: Skill) -> Iterator[Diagnostic]:
-    if not any(requirement.kind == "post" for requirement in skill.requirements):
+    if not any(requirement.says_what_comes for requirement in skill.requirements):
         yield Diagnostic(
             "no-effect",
             skill.name_span,
@@ -61,7 +61,7 @@ def _check_parameters(skill: Skill) -> Iterator[Diagnostic]:
 
 
 def _check_numbers(program: Program, skill: Skill) -> Iterator[Diagnostic]:
-    for post in (requirement for requirement in skill.requirements if requirement.kind == "post"):
+    for post in (requirement for requirement in skill.requirements if requirement.says_what_comes):
         for effect in effects_of(post.condition):
             if not isinstance(effect, Assign) or effect.property not in program.vocabulary.properties:
                 continue

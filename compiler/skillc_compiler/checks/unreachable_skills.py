@@ -50,7 +50,7 @@ def _is_planned(skill: Skill) -> bool:
 
 def _achieves_nothing(skill: Skill) -> bool:
     """Whether a planned skill has no post, which is a problem of its own."""
-    return "noplan" not in skill.flags and not any(r.kind == "post" for r in skill.requirements)
+    return "noplan" not in skill.flags and not any(r.says_what_comes for r in skill.requirements)
 
 
 def _calls(implementation: Implementation) -> Iterator[str]:

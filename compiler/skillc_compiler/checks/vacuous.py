@@ -68,7 +68,7 @@ def _telling_which(owner: Skill | Implementation) -> Iterator[TypedCondition]:
 
 
 def _written_in(owner: Skill | Implementation) -> Iterator[TypedCondition]:
-    yield from (requirement.condition for requirement in owner.requirements if requirement.kind != "post")
+    yield from (requirement.condition for requirement in owner.requirements if not requirement.says_what_comes)
     if isinstance(owner, Implementation) and isinstance(owner.body, TypedNode):
         for node in nodes_in(owner.body):
             yield from node.conditions

@@ -66,6 +66,7 @@ def _skill(skill: library.Skill) -> Skill:
         doc=skill.doc,
         parameters=tuple(_parameter(p) for p in skill.parameters),
         requirements=(),
+        senses=(),
         duration=None,
         devices=(),
         pause=None,

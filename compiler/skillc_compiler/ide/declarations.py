@@ -122,7 +122,7 @@ class FileOccurrences(BodyOccurrences, frozen=True):
             match member:
                 case s.Requirement():
                     yield from self._requirement(known, name, member)
-                case s.Duration(value=value):
+                case s.Duration(value=value) | s.Senses(value=value):
                     yield from self.value(known, value)
                 case s.DeviceUse(parameter=parameter):
                     yield from self.reference(known, parameter)
@@ -183,10 +183,17 @@ class FileOccurrences(BodyOccurrences, frozen=True):
         if isinstance(written, s.TestDeclaration):
             for start in written.starts:
                 yield from self.condition(known, start.condition)
+            for outcome in written.outcomes:
+                yield from self._start_outcome(outcome)
             for expected in written.expects:
                 yield from self.condition(known, expected.condition) if expected.condition is not None else ()
         if written.body is not None:
             yield from self.node(BodyContext(written.span), known, written.body.node)
+
+    def _start_outcome(self, written: s.StartOutcome) -> Iterator[Occurrence]:
+        if written.skill.text in self.visible.skills:
+            yield Occurrence(written.skill.span, SkillSymbol(written.skill.text))
+            yield Occurrence(written.outcome.span, LabelSymbol(written.skill.text, written.outcome.text))
 
     def _typed(self, member: s.Parameter | s.Refinement) -> Iterator[Occurrence]:
         yield from self.type(member.type)

@@ -105,6 +105,7 @@ def _task(name: str, task: Task | None) -> str:
 def _skill(analysis: Analysis, skill: Skill) -> str:
     lines = [f"    {format_parameter(analysis, parameter)}" for parameter in skill.parameters]
     lines += [f"    {analysis.text_of(requirement.span)}" for requirement in skill.requirements]
+    lines += [f"    senses {analysis.text_of(value.span)}" for value in skill.senses]
     lines += [f"    {analysis.text_of(skill.pause.span)}"] if skill.pause else []
     ways = [way.name for way in analysis.program.implementations_of.get(skill.name, ())]
     found = f"implementations: {', '.join(f'`{way}`' for way in ways)}" if ways else "no implementation here"

@@ -52,7 +52,7 @@ def facts_in(
 
 def equal_names(requirements: Iterable[Requirement]) -> dict[str, Expression]:
     """Return, for each name that preconditions equate with another, the representative of its class of names."""
-    facts = (fact for r in requirements if r.kind != "post" for fact in facts_in(r.condition))
+    facts = (fact for r in requirements if not r.says_what_comes for fact in facts_in(r.condition))
     return equal_names_in(facts)
 
 
@@ -107,7 +107,7 @@ def _conditions(program: Program) -> Iterator[TypedCondition]:
 
 
 def _facts(requirements: tuple[Requirement, ...]) -> tuple[TypedFact, ...]:
-    return tuple(fact for r in requirements if r.kind != "post" for fact in facts_in(r.condition))
+    return tuple(fact for r in requirements if not r.says_what_comes for fact in facts_in(r.condition))
 
 
 def _inner(condition: TypedCondition) -> Iterator[ConjunctionGroup]:

@@ -25,7 +25,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.descriptions.members import FLAGS
 from skillc_model import properties
 from skillc_model import skills as library
-from skillc_model.conditions import Expression
+from skillc_model.conditions import Effect, Expression, PropertyOf
 from skillc_model.rewriting import constant_number, fold
 
 
@@ -39,6 +39,8 @@ def lower_skill(typed: Skill, implementations: Sequence[str]) -> library.Skill:
         pre=_requirements(labelled, "pre"),
         hold=_requirements(labelled, "hold"),
         post=_posts(labelled),
+        senses=tuple(each for each in (fold(value.meaning) for value in typed.senses) if isinstance(each, PropertyOf)),
+        outcomes=_outcomes(typed),
         duration=_expression(typed.duration),
         uses=_devices(typed, "uses"),
         shares=_devices(typed, "shares"),
@@ -91,6 +93,7 @@ def lower_test(typed: Test) -> library.Test:
     return library.Test(
         **structs.asdict(lower_task(typed)),
         starts=tuple(each for each in started if not isinstance(each, NoEffect)),
+        outcomes={each.skill.name: each.outcome.text for each in typed.outcomes if each.skill is not None},
         expects=tuple(
             library.Expectation(
                 condition=fold(each.condition.meaning) if each.condition else None,
@@ -106,7 +109,7 @@ def lower_test(typed: Test) -> library.Test:
 def label_requirements(requirements: Sequence[Requirement]) -> list[tuple[str, Requirement]]:
     """Return the conditions with their labels; one without a label is named by kind and number, such as `pre1`."""
     taken = {r.label.text for r in requirements if r.label}
-    counts = {"pre": 0, "hold": 0, "post": 0}
+    counts = {"pre": 0, "hold": 0, "post": 0, "outcome": 0}
     labelled = []
     for requirement in requirements:
         counts[requirement.kind] += 1
@@ -131,13 +134,35 @@ def _posts(labelled: Sequence[tuple[str, Requirement]]) -> tuple[library.Post, .
         library.Post(
             label=name,
             condition=fold(r.condition.meaning),
-            effects=tuple(effect for effect in effects_of(r.condition) if not isinstance(effect, NoEffect)),
+            effects=_effects(r),
             sensed=r.sensed,
             text=r.text,
             source=r.span.start,
         )
         for name, r in labelled
         if r.kind == "post"
+    )
+
+
+def _effects(requirement: Requirement) -> tuple[Effect, ...]:
+    return tuple(effect for effect in effects_of(requirement.condition) if not isinstance(effect, NoEffect))
+
+
+def _outcomes(typed: Skill) -> tuple[library.Outcome, ...]:
+    """Return the outcomes; those that do not say how likely they are share what is left."""
+    stated = [each.likely.value for each in typed.outcomes if each.likely is not None]
+    open_ = len(typed.outcomes) - len(stated)
+    share = round((1.0 - sum(stated)) / open_, 12) if open_ else 0.0
+    return tuple(
+        library.Outcome(
+            label=each.label.text if each.label else "",
+            condition=fold(each.condition.meaning),
+            effects=_effects(each),
+            likely=share if each.likely is None else each.likely.value,
+            text=each.text,
+            source=each.span.start,
+        )
+        for each in typed.outcomes
     )
 
 

@@ -127,10 +127,10 @@ def _uses_of_skills(program: Program) -> Mapping[Span, Sequence[Span]]:
         for argument in call.arguments:
             if (parameter := call.skill.parameter(argument.name.text)) is not None:
                 found[parameter.span].append(argument.value.span)
-        for requirement in (each for each in call.skill.requirements if each.kind != "post"):
+        for requirement in (each for each in call.skill.requirements if not each.says_what_comes):
             found[requirement.span].append(name)
     for implementation in (each for each in program.implementations if isinstance(each.body, TypedNode)):
-        for requirement in (each for each in implementation.skill.requirements if each.kind == "post"):
+        for requirement in (each for each in implementation.skill.requirements if each.says_what_comes):
             found[requirement.span].append(implementation.name_span)
     return found
 

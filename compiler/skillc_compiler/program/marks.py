@@ -109,7 +109,7 @@ class Marks:
         if self._syntax or lost.headers or lost.twice:
             return False
         posts = SpanIndex(each.written.span for each in self._program.unknown)
-        described = (r for skill in skills.values() for r in skill.requirements if r.kind == "post")
+        described = (r for skill in skills.values() for r in skill.requirements if r.says_what_comes)
         named = {*self._skills.values(), *(name for called in self._calls.values() for name in called)}
         return named <= skills.keys() and not any(posts.any_inside(post.span) for post in described)
 

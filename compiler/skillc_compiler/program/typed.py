@@ -62,14 +62,20 @@ class Parameter(msgspec.Struct, frozen=True):
 
 
 class Requirement(msgspec.Struct, frozen=True):
-    """A pre-, hold or postcondition."""
+    """A pre-, hold or postcondition, or an outcome; `likely` is the probability that an outcome states."""
 
-    kind: OneOf["pre", "hold", "post"]
+    kind: s.RequirementKind
     label: s.Name | None
     sensed: bool
     condition: TypedCondition
     text: str
     span: Span
+    likely: s.Number | None = None
+
+    @property
+    def says_what_comes(self) -> bool:
+        """Whether it says what is so afterwards."""
+        return self.kind in ("post", "outcome")
 
 
 class Pause(msgspec.Struct, frozen=True):
@@ -87,6 +93,7 @@ class Skill(msgspec.Struct, frozen=True):
     doc: str
     parameters: tuple[Parameter, ...]
     requirements: tuple[Requirement, ...]
+    senses: tuple[TypedExpression, ...]
     duration: TypedExpression | None
     devices: tuple[s.DeviceUse, ...]
     pause: Pause | None
@@ -97,6 +104,11 @@ class Skill(msgspec.Struct, frozen=True):
     def parameter(self, name: str) -> Parameter | None:
         """Return the parameter of that name, or None."""
         return next((p for p in self.parameters if p.name == name), None)
+
+    @property
+    def outcomes(self) -> tuple[Requirement, ...]:
+        """What can come of it, in the order in which it is written; empty if that is always the same."""
+        return tuple(each for each in self.requirements if each.kind == "outcome")
 
 
 class Argument(msgspec.Struct, frozen=True):
@@ -239,10 +251,19 @@ class Expectation(msgspec.Struct, frozen=True):
         return self.condition is None and self.failure is None
 
 
+class StartOutcome(msgspec.Struct, frozen=True):
+    """What comes of a skill in a test; `skill` is None if it is unknown."""
+
+    skill: Skill | None
+    outcome: s.Name
+    span: Span
+
+
 class Test(Task, frozen=True):
     """A task that starts with other facts than its scene, and what is expected of it; it has no parameters."""
 
     starts: tuple[TypedCondition, ...] = ()
+    outcomes: tuple[StartOutcome, ...] = ()
     expects: tuple[Expectation, ...] = ()
 
     @property

@@ -19,7 +19,7 @@ from skillc_dsl.spelling import alike_names, close_names, did_you_mean
 
 UnknownKind: TypeAlias = Literal[
     "class", "relation", "property", "type", "prefix", "individual", "value",
-    "function", "skill", "implementation", "parameter", "argument",
+    "function", "skill", "implementation", "parameter", "argument", "outcome",
 ]  # fmt: skip
 MOST_COMPARED = 50_000
 """So many candidates are compared with the unknown names of a library; the later ones of a flood have no suggestion."""

@@ -48,7 +48,7 @@ def calls_in(node: TypedNode) -> Iterator[Call]:
 
 
 def all_requirements(program: Program) -> Iterator[Requirement]:
-    """Yield every pre-, hold and postcondition."""
+    """Yield every pre-, hold and postcondition, and every outcome."""
     for skill in program.skills.values():
         yield from skill.requirements
     for implementation in program.implementations:
@@ -105,6 +105,7 @@ def skill_values(skill: Skill) -> Iterator[TypedExpression]:
     """Yield the expressions in the head of a skill, without those in its conditions."""
     for parameter in skill.parameters:
         yield from (value for value in (parameter.default, parameter.low, parameter.high) if value)
+    yield from skill.senses
     if skill.duration:
         yield skill.duration
     if skill.pause and skill.pause.keep:

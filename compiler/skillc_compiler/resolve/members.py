@@ -28,7 +28,7 @@ def resolve_requirements(
     for member in members:
         if isinstance(member, s.Requirement):
             _check_label(context, member, labels)
-            scope = after if member.kind == "post" else before
+            scope = after if member.kind in ("post", "outcome") else before
             yield Requirement(
                 member.kind,
                 member.label,
@@ -36,7 +36,15 @@ def resolve_requirements(
                 resolve_condition(context, scope, member.condition),
                 member.text,
                 member.span,
+                member.likely,
             )
+
+
+def resolve_senses(context: FileContext, scope: Scope, members: Sequence[object]) -> Iterator[TypedExpression]:
+    """Yield what a skill makes known."""
+    for member in members:
+        if isinstance(member, s.Senses):
+            yield resolve_value(context, scope, member.value)
 
 
 def resolve_duration(context: FileContext, scope: Scope, members: Sequence[object]) -> TypedExpression | None:

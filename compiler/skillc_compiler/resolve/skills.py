@@ -11,6 +11,7 @@ from skillc_compiler.resolve.members import (
     resolve_constant,
     resolve_duration,
     resolve_requirements,
+    resolve_senses,
     single_member,
 )
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
@@ -30,6 +31,7 @@ def resolve_skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
         doc=written.doc,
         parameters=parameters,
         requirements=tuple(resolve_requirements(context, before, after, written.members, {})),
+        senses=tuple(resolve_senses(context, before, written.members)),
         duration=resolve_duration(context, before, written.members),
         devices=tuple(_devices(context, written, parameters)),
         pause=_pause(context, written),

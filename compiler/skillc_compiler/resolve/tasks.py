@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 from msgspec import structs
 
-from skillc_compiler.program.typed import Expectation, Parameter, Task, Test
+from skillc_compiler.program.typed import Expectation, Parameter, StartOutcome, Task, Test
 from skillc_compiler.program.types import type_of
+from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.nodes import resolve_node
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
@@ -49,7 +50,21 @@ def _with_expectations(context: FileContext, scope: Scope, written: s.TestDeclar
         )
         for each in written.expects
     )
-    return Test(**structs.asdict(task), starts=starts, expects=expects)
+    outcomes = tuple(_resolve_outcome(context, each) for each in written.outcomes)
+    return Test(**structs.asdict(task), starts=starts, outcomes=outcomes, expects=expects)
+
+
+def _resolve_outcome(context: FileContext, written: s.StartOutcome) -> StartOutcome:
+    name = context.names.look_up_skill(written.skill)
+    skill = context.skills.get(name) if name else None
+    labels = [each.label.text for each in skill.outcomes if each.label] if skill else []
+    if skill and written.outcome.text not in labels:
+        message = f"the skill `{skill.name}` has no outcome `{written.outcome.text}`"
+        otherwise = "" if labels else "only a skill with `outcome` lines can be told what comes of it"
+        context.report_unknown(
+            UnknownName("outcome", written.outcome, message, tuple(labels), otherwise, owner=skill.name)
+        )
+    return StartOutcome(skill, written.outcome, written.span)
 
 
 def _parameters(context: FileContext, written: s.TaskDeclaration) -> Iterator[Parameter]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from itertools import groupby
+from itertools import groupby, product
 
 import msgspec
 
@@ -12,7 +12,7 @@ from skillc_model.pddl.consistency import Consistency
 from skillc_model.pddl.costs import action_cost, find_duration
 from skillc_model.pddl.domain import Action, CostFunction, Predicate
 from skillc_model.pddl.effects import Effects
-from skillc_model.pddl.formulas import FALSE, Change, Formula, conjunction, conjuncts, disjunction
+from skillc_model.pddl.formulas import FALSE, TRUE, Change, Formula, conjunction, conjuncts, disjunction
 from skillc_model.pddl.guards import Guards
 from skillc_model.pddl.kebab import to_kebab
 from skillc_model.pddl.names import make_unique
@@ -28,7 +28,7 @@ from skillc_model.pddl.translate import (
     negate,
 )
 from skillc_model.rewriting import substitute
-from skillc_model.skills import Implementation, Parameter, Requirement, Skill
+from skillc_model.skills import Implementation, Outcome, Parameter, Requirement, Skill
 from skillc_model.traversal import free_variables_in_order
 from skillc_rdf.vocabulary.types import ClassType
 
@@ -67,8 +67,8 @@ def make_actions(
     """Return the actions of a skill that locks the parameters `locks`; Untranslatable if a planner cannot handle it.
 
     At run time the first applicable implementation is chosen. So there is one action per duration, whose precondition
-    requires that one of its implementations is applicable and no earlier one is. `objects` are the individuals that
-    it may name, by IRI; `taken` are names already in use.
+    requires that one of its implementations is applicable and no earlier one is; and one of these per outcome.
+    `objects` are the individuals that it may name, by IRI; `taken` are names already in use.
     """
     guards = Guards(skill.name, symbols, taken)
     return _Builder(name, skill, tuple(implementations), symbols, objects, guards, taken, locks).planned()
@@ -92,17 +92,18 @@ class _Builder(msgspec.Struct, frozen=True):
         actions: list[Action] = []
         costs: list[CostFunction] = []
         never = Impossible("it has no implementation")
-        for case in self._cases(given, scope):
-            precondition = conjunction((described, case.chosen))
+        ends: tuple[Outcome | None, ...] = self.skill.outcomes or (None,)
+        for case, end in product(self._cases(given, scope), ends):
+            precondition = conjunction((described, case.chosen, self._possible(end, given, scope)))
             try:
-                changes, consistent = self._effects(conjunction((precondition, hold)), hold, given, scope)
+                changes, consistent = self._effects(conjunction((precondition, hold)), hold, given, scope, end)
             except Impossible as reason:
                 never = reason
                 continue
             taken = {*self.taken, *(each.name for each in actions), *(each.name for each in costs)}
             cost, function = action_cost(self.skill.name, case.duration, scope, self.symbols, taken)
             action = Action(
-                name=make_unique(f"{self.name}-{to_kebab(case.first)}", taken) if actions else self.name,
+                name=self._name(case, end, [each.name for each in actions], taken),
                 skill=self.skill.name,
                 parameters=tuple(place.variable for place in scope.values()),
                 binds=tuple(scope),
@@ -113,12 +114,29 @@ class _Builder(msgspec.Struct, frozen=True):
                 uses=tuple(scope[each].variable.name for each in self.locks if each in scope),
                 doc=self.skill.doc,
                 source=self.skill.source,
+                outcome="" if end is None else end.label,
             )
             actions.append(action)
             costs += [function] if function else []
         if not actions:
             raise never
         return PlannedSkill(tuple(actions), tuple(self.guards.found.values()), tuple(costs))
+
+    def _name(self, case: _Case, end: Outcome | None, before: Sequence[str], taken: Collection[str]) -> str:
+        """Return the name of an action: of the skill, its outcome, and the implementation where it is needed."""
+        name = self.name if end is None else f"{self.name}-{to_kebab(end.label)}"
+        if end is None and not before:
+            return name
+        return make_unique(f"{name}-{to_kebab(case.first)}" if name in before else name, taken)
+
+    def _possible(self, end: Outcome | None, given: DefaultValues, scope: Scope) -> Formula:
+        """Return under which condition an outcome may come."""
+        if end is None:
+            return TRUE
+        possible = self.skill.find_possibility(end)
+        return self._requirement(
+            Requirement(label=end.label, condition=possible, text=end.text, source=end.source), "outcome", given, scope
+        )
 
     def _described(self, given: DefaultValues, scope: Scope) -> Iterator[Formula]:
         translator = self._translator()
@@ -184,12 +202,12 @@ class _Builder(msgspec.Struct, frozen=True):
         return Translator(self.symbols, self.guards.labelled(label, text), self.objects)
 
     def _effects(
-        self, known: Formula, hold: Formula, given: DefaultValues, scope: Scope
+        self, known: Formula, hold: Formula, given: DefaultValues, scope: Scope, end: Outcome | None
     ) -> tuple[tuple[Change, ...], Formula]:
         """Return the changes of the action, and the precondition under which the world is consistent after it."""
         if known == FALSE:
             raise Impossible("its conditions can never hold")
-        effects = self._stated(given)
+        effects = self._stated(given, end)
         changes = Effects(self._translator(), scope, known).changes(effects)
         if not changes:
             raise Untranslatable("it changes nothing that a planner can see")
@@ -201,9 +219,10 @@ class _Builder(msgspec.Struct, frozen=True):
             raise Impossible("its postconditions contradict each other or an axiom")
         return changes, consistent
 
-    def _stated(self, given: DefaultValues) -> tuple[Effect, ...]:
+    def _stated(self, given: DefaultValues, end: Outcome | None) -> tuple[Effect, ...]:
         """Return the effects with the defaults of optional parameters, which implementations cannot change."""
-        effects = [effect for post in self.skill.post for effect in post.effects]
+        results = (*self.skill.post, *(() if end is None else (end,)))
+        effects = [effect for each in results for effect in each.effects]
         read = {name for effect in effects for name in free_variables_in_order(effect)} & given.given.keys()
         for implementation in self.implementations:
             own = default_values(implementation.parameters).values

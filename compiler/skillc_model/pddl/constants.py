@@ -60,8 +60,8 @@ class _Mentions(msgspec.Struct, frozen=True):
 
     def of(self, skill: Skill, implementations: Iterable[Implementation]) -> Iterator[Mention]:
         """Yield the individuals that a skill names in its conditions, postconditions, defaults and durations."""
-        for post in skill.post:
-            yield from self._inside((post.condition, *post.effects), post.source)
+        for result in skill.results:
+            yield from self._inside((result.condition, *result.effects), result.source)
         described: tuple[Skill | Implementation, ...] = (skill, *implementations)
         for each in described:
             if each.duration is not None:

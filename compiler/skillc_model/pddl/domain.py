@@ -126,8 +126,9 @@ class CostFunction(msgspec.Struct, frozen=True):
 class Action(msgspec.Struct, frozen=True):
     """A planning action: a skill run by one of its implementations of equal duration.
 
-    `binds` gives the skill parameter of each action parameter; `uses` are the variables of locked devices. A goal
-    action (`skill` is None) costs nothing and does not become a step of a plan.
+    `binds` gives the skill parameter of each action parameter; `uses` are the variables of locked devices. A skill with
+    outcomes has an action for each `outcome`, which is a label. A goal action (`skill` is None) costs nothing and does
+    not become a step of a plan.
     """
 
     name: str
@@ -141,6 +142,7 @@ class Action(msgspec.Struct, frozen=True):
     uses: tuple[str, ...] = ()
     doc: str = ""
     source: Position | None = None
+    outcome: str = ""
 
 
 class Excluded(msgspec.Struct, frozen=True):

@@ -98,7 +98,7 @@ def _find_fixed_point(
 
 
 def _terms_written(skills: Iterable[Skill], library: SkillLibrary) -> frozenset[str]:
-    return terms_written((post for skill in skills for post in skill.post), library.vocabulary)
+    return terms_written((each for skill in skills for each in skill.results), library.vocabulary)
 
 
 def _unnamed(

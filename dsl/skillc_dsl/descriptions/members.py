@@ -50,6 +50,20 @@ MEMBERS = (
     ),
     Construct(
         "member",
+        words("senses", "trailing", since=2),
+        "senses THING.PROPERTY",
+        meaning="the skill makes this property known; see [sensing with outcomes](#sensing-with-outcomes)",
+        long=True,
+    ),
+    Construct(
+        "member",
+        (*words("outcome", "trailing", since=2), *words("likely", "trailing", since=2)),
+        "outcome NAME: CONDITION likely NUMBER",
+        meaning="what can come of the skill: exactly one of its outcomes holds after success, which was sensed",
+        long=True,
+    ),
+    Construct(
+        "member",
         words("duration", "trailing"),
         meaning="an expression for the expected time; the planner minimises it",
         long=True,

@@ -31,6 +31,7 @@ from skillc_dsl.syntax.declarations import RelationDeclaration as RelationDeclar
 from skillc_dsl.syntax.declarations import SkillDeclaration as SkillDeclaration
 from skillc_dsl.syntax.declarations import SkillMember as SkillMember
 from skillc_dsl.syntax.declarations import Start as Start
+from skillc_dsl.syntax.declarations import StartOutcome as StartOutcome
 from skillc_dsl.syntax.declarations import TaskDeclaration as TaskDeclaration
 from skillc_dsl.syntax.declarations import TestDeclaration as TestDeclaration
 from skillc_dsl.syntax.declarations import Trait as Trait
@@ -48,7 +49,9 @@ from skillc_dsl.syntax.members import Prefer as Prefer
 from skillc_dsl.syntax.members import Range as Range
 from skillc_dsl.syntax.members import Refinement as Refinement
 from skillc_dsl.syntax.members import Requirement as Requirement
+from skillc_dsl.syntax.members import RequirementKind as RequirementKind
 from skillc_dsl.syntax.members import RunPython as RunPython
+from skillc_dsl.syntax.members import Senses as Senses
 from skillc_dsl.syntax.members import Verify as Verify
 from skillc_dsl.syntax.members import VerifyEvent as VerifyEvent
 from skillc_dsl.syntax.nodes import ApplyPosts as ApplyPosts

@@ -20,11 +20,12 @@ from skillc_dsl.syntax.members import (
     Refinement,
     Requirement,
     RunPython,
+    Senses,
     Verify,
 )
 from skillc_dsl.syntax.values import Name, Text, TypeName
 
-SkillMember: TypeAlias = Parameter | Requirement | Duration | DeviceUse | Pause | Flag
+SkillMember: TypeAlias = Parameter | Requirement | Senses | Duration | DeviceUse | Pause | Flag
 ImplementationMember: TypeAlias = Refinement | Requirement | Duration | Let | Prefer | Body | RunPython | Verify
 
 
@@ -159,6 +160,14 @@ class Start(msgspec.Struct, frozen=True):
     span: Span
 
 
+class StartOutcome(msgspec.Struct, frozen=True):
+    """`start skill -> outcome`: what comes of a skill in a test."""
+
+    skill: Name
+    outcome: Name
+    span: Span
+
+
 class Expect(msgspec.Struct, frozen=True):
     """`expect condition`, `expect failure "text"` or `expect no plan`; `text` is the condition as written.
 
@@ -175,6 +184,7 @@ class TestDeclaration(TaskDeclaration, frozen=True):
     """`test name { scene, start .., goal or do, expect .. }`: a task that has no parameters, and what comes of it."""
 
     starts: tuple[Start, ...] = ()
+    outcomes: tuple[StartOutcome, ...] = ()
     expects: tuple[Expect, ...] = ()
 
 

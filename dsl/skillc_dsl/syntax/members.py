@@ -12,6 +12,7 @@ from skillc_dsl.syntax.nodes import Node
 from skillc_dsl.syntax.values import Name, Number, Text, TypeName, Value
 
 Direction: TypeAlias = Literal["in", "opt", "infer", "out"]
+RequirementKind: TypeAlias = Literal["pre", "hold", "post", "outcome"]
 PausePlace: TypeAlias = Literal["anywhere", "between steps", "never"]
 
 
@@ -47,13 +48,24 @@ class Refinement(msgspec.Struct, frozen=True):
 
 
 class Requirement(msgspec.Struct, frozen=True):
-    """`pre|hold|post [sensed] [label:] condition`; `text` is the condition as written, in one line."""
+    """`pre|hold|post [sensed] [label:] condition` or `outcome label: condition [likely N]`.
 
-    kind: Literal["pre", "hold", "post"]
+    `text` is the condition as written, in one line. An outcome is sensed.
+    """
+
+    kind: RequirementKind
     sensed: bool
     label: Name | None
     condition: Condition
     text: str
+    span: Span
+    likely: Number | None = None
+
+
+class Senses(msgspec.Struct, frozen=True):
+    """`senses thing.property`"""
+
+    value: Value
     span: Span
 
 

@@ -19,12 +19,13 @@ from skillc_runtime.execution.refinement.run_planning import SpaceLook, look_at_
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.planning.arrangement import Arrangement, arrange_plan, step_numbers
 from skillc_runtime.planning.foresight import foresee
-from skillc_runtime.planning.plan import Excluded, GaveUp, PlanResult, Solved, Step, Unsolvable
+from skillc_runtime.planning.makespan.scheduling import keep_apart
+from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import Scheduled
-from skillc_runtime.planning.separation import keep_apart
 from skillc_runtime.planning.solve import DEADLINE_S, solve
+from skillc_runtime.planning.validation import PlanError, validate
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -42,12 +43,20 @@ class ExecuteBody(msgspec.Struct, frozen=True):
     body: Node
 
 
+class Sensed(msgspec.Struct, frozen=True):
+    """What has come of the last step of a policy, as a clause, and how the policy goes on; None if it does not say."""
+
+    why: str
+    branch: Solved | None
+
+
 class Assignment(msgspec.Struct, frozen=True):
-    """What is to be done in a world."""
+    """What is to be done in a world, after what was `sensed` if it goes on with a policy."""
 
     name: str
     state: WorldState
     objective: AchieveGoal | ExecuteBody
+    sensed: Sensed | None = None
 
 
 class PlannedSteps(msgspec.Struct, frozen=True):
@@ -172,6 +181,14 @@ def _prepare_plan(
     assignment: Assignment, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Step], search: _Search
 ) -> PreparedTask | NotStarted:
     def plan(more: Sequence[Excluded]) -> PlanResult | Scheduled:
+        branch = None if assignment.sensed is None else assignment.sensed.branch
+        if (
+            branch is not None
+            and not without
+            and not more
+            and _works(branch.plan, assignment.state, objective, library)
+        ):
+            return branch
         return _plan(assignment.state, objective, library, (*without, *more), search)
 
     if search.look is None:
@@ -184,6 +201,15 @@ def _prepare_plan(
     apart = keep_apart(result, space.apart_pairs if space is not None else (), library, assignment.state)
     solved = apart.as_solved() if isinstance(apart, Scheduled) else apart
     return arrange_prepared(assignment, solved, library, space)
+
+
+def _works(plan: Plan, state: WorldState, objective: AchieveGoal, library: SkillLibrary) -> bool:
+    """Whether a plan leads to the goal."""
+    try:
+        validate(plan, library, state, objective.goal)
+    except PlanError:
+        return False
+    return True
 
 
 def _refuse(answer: Unsolvable | GaveUp) -> NotStarted:

@@ -84,6 +84,12 @@ class AttemptResult(msgspec.Struct, frozen=True):
     broken_calls: tuple[BrokenCall, ...] = ()
 
     @property
+    def is_look(self) -> bool:
+        """Whether it was the part of a policy up to a step that decides how it goes on, and succeeded."""
+        planned = self.prepared.planned
+        return self.status is Status.SUCCESS and planned is not None and bool(planned.solved.plan.branches)
+
+    @property
     def reason(self) -> str:
         """Why another plan may be needed."""
         if self.invalidated is not None:
@@ -202,9 +208,10 @@ class Attempt:
 
     def _watch_plan(self) -> PlanMonitor | None:
         match self.prepared:
-            case PreparedTask(Assignment(objective=AchieveGoal(goal)), planned=PlannedSteps(steps=steps)):
+            case PreparedTask(Assignment(objective=AchieveGoal(goal)), planned=PlannedSteps() as planned):
                 world = self._context.backend.cell.world
-                return PlanMonitor(steps, goal, self._context.library, world, lambda: self.tree.outcome)
+                end = None if planned.solved.plan.branches else goal
+                return PlanMonitor(planned.steps, end, self._context.library, world, lambda: self.tree.outcome)
             case _:
                 return None
 

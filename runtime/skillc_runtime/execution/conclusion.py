@@ -9,13 +9,20 @@ import msgspec
 from msgspec.structs import replace
 
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.execution.assignment import AchieveGoal, ExecuteBody, NotStarted, PreparedTask, arrange_prepared
+from skillc_runtime.execution.assignment import (
+    AchieveGoal,
+    ExecuteBody,
+    NotStarted,
+    PreparedTask,
+    Sensed,
+    arrange_prepared,
+)
 from skillc_runtime.execution.attempt import AttemptResult
 from skillc_runtime.execution.plans.doubts import find_doubt
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.success_facts import collect_success_facts
-from skillc_runtime.planning.plan import Step
-from skillc_runtime.planning.validation import PlanError, compute_effects
+from skillc_runtime.planning.plan import Solved, Step
+from skillc_runtime.planning.validation import PlanError, bind_parameters, compute_effects
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact
@@ -63,16 +70,35 @@ def conclude(attempts: Sequence[AttemptResult], failures: FailedSteps, world: Wo
         return ended if doubt is None else Ended("failed", doubt)
     if last.status is Status.FAILURE and not _has_failed_step(last, failures):
         return ended
-    if len(attempts) == MAX_ATTEMPTS:
+    if last.is_look:
+        return NeedsPlan()
+    if sum(not each.is_look for each in attempts) == MAX_ATTEMPTS:
         enough = NotStarted(f"the task was tried {MAX_ATTEMPTS} times")
         return Ended("failed", no_other_plan(attempts, failures, enough))
     return NeedsPlan()
 
 
+def find_sensed(last: AttemptResult, library: SkillLibrary, state: WorldState) -> Sensed | None:
+    """Return what has come of the last step of a policy, whose attempt has ended in `state`; None if it is none."""
+    planned = last.prepared.planned
+    if planned is None or not last.is_look:
+        return None
+    plan = planned.solved.plan
+    look = plan.steps[-1]
+    true = [
+        each.label
+        for each in library.skills[look.skill].outcomes
+        if evaluate(each.condition, state, bind_parameters(look, library, state))
+    ]
+    branch = plan.find_branch(true[0]) if true else None
+    known = None if branch is None else Solved(branch, "best found", planned.solved.planner)
+    return Sensed(f"{look.skill} has ended with `{'` and `'.join(true)}`", known)
+
+
 def _has_failed_step(last: AttemptResult, failures: FailedSteps) -> bool:
     """Whether a step of the plan failed, or a body that was not planned: another plan may avoid it."""
     planned = last.prepared.planned is not None
-    return not planned or any(step in failures.steps for step in last.steps_with_status("failure"))
+    return not planned or any(step.with_outcome("") in failures.steps for step in last.steps_with_status("failure"))
 
 
 def no_other_plan(attempts: Sequence[AttemptResult], failures: FailedSteps, answer: NotStarted) -> Failure:

@@ -27,7 +27,7 @@ from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.progress import PlanningProgress, ReportProgress
 from skillc_runtime.planning.solve import DEADLINE_S
-from skillc_runtime.planning.validation import PlanError, check_goal_reached, follow_plan
+from skillc_runtime.planning.validation import PlanError, check_goal_reached, follow_plan, validate
 from skillc_runtime.platforms.processes import DEFAULT_START, StartMethod
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.world_state import WorldState
@@ -131,7 +131,10 @@ def find_arrival_problem(prepared: PreparedTask, library: SkillLibrary, now: Wor
         try:
             foreseen, state = foresee(library, now, objective.goal)
             worlds = follow_plan(plan, foreseen, state)
-            check_goal_reached(objective.goal, worlds[-1])
+            if plan.branches:
+                validate(plan, foreseen, state, objective.goal)
+            else:
+                check_goal_reached(objective.goal, worlds[-1])
             arrangement = arrange_followed(plan, foreseen, worlds)
         except PlanError as reason:
             return str(reason)

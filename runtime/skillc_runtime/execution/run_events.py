@@ -12,7 +12,13 @@ from skillc_runtime.execution.assignment import (
     arrange_prepared,
 )
 from skillc_runtime.execution.attempt import CellOrigin
-from skillc_runtime.execution.plans.plan_record import record_arrangement, record_plan, record_steps, restore_plan
+from skillc_runtime.execution.plans.plan_record import (
+    record_arrangement,
+    record_branches,
+    record_plan,
+    record_steps,
+    restore_plan,
+)
 from skillc_runtime.execution.tree.gate import Gate, format_breakpoints
 from skillc_runtime.planning.plan import describe_quality
 from skillc_runtime.recording.events import FORMAT, PlanArrived, PlanMade, TaskStarted
@@ -61,6 +67,7 @@ def make_plan_event(prepared: PreparedTask, library: SkillLibrary, now: float) -
         quality=describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
         arrangement=record_arrangement(prepared.planned.arrangement),
         space=prepared.space,
+        branches=record_branches(solved.plan, library),
     )
 
 

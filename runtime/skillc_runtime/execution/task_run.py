@@ -16,6 +16,7 @@ from skillc_runtime.execution.conclusion import (
     NeedsPlan,
     collect_facts,
     conclude,
+    find_sensed,
     no_other_plan,
 )
 from skillc_runtime.execution.decisions import try_command
@@ -169,7 +170,9 @@ class TaskRun(RunStatus):
     def _prepare(self) -> None:
         """Start to plan for the world as it is now."""
         self._enter("planning", self.attempts[-1].reason if self.attempts else "")
-        assignment = replace(self.assignment, state=self._context.backend.cell.world.snapshot())
+        state = self._context.backend.cell.world.snapshot()
+        sensed = find_sensed(self.attempts[-1], self._context.library, state) if self.attempts else None
+        assignment = replace(self.assignment, state=state, sensed=sensed)
         self._next.plan(assignment, self._context.failures)
 
     def _take_preparation(self, tick: int) -> bool:
@@ -203,7 +206,9 @@ class TaskRun(RunStatus):
     def _start_attempt(self, prepared: PreparedTask) -> None:
         context, last = self._context, self.attempts[-1] if self.attempts else None
         if last is not None:
-            self._emit(Replanned(time=self._now, reason=last.reason))
+            sensed = prepared.assignment.sensed
+            why = last.reason if sensed is None else sensed.why
+            self._emit(Replanned(time=self._now, reason=why, sensed=sensed is not None))
         if (event := make_plan_event(prepared, context.library, self._now)) is not None:
             self._emit(event)
             if event.space is not None and event.space.stopped:

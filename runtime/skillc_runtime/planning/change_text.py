@@ -131,7 +131,7 @@ def describe_class(name: str, problem: Problem, state: WorldState) -> str:
 
 def describe_unused_skills(terms: Set[str], problem: Problem, library: SkillLibrary) -> Iterator[str]:
     """Yield the skills that are left out of planning, with the reasons, if they alone change one of these terms."""
-    written = {name: terms_written(each.post, library.vocabulary) for name, each in library.skills.items()}
+    written = {name: terms_written(each.results, library.vocabulary) for name, each in library.skills.items()}
     planned = {each.skill for each in problem.domain.actions if each.skill is not None}
     wanted = terms - frozenset[str]().union(*(written[each] for each in planned))
     reasons = {each.skill: each.reason for each in problem.domain.excluded}

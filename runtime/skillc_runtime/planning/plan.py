@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from itertools import combinations
 from typing import Literal, Protocol, TypeAlias, assert_never
 
@@ -15,10 +15,18 @@ from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 
 
 class Step(msgspec.Struct, frozen=True):
-    """A skill with the individuals (IRIs) that the planner bound to its parameters."""
+    """A skill with the individuals (IRIs) that the planner bound to its parameters.
+
+    `outcome` is the label of what comes of it; empty if the skill has no outcomes, or if branches of the plan follow.
+    """
 
     skill: str
     arguments: dict[str, str]
+    outcome: str = ""
+
+    def with_outcome(self, outcome: str) -> Step:
+        """Return the step of which this outcome comes."""
+        return msgspec.structs.replace(self, outcome=outcome)
 
 
 class StepWhile(msgspec.Struct, frozen=True):
@@ -43,16 +51,53 @@ Excluded: TypeAlias = Step | StepWhile
 """What a plan may not contain."""
 
 
+class Branch(msgspec.Struct, frozen=True):
+    """How a policy goes on after an outcome of its last step, and how likely that outcome is there, from 0 to 1.
+
+    Without a plan it is planned when the outcome comes.
+    """
+
+    outcome: str
+    likely: float
+    plan: Plan | None
+
+
 class Plan(msgspec.Struct, frozen=True):
     """Steps in order, and their expected duration in seconds.
 
     `apart` are pairs of steps, by index, the earlier one first, that may not run at the same time, whatever the facts
-    say.
+    say. A policy goes on with one of its `branches`, by what comes of the last step: its duration is that of its steps
+    and the mean of its branches, weighted by how likely they are, and `worst_s` with the longest branch instead. Both
+    leave out branches that are not planned yet.
     """
 
     steps: tuple[Step, ...]
     duration_s: float
     apart: frozenset[tuple[int, int]] = frozenset()
+    branches: tuple[Branch, ...] = ()
+
+    @property
+    def worst_s(self) -> float:
+        """Its duration in s if always the longest branch comes."""
+        planned = [(each.likely, each.plan) for each in self.branches if each.plan is not None]
+        share = sum(likely for likely, _ in planned) or 1.0
+        mean_s = sum(likely * plan.duration_s for likely, plan in planned) / share
+        return self.duration_s - mean_s + max((plan.worst_s for _, plan in planned), default=0.0)
+
+    @property
+    def count(self) -> int:
+        """The number of steps, those of all branches included."""
+        return len(self.steps) + sum(each.plan.count for each in self.branches if each.plan is not None)
+
+    def list_open(self) -> Iterator[tuple[Step, ...]]:
+        """Yield the looks, each with its outcome, that lead to each branch which is not planned yet."""
+        for branch in self.branches:
+            look = self.steps[-1].with_outcome(branch.outcome)
+            yield from ((look,),) if branch.plan is None else ((look, *more) for more in branch.plan.list_open())
+
+    def find_branch(self, outcome: str) -> Plan | None:
+        """Return how it goes on after an outcome; None if that is not planned."""
+        return next((each.plan for each in self.branches if each.outcome == outcome), None)
 
     def keep(self, steps: Iterable[Step]) -> Plan:
         """Return a plan of some of these steps, in any order, of which the same may not run at the same time."""
@@ -63,7 +108,9 @@ class Plan(msgspec.Struct, frozen=True):
             kept.append(place)
         pairs = combinations(range(len(kept)), 2)
         apart = (pair for pair in pairs if tuple(sorted(kept[each][0] for each in pair)) in self.apart)
-        return Plan(tuple(step for _, step in kept), self.duration_s, frozenset(apart))
+        looks = bool(kept) and kept[-1][0] == len(self.steps) - 1
+        branches = self.branches if looks else ()
+        return Plan(tuple(step for _, step in kept), self.duration_s, frozenset(apart), branches)
 
 
 Optimal: TypeAlias = Literal[

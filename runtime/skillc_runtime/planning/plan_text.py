@@ -50,7 +50,8 @@ def read_step(problem: Problem, words: tuple[str, ...]) -> Step | None:
 def _make_step(problem: Problem, action: Action, arguments: tuple[str, ...]) -> Step | None:
     if action.skill is None:
         return None
-    return Step(action.skill, dict(zip(action.binds, map(problem.names.__getitem__, arguments), strict=True)))
+    named = dict(zip(action.binds, map(problem.names.__getitem__, arguments), strict=True))
+    return Step(action.skill, named, action.outcome)
 
 
 def _find_action(problem: Problem, words: tuple[str, ...]) -> tuple[Action, tuple[str, ...]]:

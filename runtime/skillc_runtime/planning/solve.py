@@ -26,6 +26,7 @@ from skillc_runtime.planning.plan import (
     Unsolvable,
 )
 from skillc_runtime.planning.planners import list_planners
+from skillc_runtime.planning.policy import make_policy
 from skillc_runtime.planning.problem.chains import UnrolledProblem, unroll_chains
 from skillc_runtime.planning.problem.neighbourhood import NARROW, AbstractionSize
 from skillc_runtime.planning.problem.pose import GoalError, PosedProblem, already_holds
@@ -54,10 +55,31 @@ def solve(
     first, as large as `size` says. If a planner gives up, the next one gets the remaining time, until `cancel` ends the
     search, by default after DEADLINE_S. A goal that already holds has the empty plan, even if planners cannot express
     it; for one that does not hold and cannot be expressed, nothing is searched. Planners `report` how far they are, for
-    the part that they plan with.
+    the part that they plan with. A plan with steps of which different outcomes may come is a policy.
     """
     cancel = cancel or CancelToken(DEADLINE_S)
     chosen = tuple(list_planners() if planners is None else planners)
+
+    def plan(world: WorldState, left_out: Sequence[Excluded], part: CancelToken) -> PlanResult:
+        return _solve_for_what_suits(library, world, goal, chosen, part, left_out, size, report)
+
+    line = plan(state, without, cancel)
+    if not isinstance(line, Solved):
+        return line
+    return make_policy(line, *foresee(library, state, goal), goal, plan, without, cancel)
+
+
+def _solve_for_what_suits(
+    library: SkillLibrary,
+    state: WorldState,
+    goal: Condition,
+    chosen: tuple[Planner, ...],
+    cancel: CancelToken,
+    without: Sequence[Excluded],
+    size: AbstractionSize | None,
+    report: ReportProgress,
+) -> PlanResult:
+    """Return a plan that chooses what comes of its steps."""
     try:
         with cancelling(cancel):
             if already_holds(goal, state):

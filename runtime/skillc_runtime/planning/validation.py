@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from skillc_model.conditions import Condition
 from skillc_model.pddl.costs import ASSUMED_SECONDS, find_duration
-from skillc_model.skills import Implementation, Parameter, Requirement, SkillLibrary
+from skillc_model.skills import Implementation, Outcome, Parameter, Post, Requirement, SkillLibrary
 from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.plan import Plan, Step
@@ -32,9 +32,23 @@ def validate(plan: Plan, library: SkillLibrary, state: WorldState, goal: Conditi
 
     PlanError if the type of an argument, a precondition or a hold condition of a step fails, if none of its
     implementations can start, if its effects violate an axiom, if a postcondition does not hold after it, or if the
-    goal does not hold at the end.
+    goal does not hold at the end. Of a policy all of that is checked for each branch that is planned, and that it has a
+    branch for each outcome; the world is that before its last step.
     """
-    return check_goal_reached(goal, follow_plan(plan, *foresee(library, state, goal))[-1])
+    library, state = foresee(library, state, goal)
+    if not plan.branches:
+        return check_goal_reached(goal, follow_plan(plan, library, state)[-1])
+    *before, look = plan.steps
+    world = follow_plan(Plan(tuple(before), 0.0), library, state)[-1]
+    branches = {each.outcome: each.plan for each in plan.branches}
+    for outcome in find_possible_outcomes(look, library, world):
+        if outcome.label not in branches:
+            raise PlanError(f"it does not say how it goes on if {look.skill} ends with `{outcome.label}`")
+        after = follow_plan(Plan((look.with_outcome(outcome.label),), 0.0), library, world)[-1]
+        branch = branches[outcome.label]
+        if branch is not None:
+            validate(branch, library, after, goal)
+    return world
 
 
 def follow_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> tuple[WorldState, ...]:
@@ -63,6 +77,8 @@ def apply_step(step: Step, library: SkillLibrary, state: WorldState) -> WorldSta
     """Return the world after one step; PlanError if it cannot start or its effects are inconsistent."""
     try:
         find_startable_implementations(step, library, state)
+        if step.outcome and step.outcome not in [each.label for each in find_possible_outcomes(step, library, state)]:
+            raise PlanError(f"it cannot end with `{step.outcome}`, since something else is known")
         return check_stated_posts(step, library, apply_effects(step, library, state))
     except (EvaluationError, WorldError) as reason:
         raise PlanError(str(reason)) from reason
@@ -74,11 +90,24 @@ def check_stated_posts(step: Step, library: SkillLibrary, after: WorldState) -> 
     Postconditions that are only measured have no effects in the world model and are not checked.
     """
     bindings = bind_parameters(step, library, after)
-    for post in library.skills[step.skill].post:
-        if post.effects and not evaluate(post.condition, after, bindings):
-            why = explain(post.condition, after, bindings, after.vocabulary)
-            raise PlanError(f"`{post.text}` would not hold in the end: {why}")
+    for result in _results(step, library):
+        if result.effects and not evaluate(result.condition, after, bindings):
+            why = explain(result.condition, after, bindings, after.vocabulary)
+            raise PlanError(f"`{result.text}` would not hold in the end: {why}")
     return after
+
+
+def _results(step: Step, library: SkillLibrary) -> tuple[Post | Outcome, ...]:
+    """Return the postconditions of a step and the outcome that comes of it, if it has one."""
+    skill = library.skills[step.skill]
+    outcome = skill.find_outcome(step.outcome)
+    return (*skill.post, *(() if outcome is None else (outcome,)))
+
+
+def find_possible_outcomes(step: Step, library: SkillLibrary, state: WorldState) -> tuple[Outcome, ...]:
+    """Return the outcomes that may come of a step: what is known is not unlearned. EvaluationError if that is open."""
+    skill, bindings = library.skills[step.skill], bind_parameters(step, library, state)
+    return tuple(each for each in skill.outcomes if evaluate(skill.find_possibility(each), state, bindings))
 
 
 def apply_effects(step: Step, library: SkillLibrary, state: WorldState) -> WorldState:
@@ -87,9 +116,11 @@ def apply_effects(step: Step, library: SkillLibrary, state: WorldState) -> World
 
 
 def compute_effects(step: Step, library: SkillLibrary, state: WorldState) -> tuple[Change, ...]:
-    """Return the changes that a step's postconditions describe; EvaluationError if one cannot be computed."""
-    skill = library.skills[step.skill]
-    effects = [effect for post in skill.post for effect in post.effects]
+    """Return the changes that a step's postconditions, and its outcome, describe.
+
+    EvaluationError if one cannot be computed.
+    """
+    effects = [effect for each in _results(step, library) for effect in each.effects]
     return changes_of(effects, state, bind_parameters(step, library, state))
 
 

@@ -23,13 +23,14 @@ from skillc_runtime.recording.reasons import (
     UntriedImplementation,
     WrittenExpression,
 )
+from skillc_runtime.recording.recorded_plan import ArrivedPlan, PlanBranch, PlanStep, StepGroup
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.labels.labelled import LabelledChange, LabelledIri, LabelledValue
 
-FORMAT = 10
+FORMAT = 11
 """Raised with every change of the events or their meaning. Readers accept this format only."""
 
 
@@ -92,51 +93,6 @@ class Disturbed(_Event, tag="disturbed", frozen=True, kw_only=True):
     who: str = ""
 
 
-class PlanStep(msgspec.Struct, frozen=True, kw_only=True):
-    """A step of a plan: the skill and its arguments by parameter name."""
-
-    skill: str
-    arguments: dict[str, LabelledValue]
-    source: Position | None = None
-
-
-class PartLeftOut(msgspec.Struct, frozen=True):
-    """A part of a planning problem that was left out; see `LeftOut` in `planning.plan`."""
-
-    kind: Literal["individuals", "skills", "steps", "chains"]
-    why: str
-    harmless: bool
-
-
-class StepGroup(msgspec.Struct, frozen=True, omit_defaults=True):
-    """Parts of a plan that run in series, or in `parallel`: indices of steps, and other groups.
-
-    In parallel, a part may have to wait for others: `after` has their indices, for each part.
-    """
-
-    parts: tuple[int | StepGroup, ...]
-    parallel: bool = False
-    after: tuple[tuple[int, ...], ...] = ()
-
-
-class ArrivedPlan(msgspec.Struct, frozen=True, kw_only=True):
-    """A plan as the planner found it, with its steps in order.
-
-    `arrangement` has each step, by its index in `steps`, where it runs in the body; `space` is what is known of it in
-    space, None if nobody has looked. The other fields are those of `Solved` in `planning.plan`.
-    """
-
-    planner: str
-    optimal: str
-    duration_s: float
-    steps: tuple[PlanStep, ...]
-    left_out: tuple[PartLeftOut, ...] = ()
-    at_least_s: float | None = None
-    assumptions: tuple[str, ...] = ()
-    arrangement: StepGroup = StepGroup(())
-    space: SpaceClaim | None = None
-
-
 class PlanArrived(_Event, tag="plan-arrived", frozen=True, kw_only=True):
     """The answer of a planner took effect in a tick of the cell's loop: a plan, or why there is none.
 
@@ -156,8 +112,8 @@ class PlanArrived(_Event, tag="plan-arrived", frozen=True, kw_only=True):
 class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
     """A planner found a plan; `cost` is its expected duration in s.
 
-    `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds. `arrangement`
-    and `space` are as in `ArrivedPlan`.
+    `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds. `arrangement`,
+    `space` and `branches` are as in `ArrivedPlan`.
     """
 
     planner: str
@@ -167,6 +123,7 @@ class PlanMade(_Event, tag="plan-made", frozen=True, kw_only=True):
     quality: str = ""
     arrangement: StepGroup = StepGroup(())
     space: SpaceClaim | None = None
+    branches: tuple[PlanBranch, ...] = ()
 
     @property
     def summary(self) -> str:
@@ -182,9 +139,13 @@ class PromptsChanged(_Event, tag="prompts-changed", frozen=True, kw_only=True):
 
 
 class Replanned(_Event, tag="replanned", frozen=True, kw_only=True):
-    """The plan failed or no longer leads to the goal; the next plan replaces it."""
+    """The plan failed or no longer leads to the goal; the next plan replaces it.
+
+    Or a policy goes on after what was `sensed`: the next plan is its branch, made anew if that does not work.
+    """
 
     reason: str
+    sensed: bool = False
 
 
 class NodeStarted(_Event, tag="node-started", frozen=True, kw_only=True):

@@ -1637,10 +1637,12 @@ export interface components {
             arrangement?: components["schemas"]["StepGroup"];
             /** @default null */
             space?: components["schemas"]["SpaceClaim"] | null;
+            /** @default [] */
+            branches?: components["schemas"]["PlanBranch"][];
         };
         /**
          * PlanStep
-         * @description A step of a plan: the skill and its arguments by parameter name.
+         * @description A step of a plan: the skill, its arguments by parameter name, and what comes of it if the plan expects that.
          */
         PlanStep: {
             skill: string;
@@ -1649,6 +1651,24 @@ export interface components {
             };
             /** @default null */
             source?: components["schemas"]["Position"] | null;
+            /** @default  */
+            outcome?: string;
+        };
+        /**
+         * PlanBranch
+         * @description How a policy goes on after an outcome of its last step, and how likely that is; see `Branch` in `planning.plan`.
+         *
+         *         `steps` is None if it is planned when the outcome comes. `duration_s` is the expected duration of the branch, in s.
+         */
+        PlanBranch: {
+            outcome: string;
+            likely: number;
+            /** @default null */
+            steps?: components["schemas"]["PlanStep"][] | null;
+            /** @default 0 */
+            duration_s?: number;
+            /** @default [] */
+            branches?: components["schemas"]["PlanBranch"][];
         };
         /**
          * PartLeftOut
@@ -1824,6 +1844,8 @@ export interface components {
             arrangement?: components["schemas"]["StepGroup"];
             /** @default null */
             space?: components["schemas"]["SpaceClaim"] | null;
+            /** @default [] */
+            branches?: components["schemas"]["PlanBranch"][];
         };
         /**
          * PromptsChanged
@@ -1838,12 +1860,16 @@ export interface components {
         /**
          * Replanned
          * @description The plan failed or no longer leads to the goal; the next plan replaces it.
+         *
+         *         Or a policy goes on after what was `sensed`: the next plan is its branch, made anew if that does not work.
          */
         Replanned: {
             /** @enum {unknown} */
             type: "replanned";
             time: number;
             reason: string;
+            /** @default false */
+            sensed?: boolean;
         };
         /**
          * NodeStarted
@@ -3152,6 +3178,8 @@ export interface components {
             touches?: components["schemas"]["TouchResult"][];
             /** @default [] */
             replanned?: string[];
+            /** @default [] */
+            sensed?: string[];
             /** @default null */
             failure?: string | null;
             /** @default null */

@@ -92,8 +92,8 @@ def _describe_task(event: events.Event) -> Iterator[str]:
             yield f"plan: {' -> '.join(each.skill for each in steps)} ({plan.summary})"
         case events.PromptsChanged(prompts=prompts):
             yield from (f"asks: {each.text} ({' | '.join(each.choices)})" for each in prompts)
-        case events.Replanned(reason=reason):
-            yield f"planning again: {reason}"
+        case events.Replanned(reason=reason, sensed=sensed):
+            yield f"{'goes on' if sensed else 'planning again'}: {reason}"
         case events.Note(message=message):
             yield message
         case events.TaskEnded(status=status, verified=verified, failure=failure, false_claims=claims):

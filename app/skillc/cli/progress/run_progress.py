@@ -105,8 +105,9 @@ class RunProgress:
                 self._state = state
                 if state == "stopping":
                     self._print(f"{self._title}: stopping: {reason}")
-            case Replanned(reason=reason):
-                self._print(f"{self._title}: planning again: {reason}", "warning")
+            case Replanned(reason=reason, sensed=sensed):
+                text = f"{self._title}: {'goes on' if sensed else 'planning again'}: {reason}"
+                self._print(text, "" if sensed else "warning")
             case PlanMade(steps=steps) as plan:
                 calls = " -> ".join(step.skill for step in steps)
                 self._print(f"{self._title}: {calls} ({plan.summary})")

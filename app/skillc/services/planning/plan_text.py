@@ -10,7 +10,7 @@ import msgspec
 
 from skillc.services.reporting.reporter import format_count
 from skillc.services.tasks.loading import LoadedTask
-from skillc_runtime.planning.plan import GaveUp, Solved, Step, Unsolvable, describe_quality
+from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable, describe_quality
 from skillc_runtime.planning.schedule import PlanAnswer, Scheduled
 from skillc_runtime.recording.space_claim import SpaceClaim
 
@@ -30,16 +30,39 @@ def format_plan(answer: PlanAnswer, loaded: LoadedTask, space: SpaceClaim | None
 def _format(answer: PlanAnswer, loaded: LoadedTask) -> str:
     match answer:
         case Solved(plan=plan, planner=planner):
-            lines = [f"{number}  {_call(step, loaded)}" for number, step in enumerate(plan.steps, 1)]
-            steps = format_count(len(plan.steps), "step")
-            total = f"{steps}, {plan.duration_s:g} s expected, {_quality(answer)} ({planner})"
-            return "\n".join([*lines, total, *_assumed(answer), *_left_out(answer, loaded)])
+            lines = [*_steps(plan, loaded)]
+            steps = format_count(plan.count, "step")
+            expected = f"{plan.duration_s:g} s expected" + (f", {plan.worst_s:g} s at most" if plan.branches else "")
+            total = f"{steps}, {expected}, {_quality(answer)} ({planner})"
+            return "\n".join([*lines, total, *_policy(plan), *_assumed(answer), *_left_out(answer, loaded)])
         case Scheduled():
             return _schedule_text(answer, loaded)
         case Unsolvable() | GaveUp():
             return f"{answer.message}\n{answer.why}" if answer.causes else answer.message
         case _:
             assert_never(answer)
+
+
+def _steps(plan: Plan, loaded: LoadedTask, first: int = 1, indent: str = "") -> Iterator[str]:
+    """Yield a line for each step, those of each branch below what comes of the step before."""
+    yield from (f"{indent}{number}  {_call(step, loaded)}" for number, step in enumerate(plan.steps, first))
+    for branch in plan.branches:
+        yield f"{indent}   {branch.outcome} ({100.0 * branch.likely:.3g} %):"
+        if branch.plan is None:
+            yield f"{indent}      planned when it comes"
+        elif not branch.plan.steps:
+            yield f"{indent}      nothing is left to do"
+        else:
+            yield from _steps(branch.plan, loaded, first + len(plan.steps), f"{indent}      ")
+
+
+def _policy(plan: Plan) -> Iterator[str]:
+    """Yield what is known of the branches of a policy."""
+    left_open = len([*plan.list_open()])
+    if left_open:
+        yield f"each branch but {left_open} reaches the goal; these are planned when they come, as there are too many"
+    elif plan.branches:
+        yield "each branch reaches the goal"
 
 
 def _schedule_text(answer: Scheduled, loaded: LoadedTask) -> str:
@@ -100,7 +123,9 @@ def _describe(answer: PlanAnswer, loaded: LoadedTask) -> dict[str, object]:
     match answer:
         case Solved(plan=plan):
             steps = [_step(step, loaded) for step in plan.steps]
-            return {**_solved(answer, steps, loaded), "duration_s": plan.duration_s, "planner": answer.planner}
+            branches = {"branches": _branches(plan, loaded), "worst_s": plan.worst_s} if plan.branches else {}
+            known = {"duration_s": plan.duration_s, "planner": answer.planner, **branches}
+            return {**_solved(answer, steps, loaded), **known}
         case Scheduled(schedule=schedule, plan=plan):
             steps = [
                 {**_step(each.step, loaded), "start_s": each.start_s, "duration_s": each.duration_s}
@@ -115,6 +140,20 @@ def _describe(answer: PlanAnswer, loaded: LoadedTask) -> dict[str, object]:
             return {"status": "gave-up", "failure": why, "causes": list(causes), "searched": answer.searched}
         case _:
             assert_never(answer)
+
+
+def _branches(plan: Plan, loaded: LoadedTask) -> list[dict[str, object]]:
+    """Return the branches of a policy; the plan of one that is planned when it comes is None."""
+    return [
+        {
+            "outcome": branch.outcome,
+            "likely": branch.likely,
+            "plan": None if branch.plan is None else [_step(step, loaded) for step in branch.plan.steps],
+            "duration_s": None if branch.plan is None else branch.plan.duration_s,
+            "branches": [] if branch.plan is None else _branches(branch.plan, loaded),
+        }
+        for branch in plan.branches
+    ]
 
 
 def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]], loaded: LoadedTask) -> dict[str, object]:

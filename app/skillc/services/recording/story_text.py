@@ -82,7 +82,7 @@ def _rests_on(story: RunHistory) -> list[str]:
 
 def _attempt(attempt: RecordedAttempt) -> Iterator[str]:
     if attempt.replaces:
-        yield f"planned again: {attempt.replaces}"
+        yield f"{'goes on' if attempt.sensed else 'planned again'}: {attempt.replaces}"
     if attempt.planner:
         quality = attempt.quality or {"proven": "proved optimal"}.get(attempt.optimal, "")
         proved = f", {quality}" if quality else ""

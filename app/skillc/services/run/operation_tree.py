@@ -17,7 +17,6 @@ from skillc_runtime.execution.tree.outline import OutlinedNode, outline_body
 from skillc_runtime.planning.plan import Plan
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import (
-    ArrivedPlan,
     ImplementationChosen,
     NodeStarted,
     PlanArrived,
@@ -25,6 +24,7 @@ from skillc_runtime.recording.events import (
     Replanned,
     TaskStarted,
 )
+from skillc_runtime.recording.recorded_plan import ArrivedPlan
 
 
 def build_tree(envelopes: Iterable[Envelope], library: SkillLibrary) -> OperationTree:

@@ -85,7 +85,7 @@ def _inputs(library: SkillLibrary, scene: LoadedScene, task: Task) -> Iterator[s
     yield encode_meaning((task.goal, task.body))
     for name, skill in sorted(library.skills.items()):
         implementations = library.implementations_of(name)
-        if skill.planned or skill.post or any(each.post for each in implementations):
+        if skill.planned or skill.results or any(each.post for each in implementations):
             yield encode_view(skill, implementations)
     yield from digest_modules(find_modules(library))
 

@@ -10,6 +10,7 @@ import msgspec
 
 from skillc.services.testing.coverage import Coverage
 from skillc.services.testing.path import CallPath
+from skillc_model.declared import settle_outcomes
 from skillc_model.skills import SkillLibrary, Test
 from skillc_runtime.backends.symbolic.cell import SymbolicCell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, NotStarted, prepare_task
@@ -53,7 +54,7 @@ def run_test(
 
     WorldError if what it starts with contradicts the scene.
     """
-    began = perf_counter()
+    began, library = perf_counter(), settle_outcomes(library, test.outcomes)
     world = _make_world(test, scene)
     if test.goal is not None:
         objective: AchieveGoal | ExecuteBody = AchieveGoal(test.goal)

@@ -12,7 +12,7 @@ from skillc_compiler.emit.bt.names import NodeIds, given_port, port_name
 from skillc_compiler.emit.bt.nodes import NodeWriter, with_start_scripts
 from skillc_compiler.emit.bt.ports import forward_parameters, inferring_ports
 from skillc_model.conditions import Expression, IsA, Variable
-from skillc_model.skills import Compound, Implementation, Post, Requirement, Skill, SkillLibrary
+from skillc_model.skills import Compound, Implementation, Outcome, Post, Requirement, Skill, SkillLibrary
 from skillc_model.tree import Call
 from skillc_rdf.vocabulary.types import ClassType
 
@@ -77,8 +77,16 @@ def _guarded(body: NodeWriter, skill: Skill, implementations: Sequence[Implement
             *(_required(body, (*described, "pre"), each) for each in skill.pre),
             _held(body, described, skill.hold, choice),
             *(_required(body, (*described, "post"), each) for each in skill.post),
+            *_outcomes(body, described, skill),
         ]
     )
+
+
+def _outcomes(body: NodeWriter, path: tuple[str, ...], skill: Skill) -> list[Element]:
+    """Return that an outcome has come true; bodies tell which by their own conditions."""
+    if not skill.outcomes:
+        return []
+    return [with_children(Element("Fallback"), *(_required(body, (*path, "outcome"), each) for each in skill.outcomes))]
 
 
 def _inference(body: NodeWriter, skill: Skill) -> list[Element]:
@@ -93,7 +101,7 @@ def _inference(body: NodeWriter, skill: Skill) -> list[Element]:
     return [Element(body.names.of(*path), {**forward_parameters(parameters), **callers})]
 
 
-def _required(body: NodeWriter, path: tuple[str, ...], requirement: Requirement | Post) -> Element:
+def _required(body: NodeWriter, path: tuple[str, ...], requirement: Requirement | Post | Outcome) -> Element:
     return body.condition((*path, requirement.label), requirement.condition, requirement.text, requirement.source)
 
 

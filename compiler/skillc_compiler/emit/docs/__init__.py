@@ -33,7 +33,12 @@ def emit(library: SkillLibrary) -> dict[str, str]:
 
 def _page(skill: Skill, library: SkillLibrary) -> str:
     vocabulary = library.vocabulary
-    conditions = [("Preconditions", skill.pre), ("Holds while running", skill.hold), ("Postconditions", skill.post)]
+    conditions = [
+        ("Preconditions", skill.pre),
+        ("Holds while running", skill.hold),
+        ("Postconditions", skill.post),
+        ("Outcomes, of which one comes true", skill.outcomes),
+    ]
     return _template("skill.md.j2").render(
         skill=skill,
         parameters=[_parameter(each, vocabulary) for each in skill.parameters],

@@ -19,7 +19,7 @@ from skillc_compiler.emit.picture import svg
 from skillc_compiler.emit.picture.drawing import draw_implementation
 from skillc_dsl import syntax as s
 from skillc_model.format_type import format_type
-from skillc_model.skills import Implementation, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
+from skillc_model.skills import Implementation, Outcome, Parameter, Post, Primitive, Requirement, Skill, SkillLibrary
 from skillc_rdf.vocabulary.types import ClassType, Vocabulary, local_name
 
 COLUMNS = ("name", "kind", "type", "default", "range", "what it is")
@@ -118,11 +118,17 @@ def _parameter(
 def _conditions(skill: Skill, links: LinkWriter) -> tuple[tuple[str, tuple[Row, ...]], ...]:
     after = tuple(_condition(post, "measured" if post.sensed else "", links) for post in skill.post)
     before, during = (tuple(_condition(each, "", links) for each in kind) for kind in (skill.pre, skill.hold))
-    groups = (("Must hold when it starts", before), ("Must hold while it runs", during), ("Holds afterwards", after))
+    one = tuple(_condition(each, f"{100.0 * each.likely:.3g} %", links) for each in skill.outcomes)
+    groups = (
+        ("Must hold when it starts", before),
+        ("Must hold while it runs", during),
+        ("Holds afterwards", after),
+        ("One of them comes true, which is sensed", one),
+    )
     return tuple(group for group in groups if group[1])
 
 
-def _condition(condition: Requirement | Post, remark: str, links: LinkWriter) -> Row:
+def _condition(condition: Requirement | Post | Outcome, remark: str, links: LinkWriter) -> Row:
     return (condition.label, links.code(condition.text, find_terms(condition)), remark, links.line(condition.source))
 
 

@@ -32,9 +32,11 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
+from skillc_model.format_condition import format_expression
 from skillc_model.format_type import SI_UNITS
 from skillc_model.skills import (
     Implementation,
+    Outcome,
     Parameter,
     PausePolicy,
     Post,
@@ -48,7 +50,13 @@ from skillc_rdf.vocabulary.types import ClassType, NumberType
 Statement = tuple[str, str, Object]
 BOUND = ("in", "infer")
 """Directions of the parameters that every invocation binds."""
-KINDS = {"pre": "PreCondition", "hold": "HoldCondition", "post": "PostCondition"}
+CONDITIONS = {
+    "pre": (f"{SKIROS}hasPreCondition", f"{SKIROS}PreCondition"),
+    "hold": (f"{SKIROS}hasHoldCondition", f"{SKILLC}HoldCondition"),
+    "post": (f"{SKIROS}hasPostCondition", f"{SKIROS}PostCondition"),
+    "outcome": (f"{SKILLC}hasOutcomeCondition", f"{SKILLC}OutcomeCondition"),
+}
+"""The relation of a skill to its conditions of a kind, and their class."""
 
 
 def describe_skill(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
@@ -68,7 +76,10 @@ def describe_skill(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
         yield iri, f"{SKILLC}keepUnit", SI_UNITS["Time"]
     for parameter in skill.parameters:
         yield from _parameter(iri, parameter, library)
-    for kind, listed in (("pre", skill.pre), ("hold", skill.hold), ("post", skill.post)):
+    for sensed in skill.senses:
+        yield iri, f"{SKILLC}senses", format_expression(sensed, library.vocabulary)
+    kinds = (("pre", skill.pre), ("hold", skill.hold), ("post", skill.post), ("outcome", skill.outcomes))
+    for kind, listed in kinds:
         for each in listed:
             yield from _condition(iri, kind, each, skill, library)
 
@@ -143,19 +154,26 @@ def _argument(iri: str) -> Iterator[Statement]:
 
 
 def _condition(
-    owner: str, kind: str, requirement: Requirement | Post, skill: Skill, library: SkillLibrary, described: str = ""
+    owner: str,
+    kind: str,
+    requirement: Requirement | Post | Outcome,
+    skill: Skill,
+    library: SkillLibrary,
+    described: str = "",
 ) -> Iterator[Statement]:
     """Yield the statements of a condition of a description, or of an implementation of the description `described`."""
-    iri = f"{owner}.{kind}.{requirement.label}"
-    yield owner, f"{SKIROS}has{KINDS[kind]}", IriNode(iri)
+    iri, (relation, cls) = f"{owner}.{kind}.{requirement.label}", CONDITIONS[kind]
+    yield owner, relation, IriNode(iri)
     if not described:
         yield owner, f"{CSS}isRestrictedBy", IriNode(iri)
-    yield iri, RDF_TYPE, IriNode(f"{SKILLC if kind == 'hold' else SKIROS}{KINDS[kind]}")
+    yield iri, RDF_TYPE, IriNode(cls)
     yield iri, RDF_TYPE, IriNode(f"{CSS}Constraint")
     yield from _named(iri, requirement.label, "", requirement.source)
     yield iri, f"{SKILLC}conditionText", requirement.text
     if isinstance(requirement, Post):
         yield iri, f"{SKILLC}sensed", requirement.sensed
+    if isinstance(requirement, Outcome):
+        yield iri, f"{SKILLC}likelihood", requirement.likely
     parameters = {each.name: f"{described or owner}.parameter.{each.name}" for each in skill.parameters}
     yield from ((iri, predicate, part) for predicate, part in _literal(requirement.condition, parameters))
 

@@ -34,6 +34,7 @@ CLASSES = (
     *(f"{CSS}{name}" for name in ("Constraint", "SkillParameter", "InputParameter", "OutputParameter")),
     *(f"{SKIROS}{name}" for name in ("Skill", "Parameter", "Condition", "PreCondition", "PostCondition")),
     f"{SKILLC}HoldCondition",
+    f"{SKILLC}OutcomeCondition",
 )
 SUBCLASSES = (
     (f"{CSS}InputParameter", f"{CSS}SkillParameter"),
@@ -41,10 +42,11 @@ SUBCLASSES = (
     (f"{SKIROS}PreCondition", f"{SKIROS}Condition"),
     (f"{SKIROS}PostCondition", f"{SKIROS}Condition"),
     (f"{SKILLC}HoldCondition", f"{SKIROS}Condition"),
+    (f"{SKILLC}OutcomeCondition", f"{SKIROS}Condition"),
 )
 RELATIONS = (
     *(f"{SKIROS}{name}" for name in ("hasParam", "hasPreCondition", "hasPostCondition", "hasHoldCondition")),
-    *(f"{SKILLC}{name}" for name in ("subject", "object")),
+    *(f"{SKILLC}{name}" for name in ("subject", "object", "hasOutcomeCondition")),
     INVOKES,
     ARGUMENT,
     f"{CSS}isRestrictedBy",
@@ -52,8 +54,8 @@ RELATIONS = (
 PROPERTIES = tuple(f"{SKILLC}{name}" for name in ("desiredState", "operator", "conditionText"))
 _NOTES = """
     comparedValue conditionProperty conditionRelation definedAt defaultValue definition dimension direction duration
-    durationUnit greatestValue implements isList keep keepUnit leastValue parameterType pause preference python rank
-    sensed sha256 unit
+    durationUnit greatestValue implements isList keep keepUnit leastValue likelihood parameterType pause preference
+    python rank sensed senses sha256 unit
 """
 ANNOTATIONS = tuple(f"{SKILLC}{name}" for name in _NOTES.split())
 

@@ -140,7 +140,8 @@ class FileBuilder(MemberBuilder):
     def test(self, children: list[Child]) -> s.TestDeclaration:
         """`test name { scene, start .., goal or do, expect .. }`"""
         starts, expects = children_of_type(children, s.Start), children_of_type(children, s.Expect)
-        return s.TestDeclaration(*self._task("test", children), starts, expects)
+        outcomes = children_of_type(children, s.StartOutcome)
+        return s.TestDeclaration(*self._task("test", children), starts, outcomes, expects)
 
     def _task(
         self, word: str, children: list[Child]
@@ -164,6 +165,10 @@ class FileBuilder(MemberBuilder):
     def start_fact(self, children: list[Child]) -> s.Start:
         """`start condition`"""
         return s.Start(self.condition(children[1]), self.over(children))
+
+    def start_outcome(self, children: list[Child]) -> s.StartOutcome:
+        """`start skill -> outcome`"""
+        return s.StartOutcome(self.as_name(children[1]), self.as_name(children[3]), self.over(children))
 
     def expect(self, children: list[Child]) -> s.Expect:
         """`expect condition`, `expect failure "text"`, `expect no plan`"""

@@ -48,11 +48,26 @@ class MemberBuilder(NodeBuilder):
 
     def requirement(self, children: list[Child]) -> s.Requirement:
         """`pre|hold|post [sensed] [label:] condition`"""
-        kind = cast(Literal["pre", "hold", "post"], keyword_at(children, 0))
+        kind = cast(s.RequirementKind, keyword_at(children, 0))
         sensed = keyword_at(children, 1) == "sensed"
         label = next((self.label(c) for c in children if isinstance(c, Token) and c.type == "LABEL"), None)
         condition = self.condition(children[-1])
         return s.Requirement(kind, sensed, label, condition, self.written(condition.span), self.over(children))
+
+    def senses(self, children: list[Child]) -> s.Senses:
+        """`senses thing.property`"""
+        return s.Senses(self.value(children[1]), self.over(children))
+
+    def outcome(self, children: list[Child]) -> s.Requirement:
+        """`outcome label: condition [likely N]`"""
+        condition, likely = self.condition(children[2]), find_part(children, "likely")
+        number = None if likely is None else self._plain_number(likely.children[1], "likely", "likely 0.9")
+        text = self.written(condition.span)
+        return s.Requirement("outcome", True, self.label(children[1]), condition, text, self.over(children), number)
+
+    def likely(self, children: list[Child]) -> MemberPart:
+        """`likely N`"""
+        return self.part("likely", children)
 
     def duration(self, children: list[Child]) -> s.Duration:
         """`duration value`"""
@@ -83,12 +98,15 @@ class MemberBuilder(NodeBuilder):
         return s.Let(self.as_name(children[1]), self.value(children[3]), self.over(children))
 
     def prefer(self, children: list[Child]) -> s.Prefer:
-        """`prefer N`; a quantity is reported and its number used."""
-        value, span = children[1], self.over(children)
+        """`prefer N`"""
+        return s.Prefer(self._plain_number(children[1], "prefer", "prefer 2"), self.over(children))
+
+    def _plain_number(self, value: Child, word: str, example: str) -> s.Number:
+        """Return the number after a word; a quantity is reported and its number used."""
         if isinstance(value, s.Quantity):
-            self.complain(value.span, "`prefer` takes a number without a unit", "such as `prefer 2`")
+            self.complain(value.span, f"`{word}` takes a number without a unit", f"such as `{example}`")
             value = s.Number(value.value, f"{value.value:g}", value.span)
-        return s.Prefer(self.as_number(value), span)
+        return self.as_number(value)
 
     def run(self, children: list[Child]) -> s.RunPython:
         """`run python "module:Class"`"""

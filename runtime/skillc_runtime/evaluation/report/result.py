@@ -232,7 +232,8 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     success rests on; it is `verified` if none of them is only assumed, and no claim is false. `false_claims` are
     sentences about what the world model claims of things at the end that is not so in the simulator. `plan` has the
     steps that abandoned plans have started, then those of the last plan or of the body, in order of time;
-    `planned_steps` is how many the last plan has, `replanned` why the others were abandoned. `wipings` has one entry
+    `planned_steps` is how many the last plan has, `replanned` why it replaced each other one, among them what was
+    `sensed` that decided how a policy went on. `wipings` has one entry
     for each time a surface was wiped, `wiping` is the first of them; `placements` has one for each thing that was
     moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand or base. What only
     a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its clock. Arms and
@@ -269,6 +270,7 @@ class TaskResult(msgspec.Struct, frozen=True, kw_only=True):
     works: tuple[WorkResult, ...] = ()
     touches: tuple[TouchResult, ...] = ()
     replanned: tuple[str, ...] = ()
+    sensed: tuple[str, ...] = ()
     failure: str | None = None
     cause: Failure | None = None
     failed_calls: tuple[FailedCall, ...] = ()

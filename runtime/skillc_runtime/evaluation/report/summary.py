@@ -137,6 +137,7 @@ def _add_history(result: TaskResult, history: RunHistory) -> TaskResult:
         plan_in_space=last.space,
         planner=last.planner,
         replanned=tuple(each.replaces for each in history.attempts[1:]),
+        sensed=tuple(each.replaces for each in history.attempts[1:] if each.sensed),
         failed_calls=tuple(FailedCall(name=each.name, source=each.source) for each in failed)
         if result.status == "failed"
         else (),

@@ -28,12 +28,15 @@ class PlanMonitor:
     def __init__(
         self,
         steps: Sequence[Step],
-        goal: Condition,
+        goal: Condition | None,
         library: SkillLibrary,
         world: WorldModel,
         outcome: Callable[[], NodeOutcome],
     ) -> None:
-        """Listen to the world until `stop`; `outcome` returns that of the body of the plan as it is."""
+        """Listen to the world until `stop`; `outcome` returns that of the body of the plan as it is.
+
+        Without a goal the steps only have to be possible: a policy goes on after them.
+        """
         self._steps, self._goal, self._library, self._outcome = steps, goal, library, outcome
         self._world = world
         self._seen = self._before = world.snapshot()

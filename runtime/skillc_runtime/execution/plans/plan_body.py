@@ -9,7 +9,7 @@ from msgspec import structs
 
 from skillc_dsl.position import Position
 from skillc_model import tree
-from skillc_model.conditions import And, Condition, Expression, Individual, Not
+from skillc_model.conditions import And, Condition, Expression, HasProperty, Individual, Not, Variable
 from skillc_model.rewriting import substitute
 from skillc_model.skills import SkillLibrary
 from skillc_model.traversal import free_variables
@@ -33,12 +33,19 @@ def build_plan_body(
 
 
 def achieved_condition(step: Step, library: SkillLibrary) -> Condition | None:
-    """Return the condition that a step is to achieve: all its posts; None if it has none, or if one is not ground."""
+    """Return the condition that a step is to achieve: all its posts, and that what it senses is known.
+
+    None if there is no such condition, if one is not ground, or if something comes of it that it does not sense.
+    """
     individuals = {name: Individual(iri) for name, iri in step.arguments.items()}
-    posts = library.skills[step.skill].post
-    if not posts or any(free_variables(post.condition) - individuals.keys() for post in posts):
+    skill = library.skills[step.skill]
+    if skill.outcomes and not skill.senses:
         return None
-    return And(tuple(substitute(post.condition, individuals) for post in posts))
+    known = (HasProperty(each.of, each.property) for each in skill.senses if isinstance(each.of, Variable | Individual))
+    wanted = (*(post.condition for post in skill.post), *known)
+    if not wanted or any(free_variables(each) - individuals.keys() for each in wanted):
+        return None
+    return And(tuple(substitute(each, individuals) for each in wanted))
 
 
 def _build_arrangement(arrangement: Arrangement, steps: Sequence[tree.Node]) -> tree.Node:
@@ -68,5 +75,5 @@ def _build_step(step: Step, library: SkillLibrary, way: str | None) -> tree.Node
     achieved = achieved_condition(step, library)
     if achieved is None:
         return call
-    text = " and ".join(post.text for post in skill.post)
+    text = " and ".join(post.text for post in skill.post) or "what it senses is known"
     return tree.If(condition=Not(achieved), text=f"not ({text})", then=call, orelse=None, source=skill.source)

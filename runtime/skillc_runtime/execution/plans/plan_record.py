@@ -9,9 +9,9 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries
-from skillc_runtime.planning.plan import LeftOut, Optimal, Plan, Solved, Step
+from skillc_runtime.planning.plan import Branch, LeftOut, Optimal, Plan, Solved, Step
 from skillc_runtime.primitives.planned_postures import PlannedPosture
-from skillc_runtime.recording.events import ArrivedPlan, PartLeftOut, PlanStep, StepGroup
+from skillc_runtime.recording.recorded_plan import ArrivedPlan, PartLeftOut, PlanBranch, PlanStep, StepGroup
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.labels.labelled import LabelledIri
 from skillc_runtime.world.state.labels.labelling import label
@@ -24,6 +24,7 @@ def record_steps(plan: Plan, library: SkillLibrary) -> tuple[PlanStep, ...]:
             skill=step.skill,
             arguments={name: label(iri, library.vocabulary) for name, iri in step.arguments.items()},
             source=library.skills[step.skill].source,
+            outcome=step.outcome,
         )
         for step in plan.steps
     )
@@ -32,7 +33,41 @@ def record_steps(plan: Plan, library: SkillLibrary) -> tuple[PlanStep, ...]:
 def restore_steps(recorded: Sequence[PlanStep]) -> tuple[Step, ...]:
     """Return the steps of a plan from a recording."""
     return tuple(
-        Step(each.skill, {name: value.iri for name, value in each.arguments.items() if isinstance(value, LabelledIri)})
+        Step(
+            each.skill,
+            {name: value.iri for name, value in each.arguments.items() if isinstance(value, LabelledIri)},
+            each.outcome,
+        )
+        for each in recorded
+    )
+
+
+def record_branches(plan: Plan, library: SkillLibrary) -> tuple[PlanBranch, ...]:
+    """Return how a policy goes on, for a recording."""
+    return tuple(
+        PlanBranch(outcome=each.outcome, likely=each.likely)
+        if each.plan is None
+        else PlanBranch(
+            outcome=each.outcome,
+            likely=each.likely,
+            steps=record_steps(each.plan, library),
+            duration_s=each.plan.duration_s,
+            branches=record_branches(each.plan, library),
+        )
+        for each in plan.branches
+    )
+
+
+def restore_branches(recorded: Sequence[PlanBranch]) -> tuple[Branch, ...]:
+    """Return how a policy goes on, from a recording."""
+    return tuple(
+        Branch(
+            each.outcome,
+            each.likely,
+            None
+            if each.steps is None
+            else Plan(restore_steps(each.steps), each.duration_s, branches=restore_branches(each.branches)),
+        )
         for each in recorded
     )
 
@@ -80,6 +115,7 @@ def record_plan(
         assumptions=solved.assumptions,
         arrangement=record_arrangement(arrangement),
         space=space,
+        branches=record_branches(solved.plan, library),
     )
 
 
@@ -87,7 +123,7 @@ def restore_plan(recorded: ArrivedPlan) -> Solved:
     """Return a plan from a recording; it describes itself as before, but names no members of what was left out."""
     apart = recorded.space.apart_pairs if recorded.space is not None else frozenset[tuple[int, int]]()
     return Solved(
-        plan=Plan(restore_steps(recorded.steps), recorded.duration_s, apart),
+        plan=Plan(restore_steps(recorded.steps), recorded.duration_s, apart, restore_branches(recorded.branches)),
         optimal=cast(Optimal, recorded.optimal),
         planner=recorded.planner,
         left_out=tuple(LeftOut((), each.why, each.harmless, each.kind) for each in recorded.left_out),

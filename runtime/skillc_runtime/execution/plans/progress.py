@@ -39,9 +39,9 @@ def find_step_outcomes(tree: NodeOutcome) -> Iterator[NodeOutcome]:
 
 
 def invalidation_reason(
-    begun: Sequence[Step], left: Sequence[Step], goal: Condition, library: SkillLibrary, state: WorldState
+    begun: Sequence[Step], left: Sequence[Step], goal: Condition | None, library: SkillLibrary, state: WorldState
 ) -> str | None:
-    """Return why the plan no longer leads to the goal from `state`, None if it does.
+    """Return why the plan no longer leads to the goal from `state`, None if it does; without a goal, why not on.
 
     Steps that have begun are expected to have their effects; those that are left must then be able to start in order.
     """
@@ -60,7 +60,8 @@ def invalidation_reason(
         except (EvaluationError, PlanError) as reason:
             return f"{step.skill} is no longer possible: {reason}"
     try:
-        check_goal_reached(goal, state)
+        if goal is not None:
+            check_goal_reached(goal, state)
     except PlanError as reason:
         return str(reason)
     return None

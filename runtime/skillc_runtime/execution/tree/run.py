@@ -340,3 +340,4 @@ def _collect_claims(node: Node) -> Iterator[Claim]:
     elif node.activation is not None and node.status is Status.SUCCESS:
         frame = dict(node.activation.frame)
         yield from ((post.condition, frame) for post in node.activation.implementation.post)
+        yield from ((each.condition, frame) for each in node.activation.find_true_outcomes())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from skillc_model.skills import Post
+from skillc_model.skills import Outcome, Post
 from skillc_model.traversal import conjuncts
 from skillc_runtime.execution.tree.lexical_scope import Frame
 from skillc_runtime.world.eval.grounds import Ground, find_grounds
@@ -24,8 +24,8 @@ def drop_sensed_changes(changes: Sequence[Change], world: WorldModel, writes_bef
     return tuple(change for change in changes if not _is_sensed(change, world, writes_before))
 
 
-def explain_not_sensed(post: Post, world: WorldModel, frame: Frame, writes_before: int) -> str | None:
-    """Explain why a true `sensed` post was not measured since write number `writes_before`; return None if it was."""
+def explain_not_sensed(post: Post | Outcome, world: WorldModel, frame: Frame, writes_before: int) -> str | None:
+    """Explain why what is `sensed`, and holds, was not measured since write number `writes_before`; None if it was."""
     for literal in conjuncts(post.condition):
         found = find_grounds(literal, world, frame)
         assumed = next((ground for ground in found if ground.is_assumed), None)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from random import Random
 from typing import assert_never
 
 from skillc_model.conditions import Compare, Condition, Expression, HasProperty, Individual, PropertyOf, Term, Variable
-from skillc_model.skills import Implementation, Parameter, Post
+from skillc_model.skills import Implementation, Outcome, Parameter, Post, Skill
 from skillc_model.traversal import conjuncts, free_variables
 from skillc_rdf.vocabulary.types import ClassType, DirectionType, ListType, NumberType, PlainType, ValueType, VectorType
 from skillc_runtime.motion.arrays import np
@@ -70,6 +71,18 @@ def _fits(
     individual: str, name: str, literals: Iterable[Condition], state: WorldState, bound: Mapping[str, Value]
 ) -> bool:
     return all(evaluate(each, state, {**bound, name: individual}) for each in literals)
+
+
+def choose_outcome(skill: Skill, state: WorldState, bound: Mapping[str, Value | None], chance: str) -> Outcome | None:
+    """Return what comes of a skill, drawn by how likely that is among what may come; None without outcomes.
+
+    The same text `chance` draws the same.
+    """
+    possible = [each for each in skill.outcomes if evaluate(skill.find_possibility(each), state, bound)]
+    if not possible:
+        return None
+    weights = [each.likely for each in possible]
+    return Random(chance).choices(possible, weights if sum(weights) > 0.0 else None)[0]
 
 
 def find_stand_in(type_: ValueType) -> Value | None:

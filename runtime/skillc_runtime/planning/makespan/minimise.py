@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TypeAlias
 
 import msgspec
 from msgspec.structs import replace
@@ -22,7 +21,7 @@ from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
 from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
-from skillc_runtime.planning.schedule import Schedule, Scheduled, Scheduler
+from skillc_runtime.planning.schedule import PlanAnswer, Schedule, Scheduled, Scheduler
 from skillc_runtime.planning.solve import DEADLINE_S, solve
 from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
 from skillc_runtime.world.state.world_state import WorldState
@@ -35,8 +34,6 @@ LOWER_BOUND_SHARE = 0.1
 
 MOST_INDIVIDUALS = 500
 """A scene with at most so many individuals that may be relevant is scheduled as a whole at first."""
-
-ScheduleResult: TypeAlias = Scheduled | Unsolvable | GaveUp
 
 
 class MakespanProblem(msgspec.Struct, frozen=True):
@@ -58,8 +55,8 @@ def minimise_makespan(
     cancel: CancelToken | None = None,
     without: Sequence[Excluded] = (),
     report: ReportProgress = ignore_progress,
-) -> ScheduleResult:
-    """Return a plan with times from `state` to the goal, which was simulated in the world model.
+) -> PlanAnswer:
+    """Return a plan with times from `state` to the goal, which was simulated in the world model; a policy without them.
 
     The plan with the least work is scheduled. If its makespan cannot be proven to be minimal, the scheduler searches
     for a shorter one; without a scheduler, or if it fails, the note of the answer has the reason.
@@ -71,6 +68,8 @@ def minimise_makespan(
     least_work = solve(library, state, goal, planners.for_work, first_part, without, report=report)
     if isinstance(least_work, Unsolvable) or (isinstance(least_work, GaveUp) and not least_work.searched):
         return least_work
+    if isinstance(least_work, Solved) and least_work.plan.branches:
+        return least_work  # when its steps run depends on what is sensed
     if isinstance(least_work, Solved) and not least_work.plan.steps:
         return _schedule_empty_plan(least_work, problem)
     try:
@@ -79,6 +78,9 @@ def minimise_makespan(
             parts = _pose_parts(unrolled, without)
     except (TooManyValues, Cancelled) as why:
         return GaveUp(str(why))
+    senses = any(each.outcome for each in parts[0].problem.domain.actions)
+    if senses and isinstance(least_work, GaveUp):
+        return least_work  # a scheduler would choose what comes of its steps
     problem = replace(problem, library=unrolled.whole)
     first = _schedule_least_work(least_work, problem) if isinstance(least_work, Solved) else least_work
     if isinstance(first, Scheduled):
@@ -86,7 +88,7 @@ def minimise_makespan(
         posed = parts[0]
         lower_bound_s = makespan_lower_bound_s(posed, first.schedule, planners.for_work[0], part)
         first = _rate(replace(first, left_out=posed.left_out, assumptions=posed.assumptions), lower_bound_s)
-        if first.optimal == "proven":
+        if first.optimal == "proven" or senses:
             return first
     for posed in parts:
         answer = _improve(first, planners.for_makespan, posed, problem)

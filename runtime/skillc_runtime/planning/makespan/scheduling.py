@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
-from typing import assert_never
+from typing import TypeVar, assert_never
+
+from msgspec.structs import replace
 
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries, arrange_plan
 from skillc_runtime.planning.foresight import foresee
-from skillc_runtime.planning.plan import Plan
-from skillc_runtime.planning.schedule import Schedule, TimedStep
+from skillc_runtime.planning.plan import Plan, Solved
+from skillc_runtime.planning.schedule import Schedule, Scheduled, TimedStep
 from skillc_runtime.planning.validation import apply_step, compute_step_duration_s
 from skillc_runtime.world.state.world_state import WorldState
+
+AnswerT = TypeVar("AnswerT", bound=Solved | Scheduled)
 
 
 def schedule_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> Schedule:
@@ -27,6 +31,24 @@ def schedule_plan(plan: Plan, library: SkillLibrary, state: WorldState) -> Sched
     return Schedule(
         tuple(TimedStep(plan.steps[number], float(start), float(durations[number])) for number, start in times)
     )
+
+
+def keep_apart(answer: AnswerT, pairs: Iterable[tuple[int, int]], library: SkillLibrary, state: WorldState) -> AnswerT:
+    """Return an answer in which pairs of steps of the plan, by index, do not run at the same time.
+
+    A schedule that takes longer by this is not proved optimal any more: some other plan may take as long as it took.
+    """
+    apart = frozenset(pairs)
+    if not apart:
+        return answer
+    plan: Plan = replace(answer.plan, apart=apart)
+    if not isinstance(answer, Scheduled):
+        return replace(answer, plan=plan)
+    before_s, schedule = answer.schedule.makespan_s, schedule_plan(plan, library, state)
+    if schedule.makespan_s <= before_s:
+        return replace(answer, plan=plan, schedule=schedule)
+    least_s = before_s if answer.optimal == "proven" else answer.at_least_s
+    return replace(answer, plan=plan, schedule=schedule, optimal="best found", at_least_s=least_s)
 
 
 def step_durations_s(plan: Plan, library: SkillLibrary, state: WorldState) -> tuple[Fraction, ...]:

@@ -21,7 +21,7 @@ def select_skills_that_may_matter(
 ) -> frozenset[str]:
     """Return the excluded skills that may make a plan possible or cheaper; `helpful` are the skills of the domain."""
     possible = {each.skill for each in excluded if not each.impossible}
-    changed = {name: terms_written(library.skills[name].post, library.vocabulary) for name in possible}
+    changed = {name: terms_written(library.skills[name].results, library.vocabulary) for name in possible}
     needed = _NeededTerms(library.vocabulary)
     needed.add(terms_read(goal))
     for name in helpful:

@@ -8,9 +8,9 @@ from math import inf
 from msgspec import structs
 
 from skillc_model.tree import Call
-from skillc_runtime.recording.events import PlanStep
 from skillc_runtime.recording.history.history import FailedNode, RecordedCall
 from skillc_runtime.recording.history.node_records import AttemptRecord, NodeRecord
+from skillc_runtime.recording.recorded_plan import PlanStep
 from skillc_runtime.world.state.labels.labelled import LabelledValue
 
 

@@ -130,7 +130,8 @@ class RecordedAttempt(_Part, frozen=True, kw_only=True):
 
     Steps that were not started come last. `planned` is how many steps the plan has.
     `quality` is how good the plan is known to be, `space` what is known of it in space, None if nobody has looked;
-    `replaces` is why the previous plan was abandoned. `notes` are what the run noted meanwhile, without effect on it.
+    `replaces` is why the previous plan was abandoned, or what was `sensed` that decides how a policy goes on.
+    `notes` are what the run noted meanwhile, without effect on it.
     """
 
     steps: tuple[RecordedCall, ...]
@@ -141,6 +142,7 @@ class RecordedAttempt(_Part, frozen=True, kw_only=True):
     space: SpaceClaim | None = None
     cost: float | None = None
     replaces: str = ""
+    sensed: bool = False
     notes: tuple[RecordedNote, ...] = ()
 
 

@@ -43,7 +43,7 @@ class HistoryBuilder:
         self._ended: events.TaskEnded | None = None
         self._last = 0.0
         self._last_written: dict[LabelledFact, RecordedFact] = {}
-        self._replan_reason = ""
+        self._replanned = events.Replanned(time=0.0, reason="")
         self._pauses: list[tuple[float, float | None]] = []
         self._attempts = [AttemptRecord()]
         self._records = NodeRecords(self._attempts[0])
@@ -55,9 +55,10 @@ class HistoryBuilder:
             case events.TaskStarted():
                 self._started = event
             case events.PlanMade():
-                self._begin(AttemptRecord(plan=event, replaces=self._replan_reason))
-            case events.Replanned(reason=reason):
-                self._replan_reason = reason
+                why = self._replanned
+                self._begin(AttemptRecord(plan=event, replaces=why.reason, sensed=why.sensed))
+            case events.Replanned():
+                self._replanned = event
             case events.NodeStarted():
                 self._records.start(event)
             case events.ImplementationChosen():
@@ -213,5 +214,6 @@ def _make_attempt(record: AttemptRecord, before: int, body: tree.Node | None) ->
         space=plan.space if plan is not None else None,
         cost=plan.cost if plan is not None else None,
         replaces=record.replaces,
+        sensed=record.sensed,
         notes=tuple(RecordedNote(time=each.time, message=each.message) for each in record.notes),
     )

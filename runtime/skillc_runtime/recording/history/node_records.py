@@ -106,6 +106,7 @@ class AttemptRecord:
 
     plan: PlanMade | None = None
     replaces: str = ""
+    sensed: bool = False
     roots: list[NodeRecord] = field(default_factory=list)
     skipped: list[NodeEnded] = field(default_factory=list)
     decided: set[Position] = field(default_factory=set)

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Literal, TypeAlias, assert_never, cast
 
 from skillc_model import tree
-from skillc_model.skills import Compound, Declared, Implementation, Primitive, Skill
+from skillc_model.skills import Compound, Declared, Implementation, Outcome, Primitive, Skill
 from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.selection.arguments import check_value
 from skillc_runtime.execution.selection.binding import BoundImplementation, describe_unmet_condition
@@ -94,7 +94,7 @@ class Activation:
             if problem is not None:
                 return problem
             self._write_posts(self.body)
-        return self._check_outputs() or self._check_posts()
+        return self._check_outputs() or self._check_posts() or self._check_outcomes()
 
     def release_locks(self) -> None:
         """Release the locks of the call."""
@@ -108,6 +108,11 @@ class Activation:
     def posts_hold(self) -> bool:
         """Whether all posts are true in this tick's state."""
         return _posts_hold(self.implementation, self._context.state, self.frame)
+
+    def find_true_outcomes(self) -> tuple[Outcome, ...]:
+        """Return the outcomes that are true in this tick's state."""
+        state = self._context.state
+        return tuple(each for each in self.skill.outcomes if evaluate(each.condition, state, self.frame))
 
     @property
     def outputs(self) -> tuple[str, ...]:
@@ -157,6 +162,19 @@ class Activation:
                     message = f"{self.skill.name}: {reason}"
                     return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
         return None
+
+    def _check_outcomes(self) -> Failure | None:
+        """Return the failure if not exactly one outcome has come true, or if nothing has sensed that it has."""
+        if not self.skill.outcomes:
+            return None
+        true = self.find_true_outcomes()
+        if len(true) != 1:
+            found = " and ".join(f"`{each.label}`" for each in true) or "none of its outcomes"
+            return self._failure("post", f"{self.skill.name} succeeded, and {found} came true, where one has to")
+        if evaluate(true[0].condition, self._state_at_start, self.frame):
+            return None  # what is known need not be sensed again
+        reason = explain_not_sensed(true[0], self._context.cell.world, self.frame, self._writes_at_start)
+        return None if reason is None else self._failure("post", f"{self.skill.name}: {reason}")
 
 
 def activate(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from skillc_model.pddl.costs import ASSUMED_SECONDS, exact_seconds
 from skillc_model.skills import Implementation, Skill
-from skillc_runtime.execution.tree.stand_ins import find_measured, find_outputs
+from skillc_runtime.execution.tree.stand_ins import choose_outcome, find_measured, find_outputs
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.eval.effects import changes_of
 from skillc_runtime.world.eval.expressions import value_of
@@ -21,8 +21,9 @@ if TYPE_CHECKING:
 class DeclaredRun(Primitive):
     """Succeeds after the duration of its implementation; without one at once, and never if the skill is endless.
 
-    A duration that has no value takes as long as planners assume. The sensed postconditions are then written as
-    sensed, which the cell weighs; whoever runs it writes the others. Outputs are stand-ins.
+    A duration that has no value takes as long as planners assume. The sensed postconditions, and what comes of the
+    skill by chance, are then written as sensed, which the cell weighs; whoever runs it writes the others. Outputs are
+    stand-ins.
     """
 
     moves: ClassVar[Mapping[str, str | None] | None] = NOTHING
@@ -50,7 +51,9 @@ class DeclaredRun(Primitive):
         if lacking := [name for name, value in outputs.items() if value is None]:
             raise SkillFailure(f"the world has no individual that `{lacking[0]}` may be")
         values = {**self._values, **{name: value for name, value in outputs.items() if value is not None}}
-        effects = tuple(each for post in self._implementation.post if post.sensed for each in post.effects)
+        outcome = choose_outcome(self._skill, state, values, self._chance)
+        sensed = [post for post in self._implementation.post if post.sensed]
+        effects = tuple(each for one in (*sensed, *((outcome,) if outcome else ())) for each in one.effects)
         measured = (
             *changes_of(effects, state, values),
             *find_measured(self._implementation.post, state, values),
@@ -59,6 +62,13 @@ class DeclaredRun(Primitive):
             self.cell.world.commit(measured, self._skill.name, "sensed")
         self.outputs = dict(outputs)
         return Status.SUCCESS
+
+    @property
+    def _chance(self) -> str:
+        """What decides by chance what comes of it: what is sensed is so from the start, the rest each time anew."""
+        about = [value for value in self._values.values() if isinstance(value, str)]
+        times = 0 if self._skill.senses else self.cell.world.ledger.count
+        return f"{self._context.spec.seed} {self._skill.name} {about} {times}"
 
     @property
     def _duration_s(self) -> float:

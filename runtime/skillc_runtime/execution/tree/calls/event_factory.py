@@ -104,7 +104,9 @@ def collect_facts_at_failure(
     """Return the facts read by the conditions of a call: of the running implementation, else of all tried ones."""
     implementations = tried if running is None else (running.implementation,)
     conditions = [each.condition for one in implementations for each in (*one.pre, *one.hold)]
-    conditions += [post.condition for post in (running.implementation.post if running is not None else ())]
+    if running is not None:
+        conditions += [each.condition for each in running.implementation.post]
+        conditions += [each.condition for each in running.skill.outcomes]
     return deciding_facts(conditions, state, arguments if running is None else running.frame)
 
 
