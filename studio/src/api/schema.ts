@@ -1616,7 +1616,8 @@ export interface components {
          * @description A plan as the planner found it, with its steps in order.
          *
          *         `arrangement` has each step, by its index in `steps`, where it runs in the body; `space` is what is known of it in
-         *         space, None if nobody has looked. The other fields are those of `Solved` in `planning.plan`.
+         *         space, None if nobody has looked. A policy goes on with one of its `branches`. The other fields are those
+         *         of `Solved` in `planning.plan`.
          */
         ArrivedPlan: {
             planner: string;
@@ -1653,22 +1654,6 @@ export interface components {
             source?: components["schemas"]["Position"] | null;
             /** @default  */
             outcome?: string;
-        };
-        /**
-         * PlanBranch
-         * @description How a policy goes on after an outcome of its last step, and how likely that is; see `Branch` in `planning.plan`.
-         *
-         *         `steps` is None if it is planned when the outcome comes. `duration_s` is the expected duration of the branch, in s.
-         */
-        PlanBranch: {
-            outcome: string;
-            likely: number;
-            /** @default null */
-            steps?: components["schemas"]["PlanStep"][] | null;
-            /** @default 0 */
-            duration_s?: number;
-            /** @default [] */
-            branches?: components["schemas"]["PlanBranch"][];
         };
         /**
          * PartLeftOut
@@ -1820,11 +1805,27 @@ export interface components {
             around: components["schemas"]["LabelledIri"][];
         };
         /**
+         * PlanBranch
+         * @description How a policy goes on after an outcome of its last step, and how likely that is; see `Branch` in `planning.plan`.
+         *
+         *         `steps` is None if it is planned when the outcome comes. `duration_s` is the expected duration of the branch, in s.
+         */
+        PlanBranch: {
+            outcome: string;
+            likely: number;
+            /** @default null */
+            steps?: components["schemas"]["PlanStep"][] | null;
+            /** @default 0 */
+            duration_s?: number;
+            /** @default [] */
+            branches?: components["schemas"]["PlanBranch"][];
+        };
+        /**
          * PlanMade
          * @description A planner found a plan; `cost` is its expected duration in s.
          *
-         *         `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds. `arrangement`
-         *         and `space` are as in `ArrivedPlan`.
+         *         `optimal` is the planner's claim, `quality` the same as text, with the problem for which it holds. `arrangement`,
+         *         `space` and `branches` are as in `ArrivedPlan`.
          */
         PlanMade: {
             /** @enum {unknown} */
@@ -3114,7 +3115,8 @@ export interface components {
          *         success rests on; it is `verified` if none of them is only assumed, and no claim is false. `false_claims` are
          *         sentences about what the world model claims of things at the end that is not so in the simulator. `plan` has the
          *         steps that abandoned plans have started, then those of the last plan or of the body, in order of time;
-         *         `planned_steps` is how many the last plan has, `replanned` why the others were abandoned. `wipings` has one entry
+         *         `planned_steps` is how many the last plan has, `replanned` why it replaced each other one, among them what was
+         *         `sensed` that decided how a policy went on. `wipings` has one entry
          *         for each time a surface was wiped, `wiping` is the first of them; `placements` has one for each thing that was
          *         moved, `works` one for each other piece of work, `touches` one for each contact of a link, hand or base. What only
          *         a simulator knows is left out if the cell was not `simulated`; `sim_time_s` is the time of its clock. Arms and
