@@ -38,12 +38,20 @@ class ChangeText:
         self.obstacles: list[RelationObstacle] = []
 
     def describe(self, found: Sequence[NearestChange]) -> tuple[str, ...]:
-        """Return the first of several changes; where another would do as well, individuals are named by their class."""
-        if not found:
-            return ()
+        """Return the first of several changes, and the first ones of other kinds, which would do as well.
+
+        Where another individual would do as well, its class is named.
+        """
         alone = [each.lacking[0] for each in found if len(each.lacking) == 1]
-        texts = (text for lack, reader in found[0].lacking for text in self._describe(lack, reader, alone))
-        return tuple(dict.fromkeys(texts))
+        kinds: dict[frozenset[str], NearestChange] = {}
+        for each in found:
+            kinds.setdefault(frozenset(lack.atom.predicate for lack, _ in each.lacking), each)
+        texts = dict.fromkeys(filter(None, (self._describe_change(each, alone) for each in kinds.values())))
+        return tuple(f"or {text}" if number else text for number, text in enumerate(texts))
+
+    def _describe_change(self, change: NearestChange, choices: Sequence[tuple[Lack, AtomReader]]) -> str:
+        texts = (text for lack, reader in change.lacking for text in self._describe(lack, reader, choices))
+        return "; ".join(dict.fromkeys(texts))
 
     def _describe(self, lack: Lack, reader: AtomReader, choices: Sequence[tuple[Lack, AtomReader]]) -> Iterator[str]:
         skill = reader.action.skill

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from itertools import product
 from typing import TypeAlias
@@ -59,8 +60,17 @@ def combine_ways(options: Sequence[tuple[Way, ...]]) -> tuple[Way, ...]:
 
 
 def keep_cheapest(ways: Iterable[Way]) -> tuple[Way, ...]:
-    """Return the ways of the least cost, each once, at most `MAX_WAYS`."""
-    return tuple(sorted(dict.fromkeys(ways), key=_rank)[:MAX_WAYS])
+    """Return the ways of the least cost, each once, at most `MAX_WAYS`.
+
+    Of each cost, those that lack the same in other individuals come after the first ones of the other kinds.
+    """
+    kinds: Counter[tuple[int, frozenset[tuple[str, bool]]]] = Counter()
+    ranked: list[tuple[int, int, Way]] = []
+    for way in sorted(dict.fromkeys(ways), key=_rank):
+        kind = sum_costs(way), frozenset((each.atom.predicate, each.holds) for each in way)
+        kinds[kind] += 1
+        ranked.append((kind[0], kinds[kind], way))
+    return tuple(way for _, _, way in sorted(ranked, key=lambda each: each[:2])[:MAX_WAYS])
 
 
 def _rank(way: Way) -> tuple[int, list[Order]]:

@@ -6,8 +6,8 @@ What is lacking is tried: it counts if the goal can be reached, deletions ignore
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import assert_never
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TypeAlias, assert_never
 
 from msgspec.structs import replace
 
@@ -45,11 +45,13 @@ from skillc_runtime.planning.partial_bindings import PartialBindings, Values, un
 from skillc_runtime.planning.plan import Solved
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.search.grounding import Grounding
+from skillc_runtime.planning.search.h_max import critical_path_s
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.changes import AddRelation
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 
+_Literal: TypeAlias = tuple[Atom, bool]
 MAX_DEPTH = 6
 """How many actions before the goal are considered."""
 
@@ -70,8 +72,8 @@ class NearestChanges:
         self._guards = _group_guards(problem)
         self._readers: dict[Lack, AtomReader] = {}
         self._wanted = frozenset(atoms(problem.goal))
-        self._made: dict[Atom, tuple[Way, ...]] = {}
-        """What actions lack that make an atom true, as far as it was found where the atom was first needed."""
+        self._made: dict[_Literal, tuple[Way, ...]] = {}
+        """What actions lack that make an atom true or false, as far as it was found where that was first needed."""
 
     def find(self) -> tuple[NearestChange, ...]:
         """Return the nearest changes with which the goal can be reached, all equally near; none if none is known."""
@@ -83,7 +85,7 @@ class NearestChanges:
                 break
             if self._suffices(way):
                 found.append(way)
-        return tuple(map(self._with_readers, found))
+        return tuple(map(self._with_readers, self._sort_by_time(found)))
 
     def find_blocking(self) -> tuple[NearestChange, ...]:
         """Return the facts, one each, that keep skills from starting, and without which the goal has a plan."""
@@ -96,6 +98,13 @@ class NearestChanges:
         }
         alone = [frozenset({each}) for each in sorted(found, key=to_order)[:MAX_SEARCHED]]
         return tuple(self._with_readers(way) for way in alone if self._has_plan(way))
+
+    def _sort_by_time(self, ways: list[Way]) -> list[Way]:
+        """Return equally near changes sorted by how soon the goal may hold then, if there is time to compare them."""
+        searching = self._limit.limited(SEARCH_S)
+        times = [critical_path_s(_apply(self._problem, each, self._guards), searching) for each in ways]
+        order = sorted(range(len(ways)), key=times.__getitem__) if searching.remaining_s > 0.0 else range(len(ways))
+        return [ways[each] for each in order]
 
     def _has_plan(self, way: Way) -> bool:
         changed = _apply(self._problem, way, self._guards)
@@ -142,7 +151,7 @@ class NearestChanges:
         return self._problem.domain.predicate[lack.atom.predicate].meaning
 
     def _ways(
-        self, formula: Formula, values: Values, by: Action | None, depth: int, visiting: frozenset[Atom]
+        self, formula: Formula, values: Values, by: Action | None, depth: int, visiting: frozenset[_Literal]
     ) -> tuple[Way, ...]:
         """Return what ways to make a formula true lack, those that lack the least first; none if it has no way."""
         self._limit.check()
@@ -150,9 +159,9 @@ class NearestChanges:
             return NOTHING
         match formula:
             case Atom():
-                return self._ways_to_atom(formula, values, by, depth, visiting)
-            case Negation(Atom() as atom) if by is not None:
-                return (frozenset({self._lack(atom, values, False, AtomReader(depth, by, atom))}),)
+                return self._ways_to_literal(formula, True, values, by, depth, visiting)
+            case Negation(Atom() as atom):
+                return self._ways_to_literal(atom, False, values, by, depth, visiting)
             case Negation() | Equal():
                 return ()
             case Conjunction(parts):
@@ -172,31 +181,32 @@ class NearestChanges:
         members = self._problem.domain.of_type(self._problem.objects, variable.type)
         return [{**values, variable.name: name} for name in members]
 
-    def _ways_to_atom(
-        self, read: Atom, values: Values, by: Action | None, depth: int, visiting: frozenset[Atom]
+    def _ways_to_literal(
+        self, read: Atom, holds: bool, values: Values, by: Action | None, depth: int, visiting: frozenset[_Literal]
     ) -> tuple[Way, ...]:
         atom = _bind(read, values)
+        literal = atom, holds
         stated = (
             ()
-            if by is None or atom in self._wanted
-            else (frozenset({self._lack(read, values, True, AtomReader(depth, by, read))}),)
+            if by is None or (holds and atom in self._wanted)
+            else (frozenset({self._lack(read, values, holds, AtomReader(depth, by, read))}),)
         )
-        if atom in visiting or depth >= MAX_DEPTH or not self._problem.domain.predicate[atom.predicate].changes:
+        if literal in visiting or depth >= MAX_DEPTH or not self._problem.domain.predicate[atom.predicate].changes:
             return stated
-        if atom not in self._made:
-            self._made[atom] = keep_cheapest(self._ways_by_actions(atom, depth, visiting | {atom}))
-        return keep_cheapest((*self._made[atom], *stated))
+        if literal not in self._made:
+            self._made[literal] = keep_cheapest(self._ways_by_actions(literal, depth, visiting | {literal}))
+        return keep_cheapest((*self._made[literal], *stated))
 
-    def _ways_by_actions(self, atom: Atom, depth: int, visiting: frozenset[Atom]) -> Iterator[Way]:
-        for action, start in self._makers(atom):
+    def _ways_by_actions(self, literal: _Literal, depth: int, visiting: frozenset[_Literal]) -> Iterator[Way]:
+        for action, start in self._makers(*literal):
             for bound, lacking in self._partial.find(action, start):
                 yield from combine_ways([self._ways(each, bound, action, depth + 1, visiting) for each in lacking])
 
-    def _makers(self, atom: Atom) -> Iterator[tuple[Action, dict[str, str]]]:
-        """Yield the actions that make an atom true, with the parameters that are bound by it."""
+    def _makers(self, atom: Atom, holds: bool) -> Iterator[tuple[Action, dict[str, str]]]:
+        """Yield the actions that make an atom true, or false, with the parameters that are bound by it."""
         for action in self._problem.domain.actions:
             for change in action.effects:
-                start = unify(change.atom, atom, action) if change.positive else None
+                start = unify(change.atom, atom, action) if change.positive == holds else None
                 if start is not None and not any(self._partial.mistyped(action, start)):
                     yield action, start
 
@@ -208,15 +218,32 @@ class NearestChanges:
         return lack
 
     def _cost_of(self, atom: Atom) -> int:
-        """Return what it costs to state an atom: more if skills can make it true, or if it contradicts another fact."""
+        """Return what it costs to state an atom.
+
+        More if skills change it, if it contradicts another fact, or if others of their classes lack it, too.
+        """
         predicate = self._problem.domain.predicate[atom.predicate]
-        cost = 2 if predicate.changes else 1
+        is_relation = isinstance(predicate.meaning, RelationMeaning)
+        cost = 2 if predicate.changes and (is_relation or any(self._makers(atom, True))) else 1
         if isinstance(predicate.meaning, RelationMeaning):
             relation = self._state.vocabulary.relations[predicate.meaning.relation]
             subject, object_ = (self._problem.names.get(each, "") for each in atom.terms)
+            cost += cost == 1 and not is_expected(self._state, relation.iri, subject, object_)
             cost += 2 * (relation.functional and bool(self._state.objects(subject, relation.iri)))
             cost += 2 * (relation.inverse_functional and bool(self._state.subjects(relation.iri, object_)))
         return cost
+
+
+def is_expected(state: WorldState, relation: str, subject: str, object_: str) -> bool:
+    """Whether one of two individuals has no such relation, and at least half of the others of its classes have one."""
+
+    def lacks(individual: str, having: Callable[[str], frozenset[str]]) -> bool:
+        peers = {each for cls in state.types(individual) for each in state.instances(cls)} - {individual}
+        return not having(individual) and 2 * sum(bool(having(each)) for each in peers) >= len(peers)
+
+    return lacks(subject, lambda each: frozenset(state.objects(each, relation))) or lacks(
+        object_, lambda each: frozenset(state.subjects(relation, each))
+    )
 
 
 def find_stated(state: WorldState, relation: str, subject: str, object_: str) -> str | None:
