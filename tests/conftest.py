@@ -5,10 +5,12 @@ import os
 import signal
 import sys
 from collections.abc import Generator
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
 
+from skillc_dsl.cache import cache_folder
 from skillc_dsl.garbage import gc_disabled
 
 # No test depends on how fast the machine is.
@@ -89,3 +91,15 @@ def pytest_collection() -> Generator[None, object, object]:
 def pytest_collection_finish() -> None:
     """Spare what was imported for the tests, which stays to the end, from being looked through for garbage."""
     gc.freeze()
+
+
+@pytest.fixture
+def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A cache folder of the test's own, empty but for machine code: to compile all of it takes 20 s."""
+    users, own = cache_folder(), tmp_path / "cache" / "skillc"
+    assert users is not None
+    for each in (users / "machine-code", own):
+        each.mkdir(parents=True, exist_ok=True)
+    (own / "machine-code").symlink_to(users / "machine-code", target_is_directory=True)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(own.parent))
+    return own

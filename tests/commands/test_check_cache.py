@@ -171,7 +171,7 @@ def test_another_state_of_the_installation_is_another_digest(tmp_path: Path, mon
 
 
 @pytest.mark.slow
-def test_nothing_heavy_is_imported_for_what_is_remembered(library: Path, cache: Path) -> None:
+def test_nothing_heavy_is_imported_for_what_is_remembered(library: Path, own_cache: Path) -> None:
     program = f"""
 import sys
 from skillc.cli.main import main

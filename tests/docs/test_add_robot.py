@@ -16,7 +16,6 @@ PAGE = ROOT / "docs/add-robot.md"
 
 
 def follow(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Reader:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(folder / "cache"))
     monkeypatch.setenv("COLUMNS", "500")
     monkeypatch.chdir(folder)
     shutil.copy(ROOT / "tests/robot_import/gen3.urdf", folder)
@@ -26,6 +25,7 @@ def follow(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Reader:
 
 
 @pytest.mark.sim
+@pytest.mark.usefixtures("own_cache")
 def test_the_page_adds_an_arm_that_wipes_the_board(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert follow(tmp_path, monkeypatch).done == 8
 

@@ -11,10 +11,9 @@ from skillc_runtime.planning.fast_downward.solver import find_fast_downward
 
 
 @pytest.mark.skipif(find_fast_downward() is None, reason="the page speaks of planners that are extras")
-def test_the_page_is_true(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_page_is_true(tmp_path: Path, own_cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     reader = Reader(monkeypatch)
     reader.follow(ROOT / "docs/planning.md")
     assert reader.done == 2
-    assert list((tmp_path / "cache/skillc/plans").iterdir())
+    assert list((own_cache / "plans").iterdir())

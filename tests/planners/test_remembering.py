@@ -201,10 +201,9 @@ def test_several_processes_share_a_shelf(tmp_path: Path) -> None:
         assert pool.map(_use, [tmp_path] * 4) == [0] * 4
 
 
-def test_the_command_takes_plans_again_unless_told_not_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+def test_the_command_takes_plans_again_unless_told_not_to(own_cache: Path) -> None:
     command = ["plan", "clean_table", "--json"]
     assert CliRunner().invoke(skillc, [*command, "--no-plan-cache"]).exit_code == 0
-    assert not (tmp_path / "skillc/plans").exists()
+    assert not (own_cache / "plans").exists()
     first, second = (json.loads(CliRunner().invoke(skillc, command).stdout) for _ in range(2))
     assert first == second and first["status"] == "solved"

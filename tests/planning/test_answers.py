@@ -51,7 +51,7 @@ def depot(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def plan(depot: Path, goal: str, *options: str) -> Result:
     scene = ("--library", str(depot), "--scene", str(depot / "scene.ttl"), "--goal", goal)
-    result = CliRunner().invoke(skillc, ["plan", *scene, "--no-plan-cache", *options])
+    result = CliRunner().invoke(skillc, ["plan", *scene, "--no-plan-cache", "--deadline", "600", *options])
     assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
     return result
 

@@ -22,8 +22,7 @@ MODEL = "ontology/robots/six.xml"
 
 
 @pytest.fixture
-def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+def project(tmp_path: Path, own_cache: Path) -> Path:
     assert call(tmp_path, "new", "cell", "--template", "wipe").exit_code == 0
     (tmp_path / "cell/six.urdf").write_text(six(), "utf-8")
     return tmp_path / "cell"
@@ -120,9 +119,8 @@ def test_without_pinocchio_a_sentence_says_what_to_do(empty: Path, monkeypatch: 
     ids=["wipe-lifter", "pick-place-gen3", "press-railed"],
 )
 def test_an_added_arm_does_the_task_of_a_template(
-    template: str, urdf: str, like: str, control: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    template: str, urdf: str, like: str, control: str, tmp_path: Path, own_cache: Path
 ) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     assert call(tmp_path, "new", "cell", "--template", template).exit_code == 0
     project = tmp_path / "cell"
     (project / "six.urdf").write_text(urdf, "utf-8")

@@ -10,6 +10,8 @@ from click.testing import CliRunner
 from skillc.cli.main import skillc
 from symbolic.ward import write_ward
 
+pytestmark = pytest.mark.usefixtures("own_cache")
+
 TERMS = """use skiros
 prefix lab: <http://example.org/lab#>
 
@@ -78,7 +80,6 @@ def write_oven(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str) -> Pa
     folder.mkdir()
     (folder / "ward.ttl").write_text(ovens_of(scene), "utf-8")
     (folder / "oven.skill").write_text(text, "utf-8")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.chdir(folder)
     return folder
 
