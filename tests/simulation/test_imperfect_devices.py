@@ -189,6 +189,8 @@ def test_a_tool_has_its_centre_and_its_pad_elsewhere() -> None:
     assert pads[1] == pytest.approx(pads[0] - sizes["padThicknessError"][0])
     assert dampings[1] == pytest.approx(dampings[0] * sizes["padDampingFactor"][0])
     np.testing.assert_allclose((centres[1] - centres[0])[:2], sizes["centreError"][:2], rtol=1e-9)
+    known = [each._hands[ARM["iiwa_table"]]._centre_error(LAB + "Eraser-1") for each in models]
+    np.testing.assert_array_equal(known, [np.zeros(3), sizes["centreError"]])
 
 
 def test_every_kind_has_a_property_of_a_sheet_and_a_row_in_the_docs(docs: str) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 
 from skillc_runtime.devices.guarded_push import GuardedPush, MeasuredForce, PushProgress, Travel
 from skillc_runtime.motion.pose import Array, log
+from skillc_runtime.primitives.approach_speed import find_greatest_approach
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.known_limits import find_excess
 from skillc_runtime.primitives.primitive import NOTHING, Activity, Primitive, SkillFailure, Status
@@ -18,7 +19,9 @@ from skillc_runtime.primitives.push_force import write_push_force
 from skillc_runtime.primitives.space_needs import Press, SpaceNeed
 from skillc_runtime.primitives.surface_location import write_surface_pose
 from skillc_runtime.primitives.time_limits import approach_limit_s
+from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labels.labelled import LabelledQuantity
+from skillc_runtime.world.state.terms import APPROACH_SPEED
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.arm_driver import ArmDriver
@@ -95,7 +98,8 @@ class ReleaseAxis(Primitive):
 class Push(Primitive):
     """Approaches a surface opposite to `along` (3,) at `approach` m/s, then presses on it with `force` N in the scope.
 
-    If contact is lost, at a hole or an edge, the tool approaches again. Fails if there is no contact within `travel` m;
+    It approaches no faster than the pad of the tool allows, see `approach_speed`. If contact is lost, at a hole or an
+    edge, the tool approaches again. Fails if there is no contact within `travel` m;
     stops the arm if the tool later sinks by as much.
     """
 
@@ -120,7 +124,9 @@ class Push(Primitive):
     ) -> None:
         super().__init__(cell)
         self.arm, self._arm = cell.arm(arm), arm
-        self._push = GuardedPush(along, force, approach, Travel(travel))
+        fastest = find_greatest_approach(cell.world.snapshot(), arm, force)
+        self._push = GuardedPush(along, force, min(approach, fastest), Travel(travel))
+        self._is_slowed = fastest < approach
         self._progress: PushProgress | None = None
         self._taken_off, self._has_pressed, self._ends = False, False, 0.0
 
@@ -148,6 +154,9 @@ class Push(Primitive):
         self._ends = self.cell.now + approach_limit_s(
             self._push.travel.distance_m, self._push.approach_m_s * self.arm.speed
         )
+        if self._is_slowed:
+            slowed = SetProperty(self._arm, APPROACH_SPEED, self._push.approach_m_s)
+            self.cell.world.commit([slowed], "Push", "reported")
         self._progress = compliance.start_push(self._push)
 
     def tick(self) -> Status:

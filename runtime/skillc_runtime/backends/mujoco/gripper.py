@@ -22,6 +22,7 @@ from skillc_runtime.backends.simulation.hands.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.hands.loss_watch import LossWatch, may_be_lost
 from skillc_runtime.backends.simulation.names import part_name, weld_name
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec, ToolSpec
+from skillc_runtime.devices.reality import NO_SIZES
 from skillc_runtime.motion.numerics.compiled import Bound, bind
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.world.space.bodies import RigidBody
@@ -193,6 +194,11 @@ class SimulatedGripper(ModelledGripper):
         """Remove the weld."""
         self._data.eq_active[self._weld(thing)], self._grip = 0, None
         self._physics.release(thing)
+
+    def _centre_error(self, thing: str) -> Array:
+        """Return how far its centre of mass (3,) is from where it is known to be, in m, in the frame of the object."""
+        sizes = self._physics.variation.imperfections.get(thing, NO_SIZES)
+        return np.array(sizes.get("centreError", (0.0, 0.0, 0.0)))
 
     def _weld(self, thing: str) -> int:
         """Return the number of the weld that holds a thing."""

@@ -224,9 +224,13 @@ class ModelledGripper(ABC):
         self._holding, self._held[:] = thing, (1.0, opening_m)
         self._in_tool_centre, self._payload_kg = in_tool_centre, mass_kg
         block = self._model.body(part_name(self._names[thing], "block")).id
-        centre = self._pose(block).inverse().apply(self._data.subtree_com[block])
+        centre = self._pose(block).inverse().apply(self._data.subtree_com[block]) - self._centre_error(thing)
         tool = in_tool_centre @ working_face(self._things[thing].size)
         self._arm.set_load(ArmLoad(mass_kg, centre, in_tool_centre, tool))
+
+    def _centre_error(self, thing: str) -> Array:
+        """Return how far the centre of mass (3,) of an object is from where it is known to be, in m, in its frame."""
+        return np.zeros(3)
 
     def _has_closed_further(self) -> bool:
         """Whether the fingers have closed so far since they took hold that what they held is not between them."""
