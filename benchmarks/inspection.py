@@ -39,7 +39,7 @@ def draw_dose(shape: tuple[int, int], rng: np.random.Generator) -> Array:
         across = np.abs(np.cos(turn) * (y - middle[0]) + np.sin(turn) * (x - middle[1]))
         along = np.abs(-np.sin(turn) * (y - middle[0]) + np.cos(turn) * (x - middle[1]))
         under = (across < rng.uniform(5, 10)) & (along < rng.uniform(10, 60))
-        dose += under * rng.choice([0.05, 0.5, 1.0], p=[0.15, 0.35, 0.5])
+        dose += under * rng.choice([0.3, 3.0, 6.0], p=[0.15, 0.35, 0.5])
     return dose
 
 

@@ -130,7 +130,7 @@ class ImageCamera(Camera):
         add_camera(described, self._spec, self.true_pose)
         middle = np.mean([each.position for each in true.values()], axis=0) if true else self.true_pose.position
         sheets = [dirt_texture(self._names[each]) for each in true]
-        light_up(described, self._light, middle, sheets)
+        light_up(described, self._light, self._spec.ring_light, middle, sheets)
         model = described.compile()
         set_offscreen(model, (self._spec.lens.width, self._spec.lens.height))
         return model

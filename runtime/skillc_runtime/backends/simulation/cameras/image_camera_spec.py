@@ -24,7 +24,8 @@ class ImageCameraSpec(msgspec.Struct, frozen=True):
     """A camera that stands still and takes images: its believed pose in the world, lens and errors.
 
     It is really up to `mount_m` along and `mount_rad` about each axis from there. A pixel is full at `full_well`
-    electrons and is read with a noise of `read_noise`. surfaces: those with markers, by IRI; removal_s: for each of
+    electrons and is read with a noise of `read_noise`. A lamp at it is `ring_light` times as bright as all other light
+    above what is looked at. surfaces: those with markers, by IRI; removal_s: for each of
     them, the time in s under a pressed tool in which its dirt falls to 1/e.
     """
 
@@ -35,6 +36,7 @@ class ImageCameraSpec(msgspec.Struct, frozen=True):
     mount_rad: float
     full_well: float
     read_noise: float
+    ring_light: float
     surfaces: Mapping[str, InspectedSurface]
     removal_s: Mapping[str, float]
 
@@ -61,6 +63,7 @@ def read_image_camera(state: WorldState) -> ImageCameraSpec | None:
         mount_rad=sheet.number("mountTilt"),
         full_well=sheet.number("fullWell"),
         read_noise=sheet.number("readNoise"),
+        ring_light=number_of(state, sheet.individual, SKILLC + "ringLight", default=0.0),
         surfaces={each: _surface(state, each) for each in marked},
         removal_s={each: number_of(state, each, DIRT_REMOVAL) for each in marked},
     )

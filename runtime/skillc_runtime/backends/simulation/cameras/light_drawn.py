@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import msgspec
 import numpy as np
+from msgspec.structs import replace
 
 from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.motion.pose import Array
@@ -23,6 +24,10 @@ class DrawnLight(msgspec.Struct, frozen=True):
     lamp: Array
     shine: float
     colour: Array
+
+    def dimmed(self, by: float) -> DrawnLight:
+        """Return the same light, so many times as dark."""
+        return replace(self, ambient=self.ambient / by, far=self.far / by, near=self.near / by)
 
 
 def draw_light(individual: str, seed: int) -> DrawnLight:

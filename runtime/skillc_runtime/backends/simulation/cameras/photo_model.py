@@ -90,12 +90,17 @@ def _add_sheet(spec: Any, name: str, pose: Pose, size: Array, pixels: NDArray[np
     geom.contype = geom.conaffinity = 0
 
 
-def light_up(spec: Any, light: DrawnLight, middle: Array, mirroring: list[str]) -> None:
-    """Replace all light by one that was drawn; middle (3,) in m of the world. mirroring: materials that mirror it."""
+def light_up(spec: Any, drawn: DrawnLight, ring: float, middle: Array, mirroring: list[str]) -> None:
+    """Replace all light by one that was drawn and a lamp at the camera, `ring` times as bright as all other light.
+
+    middle (3,) in m of the world: what is looked at. mirroring: materials that mirror the light.
+    """
+    light = drawn.dimmed(1.0 + ring)
+    own = ring / (1.0 + ring)
     for each in list(spec.lights):
         spec.delete(each)
     head = spec.visual.headlight
-    head.ambient, head.diffuse, head.specular = [light.ambient] * 3, [0.0] * 3, [0.0] * 3
+    head.ambient, head.diffuse, head.specular = [light.ambient] * 3, [own] * 3, [own] * 3
     far = spec.worldbody.add_light(type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL, castshadow=True)
     far.dir, far.diffuse, far.specular = light.direction, [light.far] * 3, [light.far] * 3
     far.pos = middle - 2.0 * light.direction
