@@ -10,10 +10,11 @@ level
 
 by what is measured of the motion. While it falls below zero, the share s of all A that is used falls, s' = -s / T_s,
 which is damping 1 / (s A) that rises. Once the tank is filled again s rises, with T_r, but only to 0.4 times what it
-was when it began to fall, until the push ends: so it falls some times, and no oscillation comes back for ever. J.-H.
-Ryu, D.-S. Kwon, B. Hannaford: Stable Teleoperation with Time-Domain Passivity Control, IEEE Transactions on Robotics
-and Automation 20(2), 2004; the tank as in F. Ferraguti, C. Secchi, C. Fantuzzi: A Tank-Based Approach to Impedance
-Control with Variable Stiffness, ICRA 2013.
+was when it began to fall, until the push ends: so it falls some times, and no oscillation comes back for ever. Beside
+the push, where less of A lets a tool fall behind its path, min(s / 0.4, 1) is used: less than 1 only from the second
+fall on, once s has risen. J.-H. Ryu, D.-S. Kwon, B. Hannaford: Stable Teleoperation with Time-Domain Passivity Control,
+IEEE Transactions on Robotics and Automation 20(2), 2004; the tank as in F. Ferraguti, C. Secchi, C. Fantuzzi: A Tank-
+Based Approach to Impedance Control with Variable Stiffness, ICRA 2013.
 """
 
 from __future__ import annotations

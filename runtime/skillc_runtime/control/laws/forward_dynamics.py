@@ -34,7 +34,7 @@ from skillc_runtime.control.laws.task_error import (
 )
 from skillc_runtime.control.laws.virtual_arm import VirtualArm, VirtualState
 from skillc_runtime.control.limits import COMMANDED, FASTEST, JointLimit, limit_joints
-from skillc_runtime.control.passivity import fill_tank, make_tank, watch_energy
+from skillc_runtime.control.passivity import KEPT, fill_tank, make_tank, watch_energy
 from skillc_runtime.control.push_memory import FALL_SHARE
 from skillc_runtime.devices.arm import ArmState, Command
 from skillc_runtime.motion.arrays import OutMatrix, OutVector, Vector
@@ -196,7 +196,9 @@ def move_virtual_arm(
         fill_tank(memory.tank)
         share = 1.0
     for i in range(6):
-        push[i] *= memory.rate[i] * min(share, reduced if i == pushed else 1.0)
+        beside = i < 3 and i != pushed
+        used = min(share / KEPT, 1.0) if beside else share
+        push[i] *= memory.rate[i] * min(used, reduced if i == pushed else 1.0)
         push[i] += rows[TWIST, i] / lag + rows[ACCELERATION, i]
     for i in range(3):
         push[i] -= BRAKED * speed_excess(lag * push[i], compliance.fastest[i]) / lag
