@@ -13,7 +13,7 @@ from skillc_model.properties import Property
 from skillc_model.tree import Node
 from skillc_rdf.vocabulary.types import ValueType, Vocabulary
 
-FORMAT = 6
+FORMAT = 7
 KEEP_S = 2.0
 """How long a paused tool goes on pressing, in s, if no running skill states it."""
 

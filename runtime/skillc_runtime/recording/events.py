@@ -30,7 +30,7 @@ from skillc_runtime.recording.states import EndState, State
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.labels.labelled import LabelledChange, LabelledIri, LabelledValue
 
-FORMAT = 11
+FORMAT = 12
 """Raised with every change of the events or their meaning. Readers accept this format only."""
 
 
