@@ -33,10 +33,9 @@ def problems(*arguments: str) -> list[str]:
 
 def test_check_asks_for_bodies_unless_there_are_none(ward: Path) -> None:
     of_bodies = problems()
-    assert {"missing-property", "no-place"} <= set(of_bodies)
-    assert not {"missing-property", "no-place", "infeasible-step", "unchecked-space"} & set(
-        problems("--backend", "symbolic")
-    )
+    spatial = {"missing-property", "no-place", "no-implementation"}
+    assert spatial <= set(of_bodies)
+    assert not {*spatial, "infeasible-step", "unchecked-space"} & set(problems("--backend", "symbolic"))
     assert problems() == of_bodies, "what was cached for one back end is not told of another"
     (ward / "skillc.toml").write_text(MANIFEST, encoding="utf-8")
     assert problems() == problems("--backend", "symbolic") != of_bodies

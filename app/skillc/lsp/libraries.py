@@ -159,6 +159,10 @@ class Libraries:
         of_scenes = self.problems_of_scenes(root)
         return (*self.problems_of_vocabularies(root), *of_scenes, *self._around(root).diagnostics)
 
+    def is_symbolic(self, root: Root) -> bool:
+        """Whether the tasks of a library run in cells without bodies."""
+        return self._around(root).value.is_symbolic
+
     def _around(self, root: Root) -> Outcome[LibraryFiles]:
         """Return what a library may import, with the diagnostics of its manifest."""
         if root not in self._surroundings:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -52,10 +52,15 @@ def check_whole(library: LibraryFiles, scene: Path | None, memo: Memo, look: Spa
     sources = [each._replace(path=library.display_path(each.path)) for each in library.sources]
     around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources, memo, look)
     of_scenes = (*around, *_named_goals(library, outcome, look))
-    problems = sort_diagnostics((*outcome.diagnostics, *of_scenes))
+    problems = sort_diagnostics((*without_unasked(outcome.diagnostics, library.is_symbolic), *of_scenes))
     if not outcome.ok:
         return Checked(problems)
     return Checked(problems, found.program, outcome.value, of_scenes, found.scenes)
+
+
+def without_unasked(found: Iterable[Diagnostic], is_symbolic: bool) -> Iterator[Diagnostic]:
+    """Yield the diagnostics of compiling that count where tasks run: without bodies, skills act as declared."""
+    return (each for each in found if not (is_symbolic and each.name == "no-implementation"))
 
 
 def _named_goals(
