@@ -35,14 +35,23 @@ def test_a_lag_without_time_passes_everything_and_a_slow_one_arrives():
     assert arrived == sorted(arrived) and not arrived[0]
 
 
-@given(arrays(float, (10, 7), elements=st.floats(-1e5, 1e5)))
-def test_torques_stay_within_rate_and_effort(wanted):
-    bench = Bench("iiwa14")
-    state, limit = bench.state(), TorqueLimit(bench.limits, 1000.0)
+@pytest.fixture(scope="module")
+def iiwa() -> Bench:
+    return Bench("iiwa14")
+
+
+@pytest.fixture(scope="module")
+def ur5e() -> Bench:
+    return Bench("ur5e")
+
+
+@given(wanted=arrays(float, (10, 7), elements=st.floats(-1e5, 1e5)))
+def test_torques_stay_within_rate_and_effort(iiwa, wanted):
+    state, limit = iiwa.state(), TorqueLimit(iiwa.limits, 1000.0)
     before = state.bias
     for tau in wanted:
         now = limit.step(tau, state, 0.001)
-        assert (np.abs(now) <= bench.limits.effort).all()
+        assert (np.abs(now) <= iiwa.limits.effort).all()
         assert (np.abs(now - before) <= 1.0 + 1e-9).all()
         before = now
 
@@ -54,23 +63,21 @@ def test_a_joint_near_the_end_of_its_range_is_pushed_back():
     assert tau[1] - bench.data.qfrc_bias[1] == pytest.approx(-bench.limits.effort[1] / 4)
 
 
-@given(arrays(float, (10, 6), elements=st.floats(-10, 10)))
-def test_joint_positions_stay_within_speed_and_range(wanted):
-    bench = Bench("ur5e")
-    state = bench.state()
-    limit, before = JointLimit(bench.limits, state.q), state.q
+@given(wanted=arrays(float, (10, 6), elements=st.floats(-10, 10)))
+def test_joint_positions_stay_within_speed_and_range(ur5e, wanted):
+    state = ur5e.state()
+    limit, before = JointLimit(ur5e.limits, state.q), state.q
     for q in wanted:
         now = limit.step(q, state, 0.001).q
-        assert (np.abs(now - before) <= bench.limits.velocity * 0.001 + 1e-12).all()
-        assert (now >= bench.limits.range[:, 0]).all()
-        assert (now <= bench.limits.range[:, 1]).all()
+        assert (np.abs(now - before) <= ur5e.limits.velocity * 0.001 + 1e-12).all()
+        assert (now >= ur5e.limits.range[:, 0]).all()
+        assert (now <= ur5e.limits.range[:, 1]).all()
         before = now
 
 
-def test_an_arm_that_does_not_follow_is_noticed():
-    bench = Bench("ur5e")
-    state = bench.state()
-    limit = JointLimit(bench.limits, state.q + 0.3)
+def test_an_arm_that_does_not_follow_is_noticed(ur5e):
+    state = ur5e.state()
+    limit = JointLimit(ur5e.limits, state.q + 0.3)
     with pytest.raises(ControlError, match=r"0\.30 rad"):
         limit.step(state.q, state, 0.001)
     assert (limit.step(state.q, state, 0.001).q == state.q).all()

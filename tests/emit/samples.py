@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 from skillc_dsl.position import Position
 from skillc_model.conditions import (
     Anything,
@@ -86,6 +88,7 @@ PROPERTIES = (
 )
 
 
+@cache
 def vocabulary() -> Vocabulary:
     relations = {each.iri: each for each in RELATIONS}
     inverse = RelationTerm(

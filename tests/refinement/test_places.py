@@ -1,6 +1,8 @@
 """Where a thing is put down is chosen: the nearest place from which all goes; the run takes the place of its plan."""
 
 import json
+from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -36,12 +38,12 @@ def plan_places(scene: Path, goal: str) -> list[dict]:
     return space["places"]
 
 
-def list_on_rack() -> list[FreePlace]:
-    return list(list_free_places(held(*shelf_on_table(0.45, 2)), lab("Panda-1"), lab("Hand-1"), PART, lab("Rack")))
+def iterate_on_rack() -> Iterator[FreePlace]:
+    return list_free_places(held(*shelf_on_table(0.45, 2)), lab("Panda-1"), lab("Hand-1"), PART, lab("Rack"))
 
 
 def test_places_begin_where_things_are_put_without_a_choice_and_are_spread_over_the_supports() -> None:
-    found = list_on_rack()
+    found = list(iterate_on_rack())
     top = [each.hand for each in found if each.support.board == 0]
     assert len(top) > 10
     assert np.allclose(top[0].position[:2], (0.55, 0.2), atol=0.01), "its middle"
@@ -53,8 +55,8 @@ def test_places_begin_where_things_are_put_without_a_choice_and_are_spread_over_
             turned = np.abs(each.rotation - other.rotation).max() > 0.5
             assert turned or np.linalg.norm(each.position - other.position) >= APART_M - 1e-9
     assert max(np.linalg.norm(each.position - top[0].position) for each in top) > 0.15
-    again = list_on_rack()
-    assert all(np.array_equal(one.hand.position, other.hand.position) for one, other in zip(found, again, strict=True))
+    again = islice(iterate_on_rack(), 10)
+    assert [each.hand.position.tolist() for each in again] == [each.hand.position.tolist() for each in found[:10]]
 
 
 @pytest.mark.slow
