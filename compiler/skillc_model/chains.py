@@ -28,6 +28,7 @@ from skillc_model.conditions import (
     Same,
     Term,
     Variable,
+    single_effect,
 )
 from skillc_model.pddl.names import assign_names
 from skillc_model.read_write import terms_read, terms_written
@@ -162,8 +163,8 @@ def _effects_on(
 ) -> Iterator[tuple[Assert | Retract, Directed, bool]]:
     """Yield the effects that make or end steps, with the relation of the step, and whether its subject is moved."""
     flipped, closure = {each.relation: each.flipped for each in steps}, vocabulary.closure
-    effects = [each for result in skill.results for each in result.effects if isinstance(each, Assert | Retract)]
-    for effect in effects:
+    effects = [single_effect(each) for result in skill.results for each in result.effects]
+    for effect in (each for each in effects if isinstance(each, Assert | Retract)):
         for each in {closure.canonical(effect.relation), *closure.canonical_sources.get(effect.relation, ())}:
             if each.relation in flipped:
                 yield effect, each, (each.flipped != flipped[each.relation]) != at_start

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import TypeAlias, assert_never
 
 import msgspec
 
@@ -54,4 +54,31 @@ class Assign(msgspec.Struct, frozen=True, tag="assign"):
     value: Expression
 
 
-Effect: TypeAlias = Assert | Retract | Assign
+class ForEach(msgspec.Struct, frozen=True, tag="for each"):
+    """The effect happens to each individual of the class, called `variable`, of which the condition held before."""
+
+    variable: str
+    cls: str
+    when: Condition
+    effect: Assert | Retract | Assign
+
+
+Effect: TypeAlias = Assert | Retract | Assign | ForEach
+
+
+def single_effect(effect: Effect) -> Assert | Retract | Assign:
+    """Return what an effect does to one individual."""
+    return effect.effect if isinstance(effect, ForEach) else effect
+
+
+def wanted_by(effect: Assert | Retract | Assign) -> Condition:
+    """Return the condition that an effect makes true."""
+    match effect:
+        case Assert(subject, relation, object_):
+            return Holds(subject, relation, object_)
+        case Retract(subject, relation, object_):
+            return Not(Holds(subject, relation, object_))
+        case Assign(subject, property_, value):
+            return Compare(PropertyOf(subject, property_), "==", value)
+        case _:
+            assert_never(effect)

@@ -14,6 +14,7 @@ from skillc_model.conditions import (
     Exists,
     Expression,
     Forall,
+    ForEach,
     Given,
     HasProperty,
     Holds,
@@ -27,6 +28,7 @@ from skillc_model.conditions import (
     Same,
     Term,
     Variable,
+    wanted_by,
 )
 from skillc_rdf.vocabulary.types import Vocabulary, local_name, value_name
 
@@ -131,6 +133,13 @@ def format_expression(expression: Expression, vocabulary: Vocabulary) -> str:
 def _operand(expression: Expression, vocabulary: Vocabulary) -> str:
     text = format_expression(expression, vocabulary)
     return f"({text})" if isinstance(expression, Arithmetic) else text
+
+
+def format_each(effect: ForEach, vocabulary: Vocabulary) -> str:
+    """Return an effect on each individual that fulfils a condition, as a postcondition states it."""
+    wanted = format_condition(wanted_by(effect.effect), vocabulary)
+    when = "" if effect.when == And(()) else f" when {format_condition(effect.when, vocabulary)}"
+    return format_quantified("forall", effect.variable, vocabulary.short(effect.cls), wanted + when)
 
 
 def _nested(condition: Condition, vocabulary: Vocabulary) -> str:

@@ -14,6 +14,7 @@ from skillc_model.conditions import (
     Condition,
     Effect,
     Expression,
+    ForEach,
     HasProperty,
     Holds,
     Individual,
@@ -21,6 +22,7 @@ from skillc_model.conditions import (
     PropertyOf,
     Retract,
     Variable,
+    single_effect,
 )
 from skillc_model.skills import Implementation, Outcome, Post, Skill, SkillLibrary
 from skillc_model.traversal import walk
@@ -133,7 +135,10 @@ def terms_read_by(skill: Skill, library: SkillLibrary) -> frozenset[str]:
     vocabulary = library.vocabulary
     for result in skill.results:
         read |= terms_read(result.condition)
-        asserted = (effect.relation for effect in result.effects if isinstance(effect, Assert))
+        for effect in result.effects:
+            read |= terms_read(effect.when) if isinstance(effect, ForEach) else frozenset()
+        single = map(single_effect, result.effects)
+        asserted = (effect.relation for effect in single if isinstance(effect, Assert))
         implied = (each.relation for relation in asserted for each in vocabulary.closure.implied[relation])
         read |= {iri for iri in implied if vocabulary.relations[iri].asymmetric}
     return frozenset(read)
@@ -158,8 +163,8 @@ def terms_written_by(effect: Effect, vocabulary: Vocabulary) -> frozenset[str]:
 
     Terms that these imply are not included; `may_change` takes them into account.
     """
-    closure = vocabulary.closure
-    match effect:
+    closure, single = vocabulary.closure, single_effect(effect)
+    match single:
         case Assign(property=iri):
             return frozenset({iri})
         case Retract(relation=iri):
@@ -169,7 +174,7 @@ def terms_written_by(effect: Effect, vocabulary: Vocabulary) -> frozenset[str]:
             lost = {each.relation for above in unique for each in closure.canonical_sources[above.relation]}
             return frozenset({closure.canonical(iri).relation, *lost})
         case _:
-            assert_never(effect)
+            assert_never(single)
 
 
 def unique_sides(relation: str, vocabulary: Vocabulary) -> tuple[UniqueSide, ...]:

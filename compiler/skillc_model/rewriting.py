@@ -21,6 +21,7 @@ from skillc_model.conditions import (
     Exists,
     Expression,
     Forall,
+    ForEach,
     Given,
     HasProperty,
     Holds,
@@ -36,7 +37,7 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
-from skillc_model.traversal import compound_fields, free_variables, walk
+from skillc_model.traversal import children, compound_fields, free_variables, walk
 from skillc_model.tree import Node
 
 S = TypeVar("S", bound=msgspec.Struct)
@@ -86,7 +87,7 @@ def substitute(item: T, values: Mapping[str, Expression]) -> T:
     """
     if isinstance(item, Variable):
         return values.get(item.name, item)  # type: ignore[return-value]
-    if isinstance(item, Exists | Forall):
+    if isinstance(item, Exists | Forall | ForEach):
         values = {name: value for name, value in values.items() if name != item.variable}
         item = _without_capture(item, values)
     changed = map_children(item, lambda part: substitute(part, values))
@@ -100,14 +101,14 @@ def substitute(item: T, values: Mapping[str, Expression]) -> T:
 
 def _without_capture(item: T, values: Mapping[str, Expression]) -> T:
     """Return the quantifier, its variable renamed if it would capture a free variable of the expressions."""
-    assert isinstance(item, Exists | Forall)
+    assert isinstance(item, Exists | Forall | ForEach)
     coming = {name for key in free_variables(item) if key in values for name in free_variables(values[key])}
     if item.variable not in coming:
         return item
-    taken = coming | free_variables(item.body)
+    taken = coming.union(*map(free_variables, children(item)))
     new = next(name for number in count(2) if (name := f"{item.variable}_{number}") not in taken)
-    body = substitute(item.body, {item.variable: Variable(new)})
-    return msgspec.structs.replace(item, variable=new, body=body)
+    renamed = map_children(item, lambda part: substitute(part, {item.variable: Variable(new)}))
+    return msgspec.structs.replace(renamed, variable=new)
 
 
 def decide_given(condition: Condition, given: Mapping[str, bool]) -> Condition:

@@ -8,7 +8,20 @@ from typing import TypeAlias
 import msgspec
 
 from skillc_dsl.position import Position
-from skillc_model.conditions import And, Assign, Compare, Condition, Effect, Expression, Not, PropertyOf
+from skillc_model.conditions import (
+    And,
+    Assign,
+    Compare,
+    Condition,
+    Effect,
+    Expression,
+    Forall,
+    ForEach,
+    Not,
+    Or,
+    PropertyOf,
+    wanted_by,
+)
 from skillc_model.properties import Property
 from skillc_model.tree import Node
 from skillc_rdf.vocabulary.types import ValueType, Vocabulary
@@ -42,7 +55,11 @@ class Requirement(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Post(msgspec.Struct, frozen=True, kw_only=True):
-    """A postcondition with its effects; a sensed one is only checked, never written."""
+    """A postcondition with its effects; a sensed one is only checked, never written.
+
+    What effects on each individual that fulfils a condition have made so is no part of `condition`: it depends on the
+    state before.
+    """
 
     label: str
     condition: Condition
@@ -50,6 +67,15 @@ class Post(msgspec.Struct, frozen=True, kw_only=True):
     sensed: bool
     text: str
     source: Position
+
+    @property
+    def achieved(self) -> Condition:
+        """The condition under which its effects would change nothing."""
+        several = [each for each in self.effects if isinstance(each, ForEach)]
+        if not several:
+            return self.condition
+        done = (Forall(each.variable, each.cls, Or((Not(each.when), wanted_by(each.effect)))) for each in several)
+        return And((self.condition, *done))
 
 
 class Outcome(msgspec.Struct, frozen=True, kw_only=True):

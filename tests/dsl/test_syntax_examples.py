@@ -162,7 +162,7 @@ A, B, C = (("Bare", ("NameReference", name)) for name in "abc")
         ("a has b", ("Has", ("NameReference", "a"), "b")),
         ("a is lab:B-1", ("Is", ("NameReference", "a"), "lab:B-1")),
         ("given a", ("Given", "a")),
-        ("exists x: C (a)", ("Quantified", "exists", "x", "C", A)),
+        ("exists x: C (a)", ("Quantified", "exists", "x", "C", A, None)),
     ],
 )
 def test_conditions(text: str, expected: object) -> None:

@@ -68,6 +68,8 @@ AMONG = [
     ("infer at", "    pre arm |", "hasA hasGripper at", "fixedTo target deviceState duration"),
     ("infer at", "    pre panel |", "fixedTo", "hasGripper pre"),
     ("class Panel", "relation isAt(x: Panel, y: Location) = x |", "fixedTo", "hasGripper pre"),
+    ("infer at", "    post forall p: Panel (p.isClean == true |", "when and or", "pre"),
+    ("infer at", "    post forall p: Panel (p.isClean == true when p.|", "isClean wear", "when pre"),
     ("class Panel", "relation isAt(x: Panel, y: Location) = |", "x y exists not", "pre"),
     ("infer at", "    pre arm.|", "deviceState pose", "isClean wear normal"),
     ("infer at", "    pre panel.is|", "isClean wear normal", "deviceState"),

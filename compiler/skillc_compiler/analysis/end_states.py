@@ -15,7 +15,14 @@ from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
 from skillc_compiler.analysis.knowledge.assume import assume
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
-from skillc_compiler.analysis.knowledge.writes import PropertyWrite, RelationWrite, Write, write_of, written_condition
+from skillc_compiler.analysis.knowledge.writes import (
+    PropertyWrite,
+    RelationWrite,
+    Write,
+    normalise_each,
+    write_of,
+    written_condition,
+)
 from skillc_compiler.analysis.paths import EndStates, Path, StatePaths, path_length
 from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedCondition, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
@@ -26,6 +33,7 @@ from skillc_model.conditions import (
     Effect,
     Exists,
     Forall,
+    ForEach,
     Holds,
     Invoke,
     IsA,
@@ -35,8 +43,9 @@ from skillc_model.conditions import (
     Same,
     Variable,
 )
-from skillc_model.format_condition import format_condition
-from skillc_model.traversal import free_variables, walk
+from skillc_model.format_condition import format_condition, format_each
+from skillc_model.rewriting import ALWAYS
+from skillc_model.traversal import free_variables, free_variables_in_order, walk
 
 
 def end_findings(
@@ -63,6 +72,8 @@ def end_findings(
     effects = {one.effect: one for one in reversed(run.effects.values())}
     for one in effects.values():
         condition = effect_condition(one.effect)
+        if isinstance(one.effect, ForEach) and not unproved:
+            yield from _check_each_declared(run, implementation, one, one.effect, ends.success)
         if condition is not None:
             if not unproved:
                 yield from _check_declared(run, implementation, one, condition, before, ends.success)
@@ -123,6 +134,11 @@ def _is_declared(run: Exploration, implementation: Implementation, write: Write)
 def _check_post(
     run: Exploration, implementation: Implementation, post: Requirement, states: StatePaths
 ) -> Iterator[Finding]:
+    for effect in (effect for _, effect in definite_effects((post,)) if isinstance(effect, ForEach)):
+        missing = [path for state, path in states.items() if normalise_each(effect) not in state.done]
+        if missing and effect.when != ALWAYS:
+            yield UnprovedPost(implementation, post, false=False, beyond=True, path=min(missing, key=path_length))
+            return
     condition = post.condition.meaning
     known = {state: evaluate(run.types, state, condition) for state in states}
     for value in (False, None):
@@ -201,6 +217,25 @@ def _check_declared(
     if found:
         missing = _write_post(run, implementation, condition)
         yield UndeclaredEffect(implementation, one.call, one.post, missing, min(found, key=path_length), condition)
+
+
+def _check_each_declared(
+    run: Exploration, implementation: Implementation, one: CallEffect, effect: ForEach, states: StatePaths
+) -> Iterator[Finding]:
+    """Yield an effect on all individuals that fulfil a condition which no postcondition declares in the same way."""
+    declared = definite_effects(requirements_of(implementation, "post"))
+    if one.post.sensed or any(isinstance(own, ForEach) and _same_each(effect, own) for _, own in declared):
+        return
+    found = [path for path in states.values() if _contains_call(path, one.call)]
+    if found:
+        names = {each.name for each in implementation.skill.parameters}
+        text = format_each(effect, run.types.vocabulary)
+        missing = text if names >= {*free_variables_in_order(effect)} else ""
+        yield UndeclaredEffect(implementation, one.call, one.post, missing, min(found, key=path_length))
+
+
+def _same_each(one: ForEach, other: ForEach) -> bool:
+    return normalise_each(one) == normalise_each(other)
 
 
 def _write_post(run: Exploration, implementation: Implementation, condition: Condition) -> str:

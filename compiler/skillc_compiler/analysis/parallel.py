@@ -92,6 +92,7 @@ def _combine(state: State, other: State) -> State:
         facts={**other.facts, **state.facts},
         possible={**other.possible, **state.possible},
         assigned=other.assigned | state.assigned,
+        done=other.done | state.done,
     )
 
 

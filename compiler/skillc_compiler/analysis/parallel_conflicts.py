@@ -5,14 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
+from skillc_compiler.analysis.binding import call_requirements
 from skillc_compiler.analysis.findings import ParallelConflict
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
+from skillc_compiler.analysis.knowledge.apply_effects import apply_write
 from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
+from skillc_compiler.analysis.knowledge.evaluate import evaluate
+from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import PropertyWrite, RelationWrite, Write
 from skillc_compiler.analysis.summaries import WriteSummaries
-from skillc_compiler.program.typed import Call, Implementation, Program, TypedNode
+from skillc_compiler.program.typed import Call, Implementation, Program, Requirement, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s
-from skillc_model.conditions import Individual, Literal, Variable
+from skillc_model.conditions import Expression, Individual, Literal, Variable
+from skillc_model.rewriting import substitute
+from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import local_name
 
 
@@ -41,6 +48,32 @@ def _first_conflict(
             for fact in written:
                 yield ParallelConflict(first, second, f"both write `{fact}` differently")
                 return
+            for holding, breaking in ((first, second), (second, first)):
+                broken = _find_broken_hold(program, summaries, axioms, holding, breaking)
+                if broken is not None:
+                    what = f"ends `{broken.text}`, which has to hold as long as the other one runs"
+                    yield ParallelConflict(holding, breaking, what)
+                    return
+
+
+def _find_broken_hold(
+    program: Program, summaries: WriteSummaries, axioms: CanonicalAxioms, holding: Call, breaking: Call
+) -> Requirement | None:
+    """Return a hold of a call that another call makes false, as far as both name the same individuals."""
+    types, values = AliasTypes(program.vocabulary, axioms), _passed_terms(holding)
+    for hold in call_requirements(program, holding, "hold"):
+        condition = substitute(hold.condition.meaning, values)
+        if free_variables(hold.condition.meaning) <= values.keys():
+            for write in summaries.writes_of_call(breaking):
+                if evaluate(types, apply_write(types, State(), write), condition) is False:
+                    return hold
+    return None
+
+
+def _passed_terms(call: Call) -> dict[str, Expression]:
+    """Return the arguments of a call that are names, individuals or constants."""
+    values = ((argument.name.text, argument.value.meaning) for argument in call.arguments)
+    return {name: value for name, value in values if isinstance(value, Variable | Individual | Literal)}
 
 
 def _devices(program: Program, call: Call, context: tuple[str, ...] = ()) -> frozenset[Variable | Individual]:

@@ -10,7 +10,7 @@ from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Skill
 from skillc_compiler.program.types import INT, Measure, Thing, UnknownType, describe_type, type_of
 from skillc_dsl.diagnostics import Diagnostic, Label
-from skillc_model.conditions import Assign
+from skillc_model.conditions import Assign, ForEach
 from skillc_model.pddl.kebab import to_kebab
 from skillc_rdf.vocabulary.types import local_name
 
@@ -62,7 +62,8 @@ def _check_parameters(skill: Skill) -> Iterator[Diagnostic]:
 
 def _check_numbers(program: Program, skill: Skill) -> Iterator[Diagnostic]:
     for post in (requirement for requirement in skill.requirements if requirement.says_what_comes):
-        for effect in effects_of(post.condition):
+        for each in effects_of(post.condition):
+            effect = each.effect if isinstance(each, ForEach) else each
             if not isinstance(effect, Assign) or effect.property not in program.vocabulary.properties:
                 continue
             if isinstance(type_of(program.vocabulary.properties[effect.property].type), Measure) or (

@@ -26,6 +26,7 @@ from skillc_model.conditions import (
     Literal,
     Not,
     Retract,
+    single_effect,
 )
 from skillc_model.foresight import CLAIMED
 from skillc_model.format_condition import format_condition
@@ -129,12 +130,13 @@ def _not_literal(part: NoEffect) -> Diagnostic:
 
 def _check_computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -> Iterator[Diagnostic]:
     term: PropertyTerm | RelationTerm | None
-    if isinstance(effect, Assign):
-        term = vocabulary.properties.get(effect.property)
+    single = single_effect(effect)
+    if isinstance(single, Assign):
+        term = vocabulary.properties.get(single.property)
     else:
-        term = vocabulary.relations.get(effect.relation)
-        if effect.relation in vocabulary.definitions:
-            yield _defined(vocabulary, effect, post)
+        term = vocabulary.relations.get(single.relation)
+        if single.relation in vocabulary.definitions:
+            yield _defined(vocabulary, single, post)
             return
     if post.sensed:
         return

@@ -120,15 +120,21 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
             case s.Implies(if_=premise, then=then):
                 yield from self.condition(known, premise)
                 yield from self.condition(known, then)
-            case s.Quantified(variable=variable, cls=cls, body=body, span=span):
-                yield from self.term("class", cls)
-                yield from self.bound(known, variable, LocalSymbol("variable", span, variable.text))
-                inner = {**known, variable.text: LocalSymbol("variable", span, variable.text)}
-                yield from self.condition(inner, body)
+            case s.Quantified():
+                yield from self._quantified(known, written)
             case s.Bare(value=value):
                 yield from self.value(known, value)
             case _:
                 assert_never(written)
+
+    def _quantified(self, known: Locals, written: s.Quantified) -> Iterator[Occurrence]:
+        variable = written.variable
+        yield from self.term("class", written.cls)
+        yield from self.bound(known, variable, LocalSymbol("variable", written.span, variable.text))
+        inner = {**known, variable.text: LocalSymbol("variable", written.span, variable.text)}
+        yield from self.condition(inner, written.body)
+        if written.when is not None:
+            yield from self.condition(inner, written.when)
 
     def bound(self, known: Locals, name: s.Name, symbol: LocalSymbol) -> Iterator[Occurrence]:
         """Yield the occurrence of a name that is bound here; if it is already in `known`, it refers to that symbol."""

@@ -38,6 +38,8 @@ def facts_in(
 ) -> Iterator[TypedFact]:
     """Yield the facts that are certain if the condition holds, or if it does not."""
     match condition.meaning:
+        case _ if condition.conditional is not None:
+            pass
         case Not():
             yield from facts_in(condition.parts[0], not holds, source or condition)
         case And() if holds:

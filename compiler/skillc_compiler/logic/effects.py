@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import msgspec
 
-from skillc_compiler.program.typed import TypedCondition
+from skillc_compiler.program.typed import EffectScope, TypedCondition
 from skillc_dsl.source import Span
 from skillc_model.conditions import (
     And,
@@ -12,8 +14,11 @@ from skillc_model.conditions import (
     Assert,
     Assign,
     Compare,
+    Condition,
     Effect,
     Expression,
+    Forall,
+    ForEach,
     Holds,
     Individual,
     Literal,
@@ -34,12 +39,27 @@ class NoEffect(msgspec.Struct, frozen=True):
 def effects_of(post: TypedCondition) -> tuple[Effect | NoEffect, ...]:
     """Return the effects of a postcondition, a conjunction of literals; any other part gives a NoEffect."""
     match post.meaning:
+        case _ if post.conditional is not None:
+            body, when = post.parts
+            return tuple(_for_each(body, post.conditional, when.meaning))
+        case Forall(variable=variable, cls=cls):
+            return tuple(_for_each(post.parts[0], EffectScope(variable, cls), And(())))
         case And():
             return tuple(effect for part in post.parts for effect in effects_of(part))
         case Not():
             return (_negative_effect(post, post.parts[0]),)
         case _:
             return (_positive_effect(post),)
+
+
+def _for_each(body: TypedCondition, scope: EffectScope, when: Condition) -> Iterator[Effect | NoEffect]:
+    for effect in effects_of(body):
+        if isinstance(effect, ForEach):
+            yield NoEffect(body.span, "it is about all of several classes at once")
+        elif isinstance(effect, NoEffect):
+            yield effect
+        else:
+            yield ForEach(scope.variable, scope.cls, when, effect)
 
 
 def _positive_effect(post: TypedCondition) -> Effect | NoEffect:

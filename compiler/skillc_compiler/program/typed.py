@@ -32,13 +32,25 @@ class TypedExpression(msgspec.Struct, frozen=True):
     declared: Span | None = None
 
 
+class EffectScope(msgspec.Struct, frozen=True):
+    """The variable, with its class, of an effect on all individuals that fulfil a condition."""
+
+    variable: str
+    cls: str
+
+
 class TypedCondition(msgspec.Struct, frozen=True):
-    """A condition: its meaning, its place, the expressions in it and its parts."""
+    """A condition: its meaning, its place, the expressions in it and its parts.
+
+    `conditional` if it is an effect on those individuals of which its second part held at the start: it claims nothing
+    of the end, so that it means what always holds.
+    """
 
     meaning: Condition
     span: Span
     values: tuple[TypedExpression, ...] = ()
     parts: tuple[TypedCondition, ...] = ()
+    conditional: EffectScope | None = None
 
 
 class Parameter(msgspec.Struct, frozen=True):

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import assert_never
 
 from skillc_compiler.program.labels import label_values
-from skillc_compiler.program.typed import TypedCondition, TypedExpression
+from skillc_compiler.program.typed import EffectScope, TypedCondition, TypedExpression
 from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, fits
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.called_conditions import (
@@ -281,6 +281,13 @@ def _resolve_quantified(context: FileContext, scope: Scope, written: s.Quantifie
     kind = (Thing(None) if iri == THING else Thing(iri)) if iri else UNKNOWN
     inner = context.bind(scope, written.variable, LocalName(kind, "variable", written.variable.span))
     body = resolve_condition(context, inner, written.body)
+    if written.when is not None:
+        if written.quantifier == "exists":
+            message, help_ = "`when` says which individuals an effect is on", "write `forall`, or join it by `and`"
+            context.report("misplaced-when", written.when.span, message, help_)
+        when = resolve_condition(context, inner, written.when)
+        effect = EffectScope(written.variable.text, iri or THING)
+        return TypedCondition(And(()), written.span, parts=(body, when), conditional=effect)
     quantifier = Exists if written.quantifier == "exists" else Forall
     return TypedCondition(quantifier(written.variable.text, iri or THING, body.meaning), written.span, parts=(body,))
 

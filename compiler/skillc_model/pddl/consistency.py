@@ -6,13 +6,14 @@ No step of a plan may do either, so conditions on the world after the action are
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import combinations
 from typing import assert_never
 
-from skillc_model.conditions import Anything, Assert, Assign, Effect, Literal, Retract, Term
+from skillc_model.conditions import Anything, Assert, Assign, Effect, ForEach, Literal, Retract, Term, Variable
+from skillc_model.pddl.effects import BoundEach, bind_each
 from skillc_model.pddl.formulas import (
     FALSE,
     TRUE,
@@ -25,6 +26,7 @@ from skillc_model.pddl.formulas import (
     conjunction,
     conjuncts,
     disjunction,
+    existential,
 )
 from skillc_model.pddl.translate import Impossible, Scope, Translator, Untranslatable, negate
 from skillc_rdf.vocabulary.types import RelationTerm
@@ -43,14 +45,44 @@ class Consistency:
     def required(self, effects: Sequence[Effect]) -> Formula:
         """Return the condition; FALSE if it can never hold, Untranslatable if a planner cannot predict it."""
         self._apart.update(each.body for each in conjuncts(self.known) if isinstance(each, Negation))
-        asserted = [each for each in effects if isinstance(each, Assert)]
+        several = [each for each in effects if isinstance(each, ForEach)]
+        plain = [each for each in effects if not isinstance(each, ForEach)]
+        asserted = [each for each in plain if isinstance(each, Assert)]
         irreflexive = [formula for each in asserted for formula in self._irreflexive(each)]
         self._apart.update(each.body for each in irreflexive if isinstance(each, Negation))
-        alone = [formula for each in effects for formula in self._alone(each)]
-        together = [formula for pair in combinations(effects, 2) for formula in self._together(*pair)]
-        return conjunction((*irreflexive, *alone, *together))
+        alone = [formula for each in plain for formula in self._alone(each)]
+        together = [formula for pair in combinations(plain, 2) for formula in self._together(*pair)]
+        each_ = [self._of_each(one, (*several[number:], *plain)) for number, one in enumerate(several, 1)]
+        return conjunction((*irreflexive, *alone, *together, *each_))
 
-    def _alone(self, effect: Effect) -> Iterator[Formula]:
+    def _of_each(self, each: ForEach, others: Sequence[Effect]) -> Formula:
+        """Return what must hold of every individual that an effect is on, beside other effects."""
+        bound = bind_each(each, self.translator, self.scope)
+        inner, effect = replace(self, scope=bound.scope), bound.effect
+        found: list[Formula] = [*inner._alone(effect)]
+        if isinstance(effect, Assert):
+            self._refuse_rivals(effect, bound)
+            found += inner._irreflexive(effect)
+        for other in others:
+            if isinstance(other, ForEach):
+                also = bind_each(other, self.translator, inner.scope)
+                both = replace(inner, scope=also.scope)._together(effect, also.effect)
+                found.append(_whenever(also, conjunction(both)))
+            else:
+                found += inner._together(effect, other)
+        return _whenever(bound, conjunction(found))
+
+    def _refuse_rivals(self, effect: Assert, bound: BoundEach) -> None:
+        """Refuse what gives one individual several values of a relation of which it has one."""
+        here = {name for name, place in bound.scope.items() if place is bound.place}
+        for term, subject, object_ in self._implied(effect):
+            ends = ((term.functional, subject, object_), (term.inverse_functional, object_, subject))
+            for is_single, one, other in ends:
+                if is_single and _is_in(other, here) and not _is_in(one, here):
+                    shown = self.translator.symbols.short(term.iri)
+                    raise Untranslatable(f"states `{shown}` of several individuals at once, and one has it only")
+
+    def _alone(self, effect: Assert | Retract | Assign) -> Iterator[Formula]:
         match effect:
             case Assert():
                 yield from self._typed(effect)
@@ -113,7 +145,7 @@ class Consistency:
         added: list[Formula] = []
         deleted: list[Formula] = []
         for change in self.changes:
-            if change.atom.predicate == atom.predicate:
+            if change.atom.predicate == atom.predicate and (change.positive or change.apart is not None):
                 (added if change.positive else deleted).append(self._speaks_of(change, atom.terms))
         return disjunction((*added, conjunction((atom, negate(disjunction(deleted))))))
 
@@ -182,6 +214,17 @@ class Consistency:
     @cached_property
     def _types(self) -> dict[str, Typed]:
         return self.translator.typed(self.scope)
+
+
+def _whenever(bound: BoundEach, needed: Formula) -> Formula:
+    """Return that something holds of all individuals that an effect is on."""
+    if needed == TRUE:
+        return TRUE
+    return negate(existential(bound.place.variable, conjunction((bound.condition, negate(needed)))))
+
+
+def _is_in(term: Term, names: Set[str]) -> bool:
+    return isinstance(term, Variable) and term.name in names
 
 
 def _sides(effect: Retract) -> tuple[Term, Term]:

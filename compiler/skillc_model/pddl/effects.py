@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import assert_never
+from typing import NamedTuple, assert_never
 
 from msgspec import structs
 
-from skillc_model.conditions import Anything, Assert, Assign, Effect, Literal, Retract, Term
+from skillc_model.conditions import Anything, Assert, Assign, Effect, ForEach, Literal, Retract, Term, Variable
 from skillc_model.pddl.formulas import (
     Atom,
     Change,
@@ -22,10 +22,33 @@ from skillc_model.pddl.formulas import (
     conjuncts,
     rename_terms,
 )
-from skillc_model.pddl.names import make_variable
-from skillc_model.pddl.translate import NeedsNumbers, Scope, Translator
+from skillc_model.pddl.names import make_unique, make_variable
+from skillc_model.pddl.translate import BoundVariable, NeedsNumbers, Scope, Translator
 from skillc_model.read_write import UniqueSide, unique_sides
+from skillc_model.rewriting import substitute
 from skillc_rdf.vocabulary.closure import Directed
+
+
+class BoundEach(NamedTuple):
+    """An effect on each individual that fulfils a condition: what it does to the one at a place of a scope."""
+
+    place: BoundVariable
+    condition: Formula
+    scope: Scope
+    effect: Assert | Retract | Assign
+
+
+def bind_each(each: ForEach, translator: Translator, scope: Scope) -> BoundEach:
+    """Return an effect on each individual with its variable in the scope."""
+    name = make_unique(each.variable, scope)
+    place = translator.place(name, each.cls, scope)
+    inner, named = {**scope, name: place}, {each.variable: Variable(name)}
+    try:
+        when = translator.formula(substitute(each.when, named), inner)
+    except NeedsNumbers as reason:
+        raise NeedsNumbers(f"has an effect whose condition {reason}") from reason
+    condition = conjunction((translator.membership(each.cls, place), when))
+    return BoundEach(place, condition, inner, substitute(each.effect, named))
 
 
 @dataclass(frozen=True)
@@ -47,6 +70,8 @@ class Effects:
 
     def _effect(self, effect: Effect) -> Iterator[Change]:
         match effect:
+            case ForEach():
+                return self._for_each(effect)
             case Assign():
                 return self._assign(effect)
             case Retract(subject=subject, relation=relation, object=object_):
@@ -55,6 +80,15 @@ class Effects:
                 return self._assert(effect)
             case _:
                 assert_never(effect)
+
+    def _for_each(self, effect: ForEach) -> Iterator[Change]:
+        bound = bind_each(effect, self.translator, self.scope)
+        for change in replace(self, scope=bound.scope)._effect(bound.effect):
+            yield structs.replace(
+                change,
+                variables=(bound.place.variable, *change.variables),
+                condition=conjunction((bound.condition, change.condition)),
+            )
 
     def _assign(self, effect: Assign) -> Iterator[Change]:
         symbols = self.translator.symbols

@@ -181,7 +181,7 @@ class Translator(msgspec.Struct, frozen=True):
     def _side(self, term: Term, relation: str, side: int, scope: Scope) -> tuple[Typed, dict[str, BoundVariable]]:
         if not isinstance(term, Anything):
             return self.term(term, scope), {}
-        place = self._place("any", self.symbols.side_class(relation, side), scope)
+        place = self.place("any", self.symbols.side_class(relation, side), scope)
         return place.variable, {place.variable.name: place}
 
     def _refuse_transitive(self, relation: str) -> None:
@@ -199,12 +199,13 @@ class Translator(msgspec.Struct, frozen=True):
                     "and skills change it"
                 )
 
-    def _place(self, name: str, cls: str, scope: Scope) -> BoundVariable:
+    def place(self, name: str, cls: str, scope: Scope) -> BoundVariable:
+        """Return a fresh PDDL variable for a name."""
         taken = {place.variable.name for place in scope.values()}
         return BoundVariable(Typed(make_variable(name, taken), self.symbols.hierarchy.type_name(cls)), cls)
 
     def _exists(self, name: str, cls: str, body: Condition, scope: Scope) -> Formula:
-        place = self._place(name, cls, scope)
+        place = self.place(name, cls, scope)
         member = self.membership(cls, place)
         found = existential(place.variable, conjunction((member, self.formula(body, {**scope, name: place}))))
         return narrow_scopes(found) if isinstance(found, Existential) else found

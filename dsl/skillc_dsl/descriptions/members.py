@@ -40,11 +40,12 @@ MEMBERS = (
     ),
     Construct(
         "member",
-        (*reserved("post"), Word("sensed", "leading")),
-        meaning="a postcondition: true afterwards; a conjunction of literals. The postconditions of a primitive are "
-        "written to the world model when it succeeds, as [assumed](world-model.md#evidence-for-a-fact) unless its code "
-        "has written them as sensed. The postconditions of a compound must be established by the skills that it calls "
-        "or by `apply`; the compiler proves this. A `post sensed` must have been "
+        (*reserved("post"), Word("sensed", "leading"), *words("when", "trailing", since=2)),
+        meaning="a postcondition: true afterwards; a conjunction of literals, and of [effects on "
+        "many](#effects-on-many). The postconditions of a primitive are written to the world model when it succeeds, "
+        "as [assumed](world-model.md#evidence-for-a-fact) unless its code has written them as sensed. The "
+        "postconditions of a compound must be established by the skills that it calls or by `apply`; the compiler "
+        "proves this. A `post sensed` must have been "
         "[sensed](world-model.md#evidence-for-a-fact) since the skill started: it is checked and never written; that "
         "it was true before the skill started is not enough",
     ),

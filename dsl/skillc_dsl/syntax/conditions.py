@@ -89,13 +89,14 @@ class Implies(msgspec.Struct, frozen=True):
 
 
 class Quantified(msgspec.Struct, frozen=True):
-    """`exists x: Class (body)` or `forall x: Class (body)`."""
+    """`exists x: Class (body)` or `forall x: Class (body)`; in a post also `forall x: Class (body when when)`."""
 
     quantifier: Literal["exists", "forall"]
     variable: Name
     cls: Name
     body: Condition
     span: Span
+    when: Condition | None = None
 
 
 class Bare(msgspec.Struct, frozen=True):

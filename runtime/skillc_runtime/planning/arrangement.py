@@ -8,8 +8,9 @@ from typing import TypeAlias
 
 import msgspec
 
+from skillc_model.conditions import ForEach
 from skillc_model.pddl.devices import locked_parameters
-from skillc_model.read_write import FactPattern, ReadWriteSet
+from skillc_model.read_write import FactPattern, ReadWriteSet, facts_read
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.deciding_reads import DecidingReads
 from skillc_runtime.planning.foresight import foresee
@@ -142,6 +143,9 @@ def read_write_set(
 def _find_reads(step: Step, library: SkillLibrary, state: WorldState, reads: DecidingReads) -> Iterator[FactPattern]:
     """Yield what the preconditions and hold conditions of a step's skill and of all its implementations read."""
     skill = library.skills[step.skill]
+    deciding = (each.when for post in skill.post for each in post.effects if isinstance(each, ForEach))
+    for condition in deciding:
+        yield from facts_read(condition, step.arguments, library.vocabulary)
     ways = ((each.parameters, (*each.pre, *each.hold)) for each in library.implementations_of(skill.name))
     for parameters, requirements in ((skill.parameters, (*skill.pre, *skill.hold)), *ways):
         bindings = bind_in(parameters, step, state)

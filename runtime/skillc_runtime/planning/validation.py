@@ -13,7 +13,7 @@ from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.problem.initial_state import evaluate_duration_s
 from skillc_runtime.world.eval.conditions import evaluate
-from skillc_runtime.world.eval.effects import changes_of
+from skillc_runtime.world.eval.effects import changes_of, find_unmet
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import Bindings, value_of
 from skillc_runtime.world.state.changes import Change
@@ -79,12 +79,12 @@ def apply_step(step: Step, library: SkillLibrary, state: WorldState) -> WorldSta
         find_startable_implementations(step, library, state)
         if step.outcome and step.outcome not in [each.label for each in find_possible_outcomes(step, library, state)]:
             raise PlanError(f"it cannot end with `{step.outcome}`, since something else is known")
-        return check_stated_posts(step, library, apply_effects(step, library, state))
+        return check_stated_posts(step, library, apply_effects(step, library, state), state)
     except (EvaluationError, WorldError) as reason:
         raise PlanError(str(reason)) from reason
 
 
-def check_stated_posts(step: Step, library: SkillLibrary, after: WorldState) -> WorldState:
+def check_stated_posts(step: Step, library: SkillLibrary, after: WorldState, before: WorldState) -> WorldState:
     """Return the world after a step if all postconditions of its skill hold in it; else PlanError.
 
     Postconditions that are only measured have no effects in the world model and are not checked.
@@ -93,6 +93,10 @@ def check_stated_posts(step: Step, library: SkillLibrary, after: WorldState) -> 
     for result in _results(step, library):
         if result.effects and not evaluate(result.condition, after, bindings):
             why = explain(result.condition, after, bindings, after.vocabulary)
+            raise PlanError(f"`{result.text}` would not hold in the end: {why}")
+        unmet = find_unmet(result.effects, after, bindings, before)
+        if unmet is not None:
+            why = explain(unmet[0], after, unmet[1], after.vocabulary)
             raise PlanError(f"`{result.text}` would not hold in the end: {why}")
     return after
 

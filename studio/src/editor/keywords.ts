@@ -11,7 +11,7 @@ export const KEYWORDS: ReadonlySet<string> = new Set([
   "pre", "prefer", "prefix", "property", "python", "race", "range", "reactive", "refine",
   "relation", "repeat", "retry", "run", "scene", "scoped", "sel", "sensed", "senses", "seq",
   "shares", "skill", "start", "steps", "sub", "symmetric", "task", "test", "timeout", "transitive",
-  "true", "try", "until", "use", "uses", "verify", "wait", "while", "with",
+  "true", "try", "until", "use", "uses", "verify", "wait", "when", "while", "with",
 ]);
 
 // prettier-ignore

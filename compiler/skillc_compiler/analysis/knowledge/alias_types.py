@@ -33,6 +33,11 @@ class AliasTypes(msgspec.Struct, frozen=True):
         """Whether a relation is computed from other facts."""
         return relation in self.vocabulary.relations and self.vocabulary.is_computed(relation)
 
+    def is_written_out(self, relation: str) -> bool:
+        """Whether a relation is defined by a condition that does not lead back to it."""
+        definition = self.vocabulary.definitions.get(relation)
+        return definition is not None and not definition.group
+
     def depends_on(self, relation: str, written: frozenset[str]) -> bool:
         """Whether a computed relation may change with one of these relations (canonical IRIs) and properties."""
         if not self.is_computed(relation):

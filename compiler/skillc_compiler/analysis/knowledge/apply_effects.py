@@ -16,6 +16,7 @@ from skillc_compiler.analysis.knowledge.writes import (
     RelationWrite,
     Write,
     canonical_relation,
+    normalise_each,
     write_of,
 )
 from skillc_model.conditions import (
@@ -23,6 +24,7 @@ from skillc_model.conditions import (
     Compare,
     Condition,
     Effect,
+    ForEach,
     HasProperty,
     Holds,
     Individual,
@@ -33,10 +35,12 @@ from skillc_model.conditions import (
 
 def apply_effects(types: AliasTypes, state: State, effects: Iterable[Effect]) -> State:
     """Return the state after effects, retractions first, as the runtime applies them."""
+    effects = tuple(effects)
     writes = sorted((write_of(effect) for effect in effects), key=lambda w: not _is_retraction(w))
     for write in writes:
         state = apply_write(types, state, write)
-    return state
+    each = frozenset(normalise_each(effect) for effect in effects if isinstance(effect, ForEach))
+    return state.replace(done=state.done | each) if each else state
 
 
 def apply_write(types: AliasTypes, state: State, write: Write) -> State:

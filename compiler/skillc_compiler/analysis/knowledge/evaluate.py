@@ -52,7 +52,7 @@ def canonical_condition(types: AliasTypes, state: State, condition: Condition) -
     if state.aliases:
         condition = substitute(condition, state.aliases)
     match condition:
-        case Holds(relation=relation) if _is_written_out(types, relation):
+        case Holds(relation=relation) if types.is_written_out(relation):
             return canonical_condition(types, state, write_out(condition, types.vocabulary))
         case Holds(subject=subject, relation=relation, object=object_):
             name, turned = types.axioms.canonical.get(relation, (relation, False))
@@ -70,12 +70,6 @@ def canonical_condition(types: AliasTypes, state: State, condition: Condition) -
         case Exists() | Forall():
             return normalise_quantifier(types, condition, lambda body: canonical_condition(types, state, body))
     return condition
-
-
-def _is_written_out(types: AliasTypes, relation: str) -> bool:
-    """Whether a relation is defined by a condition that does not lead back to it."""
-    definition = types.vocabulary.definitions.get(relation)
-    return definition is not None and not definition.group
 
 
 def _evaluate(types: AliasTypes, state: State, condition: Condition) -> bool | None:
@@ -140,7 +134,9 @@ def _evaluate_relation(types: AliasTypes, state: State, asked: Holds) -> bool | 
     if is_ruled_out(types, state, asked):
         return False
     if asked.relation in types.vocabulary.definitions:
-        return _evaluate_definition(types, state, asked)
+        # Both the relation and the condition that defines it, in which it may occur, hold, or neither does.
+        inner = replace(types, unfolds=types.unfolds - 1)
+        return evaluate(inner, state, write_out(asked, types.vocabulary)) if types.unfolds else None
     match asked.subject, asked.object:
         case Anything(), Anything():
             return True if any(_known_relations(state, asked.relation)) else None
@@ -151,13 +147,6 @@ def _evaluate_relation(types: AliasTypes, state: State, asked: Holds) -> bool | 
         case (Variable() | Individual()) as start, (Variable() | Individual()) as end:
             return False if _is_excluded(types, state, asked.relation, start, end) else None
     return None
-
-
-def _evaluate_definition(types: AliasTypes, state: State, asked: Holds) -> bool | None:
-    """Evaluate the condition that defines a relation, in which it may occur itself: both hold, or neither does."""
-    if not types.unfolds:
-        return None
-    return evaluate(replace(types, unfolds=types.unfolds - 1), state, write_out(asked, types.vocabulary))
 
 
 def _evaluate_related_to_any(state: State, relation: str, thing: IndividualTerm, is_subject: bool) -> bool | None:

@@ -16,6 +16,7 @@ from skillc_compiler.analysis.knowledge.writes import (
     RelationWrite,
     Write,
     canonical_relation,
+    may_undo,
 )
 from skillc_model.conditions import (
     And,
@@ -43,6 +44,8 @@ from skillc_model.traversal import walk
 def havoc(types: AliasTypes, state: State, writes: Iterable[Write]) -> State:
     """Return what is still known after any of these writes may have happened."""
     for write in writes:
+        if state.done:
+            state = state.replace(done=frozenset(each for each in state.done if not may_undo(types, write, each)))
         match write:
             case RelationWrite():
                 state = _havoc_relation(types, state, write)

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeAlias
 
-from skillc_model.conditions import Condition, Individual, IsA, Term, Variable
-from skillc_model.traversal import free_variables
+from skillc_model.conditions import Condition, ForEach, Individual, IsA, Term, Variable
+from skillc_model.traversal import free_variables, free_variables_in_order
 
 IndividualTerm: TypeAlias = Variable | Individual
 Side: TypeAlias = tuple[str, IndividualTerm, bool]
@@ -23,7 +23,8 @@ class State:
     `facts` maps conditions to whether they hold. `possible` holds, for one side of a relation, the only individuals
     that may be on the other side. `aliases` maps a name to the one that is used for the same individual. `once_results`
     holds the results of `once` nodes, None if they may or may not have run. `assigned` are the outputs that have a
-    value; `monitor` is the memory of the monitored property.
+    value; `monitor` is the memory of the monitored property. `done` are the effects on all individuals of a class that
+    a call had, and of which nothing was undone since.
     """
 
     facts: Mapping[Condition, bool] = field(default_factory=dict)
@@ -32,11 +33,12 @@ class State:
     once_results: Mapping[int, bool | None] = field(default_factory=dict)
     assigned: frozenset[str] = frozenset()
     monitor: tuple[int, bool] = (0, False)
+    done: frozenset[ForEach] = frozenset()
 
     @cached_property
     def _key(self) -> tuple[object, ...]:
         tables = (self.facts, self.possible, self.aliases, self.once_results)
-        return (*(frozenset(table.items()) for table in tables), self.assigned, self.monitor)
+        return (*(frozenset(table.items()) for table in tables), self.assigned, self.monitor, self.done)
 
     @cached_property
     def classes(self) -> Mapping[Term, Sequence[str]]:
@@ -66,6 +68,7 @@ class State:
             "once_results": self.once_results,
             "assigned": self.assigned,
             "monitor": self.monitor,
+            "done": self.done,
         }
         return State(**{**values, **changes})  # type: ignore[arg-type]
 
@@ -77,7 +80,8 @@ class State:
             side: others for side, others in self.possible.items() if side[1] != variable and variable not in others
         }
         same = {key: thing for key, thing in self.aliases.items() if key != name and thing != variable}
-        return self.replace(facts=facts, possible=alone, aliases=same)
+        done = frozenset(each for each in self.done if name not in free_variables_in_order(each))
+        return self.replace(facts=facts, possible=alone, aliases=same, done=done)
 
 
 def join(one: State, other: State) -> State:
@@ -87,10 +91,10 @@ def join(one: State, other: State) -> State:
     facts = {fact: value for fact, value in one.facts.items() if other.facts.get(fact) is value}
     alone = {side: others | other.possible[side] for side, others in one.possible.items() if side in other.possible}
     same = {name: thing for name, thing in one.aliases.items() if other.aliases.get(name) == thing}
-    done = {
+    results = {
         key: one.once_results.get(key)
         if key in one.once_results and key in other.once_results and one.once_results[key] is other.once_results[key]
         else None
         for key in {*one.once_results, *other.once_results}
     }
-    return State(facts, alone, same, done, one.assigned & other.assigned, one.monitor)
+    return State(facts, alone, same, results, one.assigned & other.assigned, one.monitor, one.done & other.done)

@@ -6,7 +6,7 @@ from typing import TypeAlias, assert_never
 
 import msgspec
 
-from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, any_individual
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_model.conditions import (
     Assert,
@@ -14,6 +14,7 @@ from skillc_model.conditions import (
     Compare,
     Condition,
     Effect,
+    ForEach,
     Holds,
     Individual,
     Literal,
@@ -59,12 +60,18 @@ class OnceWrite(msgspec.Struct, frozen=True):
 
 
 Write: TypeAlias = RelationWrite | PropertyWrite | OutputWrite | OnceWrite
+EACH = "|each"
+"""The variable of an effect on each individual, in its one form; no name in a file begins like this."""
 NO_WRITES: frozenset[Write] = frozenset()
 
 
 def write_of(effect: Effect) -> Write:
-    """Return the write of an effect."""
+    """Return the write of an effect; one on all individuals that fulfil a condition may be on any."""
     match effect:
+        case ForEach(variable=variable, cls=cls, effect=single):
+            write = write_of(substitute(single, {variable: any_individual(cls)}))
+            assert isinstance(write, RelationWrite | PropertyWrite), "an effect writes a relation or a property"
+            return msgspec.structs.replace(write, value=None)
         case Assert(subject=subject, relation=relation, object=object_):
             return RelationWrite(subject, relation, object_, True)
         case Retract(subject=subject, relation=relation, object=object_):
@@ -73,6 +80,24 @@ def write_of(effect: Effect) -> Write:
             return PropertyWrite(subject, iri, value if isinstance(value, Literal | Variable | Individual) else None)
         case _:
             assert_never(effect)
+
+
+def normalise_each(effect: ForEach) -> ForEach:
+    """Return the one form of all effects that differ only in the name of their variable."""
+    named = {effect.variable: Variable(EACH)}
+    return ForEach(EACH, effect.cls, substitute(effect.when, named), substitute(effect.effect, named))
+
+
+def may_undo(types: AliasTypes, write: Write, each: ForEach) -> bool:
+    """Whether a write may undo something of an effect on all individuals of a class."""
+    match each.effect, write:
+        case Assign(property=iri), PropertyWrite(property=written):
+            return iri == written
+        case Assert(relation=iri) | Retract(relation=iri), RelationWrite(relation=written):
+            canonical = types.axioms.canonical
+            one, other = (canonical.get(relation, (relation, False))[0] for relation in (iri, written))
+            return one in types.axioms.affected.get(other, frozenset({other}))
+    return False
 
 
 def with_unknown_value(write: Write) -> Write:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal, cast
 
 from skillc_dsl import syntax as s
-from skillc_dsl.parsing.building.places import Child, keyword_at
+from skillc_dsl.parsing.building.places import Child, MemberPart, keyword_at
 from skillc_dsl.parsing.building.values import ValueBuilder
 from skillc_dsl.parsing.tokens import Token
 
@@ -34,10 +34,17 @@ class ConditionBuilder(ValueBuilder):
         return s.Not(self.condition(children[1]), self.over(children))
 
     def quantified(self, children: list[Child]) -> s.Quantified:
-        """`exists x: Class (body)`, `forall x: Class (body)`"""
+        """`exists x: Class (body)`, `forall x: Class (body)`, `forall x: Class (body when condition)`"""
         word: Literal["exists", "forall"] = "exists" if keyword_at(children, 0) == "exists" else "forall"
-        body = self.condition(children[4])
-        return s.Quantified(word, self.label(children[1]), self.as_name(children[2]), body, self.over(children))
+        inner = children[4]
+        parts = inner.children if isinstance(inner, MemberPart) else (inner,)
+        body, *when = (self.condition(each) for each in parts[::2])
+        name, cls = self.label(children[1]), self.as_name(children[2])
+        return s.Quantified(word, name, cls, body, self.over(children), next(iter(when), None))
+
+    def conditional(self, children: list[Child]) -> MemberPart:
+        """`body when condition`"""
+        return self.part("conditional", children)
 
     def compare(self, children: list[Child]) -> s.Compare:
         """`left == right` and its like"""

@@ -37,8 +37,8 @@ def _to_achieve(failed: FailedStep, failures: FailedSteps, world: WorldModel) ->
     step = failed.step
     for post in failures.library.skills[step.skill].post:
         with suppress(EvaluationError):  # not every parameter of a call inside a step has a value
-            if not evaluate(post.condition, failed.state, step.arguments):
-                yield from (ground.fact for ground in find_grounds(post.condition, world, step.arguments))
+            if not evaluate(post.achieved, failed.state, step.arguments):
+                yield from (ground.fact for ground in find_grounds(post.achieved, world, step.arguments))
 
 
 def _describe(failed: FailedStep, fact: str) -> Failure:

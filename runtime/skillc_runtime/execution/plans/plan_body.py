@@ -42,7 +42,7 @@ def achieved_condition(step: Step, library: SkillLibrary) -> Condition | None:
     if skill.outcomes and not skill.senses:
         return None
     known = (HasProperty(each.of, each.property) for each in skill.senses if isinstance(each.of, Variable | Individual))
-    wanted = (*(post.condition for post in skill.post), *known)
+    wanted = (*(post.achieved for post in skill.post), *known)
     if not wanted or any(free_variables(each) - individuals.keys() for each in wanted):
         return None
     return And(tuple(substitute(each, individuals) for each in wanted))

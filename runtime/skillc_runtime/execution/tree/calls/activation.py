@@ -24,7 +24,8 @@ from skillc_runtime.execution.tree.verify_monitor import find_violation, monitor
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.failure import Failure, FailureKind, Rejection, Stage
 from skillc_runtime.world.eval.conditions import evaluate
-from skillc_runtime.world.eval.effects import changes_of
+from skillc_runtime.world.eval.effects import changes_of, find_unmet
+from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
@@ -133,7 +134,7 @@ class Activation:
     def _write_posts(self, body: PrimitiveNode) -> None:
         effects = tuple(e for post in self.implementation.post if not post.sensed for e in post.effects)
         before = self._context.state
-        changes = changes_of(effects, before, self.frame)
+        changes = changes_of(effects, before, self.frame, self._state_at_start)
         assumed = drop_sensed_changes(changes, self._context.cell.world, self._writes_at_start)
         if assumed:
             self._context.write_assumed(assumed, self.skill.name)
@@ -155,6 +156,11 @@ class Activation:
         for post in self.implementation.post:
             if not evaluate(post.condition, state, self.frame):
                 message = describe_unmet_condition(self.implementation, post, "post", self.frame, state)
+                return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
+            unmet = find_unmet(post.effects, state, self.frame, self._state_at_start)
+            if unmet is not None:
+                why = explain(unmet[0], state, unmet[1], self._context.library.vocabulary)
+                message = f"`{post.text}` is not so in the end: {why}"
                 return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
             if post.sensed:
                 reason = explain_not_sensed(post, self._context.cell.world, self.frame, self._writes_at_start)
@@ -232,7 +238,7 @@ def _used_devices(skill: Skill, bound: BoundImplementation) -> list[str]:
 
 
 def _posts_hold(implementation: Implementation, state: WorldState, frame: Frame) -> bool:
-    return all(evaluate(post.condition, state, frame) for post in implementation.post)
+    return all(evaluate(post.achieved, state, frame) for post in implementation.post)
 
 
 def _build_body(

@@ -171,4 +171,4 @@ class ApplyNode(Node):
 
     def remains_satisfied(self) -> bool:
         state, frame = self.context.state, self.scope.frame
-        return all(evaluate(post.condition, state, frame) for post in self.posts)
+        return all(evaluate(post.achieved, state, frame) for post in self.posts)

@@ -1,0 +1,36 @@
+"""`when` where it does not say which individuals an effect is on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from skillc_compiler.program.marks import Need
+from skillc_compiler.program.parts import Reads
+from skillc_compiler.program.typed import Program, TypedCondition
+from skillc_compiler.program.walk import all_conditions, all_requirements
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_model.conditions import And
+
+NAMES = ("misplaced-when",)
+NEEDS = Need.NAMES
+READS = Reads.DECLARATION
+
+
+def check(program: Program) -> Iterator[Diagnostic]:
+    """Yield a problem for each `when` that is no part of the conjunction which a post is, or of a sensed one."""
+    posts = (each for each in all_requirements(program) if each.kind == "post" and not each.sensed)
+    effects = {id(part) for post in posts for part in _parts(post.condition)}
+    for each in all_conditions(program):
+        if each.conditional is not None and id(each) not in effects:
+            yield Diagnostic(
+                "misplaced-when",
+                each.parts[1].span,
+                "`when` says which individuals an effect is on, and this is none",
+                help="in a condition write `forall x: Class (.. implies ..)`; a `post` is a conjunction of effects",
+            )
+
+
+def _parts(condition: TypedCondition) -> Iterator[TypedCondition]:
+    yield condition
+    for part in condition.parts if isinstance(condition.meaning, And) and condition.conditional is None else ():
+        yield from _parts(part)
