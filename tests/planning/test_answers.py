@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
+from skillc_runtime.planning import planners
 
 SKILLS = """
 use sumo
@@ -82,3 +83,27 @@ def test_a_goal_out_of_reach_of_a_large_scene_says_why(depot: Path) -> None:
 def test_a_proof_goes_with_work_alone(depot: Path) -> None:
     said = plan(depot, "lab:truck stores lab:c9", "--prove", "--minimise", "makespan")
     assert said.exit_code == 2 and "--prove requires --minimise work" in said.stderr
+
+
+def test_what_the_planner_gets_is_written_and_solved_by_it_alone(depot: Path, tmp_path: Path) -> None:
+    pddl = tmp_path / "pddl"
+    said = plan(depot, "lab:truck stores lab:c7", "--planner", "built-in", "--write-pddl", str(pddl))
+    assert said.exit_code == 0 and "(built-in A*)" in said.stdout
+    domain, problem = ((pddl / f"{kind}-1.pddl").read_text() for kind in ("domain", "problem"))
+    assert "(:action load" in domain
+    assert "c7" in problem.partition("(:goal")[2] and "(:init" in problem
+    again = plan(depot, "lab:truck stores lab:c7", "--planner", "fast-downward", "--write-pddl", str(pddl))
+    assert again.exit_code == 0 and "(Fast Downward)" in again.stdout
+    assert (pddl / "problem-1.pddl").read_text() == problem
+
+
+def test_a_folder_that_cannot_be_written_is_told(depot: Path, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    said = plan(depot, "lab:truck stores lab:c7", "--write-pddl", str(tmp_path / "file" / "below"))
+    assert said.exit_code != 0 and "below: Not a directory" in said.stderr
+
+
+def test_a_planner_that_is_not_installed_is_told(depot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(planners, "find_fast_downward", lambda: None)
+    said = plan(depot, "lab:truck stores lab:c7", "--planner", "fast-downward")
+    assert said.exit_code != 0 and "Fast Downward is not installed; the extra `planner` installs it" in said.stderr

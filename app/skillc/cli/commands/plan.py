@@ -7,6 +7,7 @@ Exit code 3 if no plan is found.
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -42,6 +43,21 @@ skillc plan wiping:clean_both --minimise makespan --json
 @grouped_option(PLANNING, "--prove", is_flag=True, help="Include more of a large scene until optimality is proved.")
 @grouped_option(
     PLANNING,
+    "--planner",
+    "only",
+    type=click.Choice(("fast-downward", "built-in")),
+    help="Minimise work with this planner alone; by default the built-in one takes over where Fast Downward gives up.",
+)
+@grouped_option(
+    PLANNING,
+    "--write-pddl",
+    "pddl",
+    metavar="FOLDER",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Write the problems as the planner gets them: domain-1.pddl, problem-1.pddl, and so on for larger parts.",
+)
+@grouped_option(
+    PLANNING,
     "--deadline",
     type=click.FloatRange(min=0.1),
     metavar="SECONDS",
@@ -51,7 +67,9 @@ skillc plan wiping:clean_both --minimise makespan --json
 )
 @cell_options
 @json_option
-def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, as_json: bool) -> int:
+def command(
+    spec: RunSpec, store: str | None, reset: bool, prove: bool, only: str | None, pddl: Path | None, as_json: bool
+) -> int:
     """Plan for TASK, or for --goal in --scene, and print the steps.
 
     TASK is the name of a task of the project here or of a shipped one, or LIBRARY:NAME; `skillc tasks` lists them. In a
@@ -71,7 +89,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, as_json:
     from skillc_runtime.planning.progress import describe_progress
 
     if asks_cell():
-        refuse_options(scene=spec.scene, library=spec.library, store=store, reset=reset)
+        refuse_options(scene=spec.scene, library=spec.library, store=store, reset=reset, planner=only, write_pddl=pddl)
         return cell_questions.plan(spec, prove, as_json)
     kept = StoreChoice(store, reset)
     wanted = fill_in(spec, kept)
@@ -86,7 +104,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, prove: bool, as_json:
         with notice_if_slow(
             f"planning, for at most {limit_s:g} s ..", lambda: describe_progress(progress[-1]) if progress else ""
         ):
-            planners, cancel = prepare_planners(wanted.plan_cache), CancelToken(limit_s)
+            planners, cancel = prepare_planners(wanted.plan_cache, only, pddl), CancelToken(limit_s)
             if wanted.geometry and not loaded.library.vocabulary.symbolic:
                 answer, space = plan_goal_in_space(loaded, measure, planners, cancel, progress.append)
             else:

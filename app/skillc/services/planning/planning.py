@@ -15,7 +15,7 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import Excluded
-from skillc_runtime.planning.planners import Planners, find_planners
+from skillc_runtime.planning.planners import Planners, WritingPlanner, choose_planner, find_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW, PROVING
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import PlanAnswer
@@ -41,10 +41,23 @@ class FolderPlanCache:
         cache.delete_oldest(self._folder, MOST_PLANS, MOST_PLANS)
 
 
-def prepare_planners(use_cache: bool) -> Planners:
-    """Return the installed planners, with the plan cache in the user's cache folder if `use_cache`."""
+def prepare_planners(use_cache: bool, only: str | None = None, write_to: Path | None = None) -> Planners:
+    """Return the installed planners, with the plan cache in the user's cache folder if `use_cache`.
+
+    `only` is the name of the one that minimises work. The first one writes its problems to the folder `write_to`.
+    RequestError if a planner is not installed, or nothing can be written there.
+    """
     folder = cache.cache_folder() if use_cache else None
-    return find_planners(None if folder is None else FolderPlanCache(folder / "plans"))
+    planners = find_planners(None if folder is None else FolderPlanCache(folder / "plans"))
+    try:
+        planners = planners if only is None else choose_planner(planners, only)
+        if write_to is not None:
+            write_to.mkdir(parents=True, exist_ok=True)
+            first, *others = planners.for_work
+            planners = replace(planners, for_work=(WritingPlanner(first, write_to), *others))
+    except (LookupError, OSError) as error:
+        raise RequestError(f"{write_to}: {error.strerror}" if isinstance(error, OSError) else str(error)) from error
+    return planners
 
 
 def plan_goal(

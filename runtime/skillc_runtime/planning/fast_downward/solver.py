@@ -74,6 +74,11 @@ def find_fast_downward() -> Programs | None:
     return Programs(translate, str(search), (sys.executable, str(folder / "fast-downward.py")))
 
 
+def without_axioms(problem: Problem) -> Problem:
+    """Return a problem as it is given to the program, which needs few or no axioms for it."""
+    return remove_axioms(add_complements(problem))
+
+
 class FastDownward:
     """Runs the programs in a temporary folder; the plan files decide, not the exit code."""
 
@@ -89,7 +94,7 @@ class FastDownward:
             return Unsolvable("no skill can change what the goal asks for")
         try:
             with make_workplace() as folder:
-                plain = remove_axioms(add_complements(problem))
+                plain = without_axioms(problem)
                 return self._plan(plain, cancel, SearchWatch(self.name, plain, Path(folder), report))
         except OSError as error:
             return GaveUp(f"Fast Downward cannot use its working folder: {error.filename}: {error.strerror}")
