@@ -30,7 +30,7 @@ TASKS = (
     "sorting:sort_shapes",
 )
 PART_B = "skillc:on lab:Table ; skillc:atX 0.0 ; skillc:atY -0.2 ."
-LIMIT_S = 60.0
+LIMIT_S = 300.0
 
 
 class Silent(Reporter):

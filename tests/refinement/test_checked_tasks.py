@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from msgspec.structs import replace
 
 import skillc_skills
 from refinement.scenes import DESK, tilt_desk
@@ -13,7 +14,13 @@ from refinement.test_measured_values import PROBING
 from skillc.cli.main import skillc
 from skillc.services.check import known_checks
 from skillc.services.library import answer_store as disk_store
+from skillc.services.library.libraries import load_vocabulary
 from skillc.services.space import cure, look, verdicts
+from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.execution.refinement.failure import SpaceFailure
+from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.terms import POSITION
+from skillc_runtime.world.state.world_state import WorldState
 
 CLEAN = """
 use wiping
@@ -118,6 +125,22 @@ def test_a_door_at_which_a_joint_would_leave_its_range_is_told_at_the_task_and_t
     for x in (moved["X"], moved["X"] - cure.ROOM_M, moved["X"] + cure.ROOM_M):
         write(folder, CLEAN, tilt_desk(x, -20.0, moved["Z"]))
         assert check(folder) == ([], 0)
+
+
+def test_what_is_in_the_way_is_moved_before_what_the_step_is_given(tmp_path):
+    (tmp_path / "cell.ttl").write_text(DESK)
+    state = load_scene(tmp_path / "cell.ttl", load_vocabulary())
+    eraser, desk = map(state.vocabulary.expand, ("lab:Eraser-1", "lab:Desk-1"))
+    before_m = state.value(desk, POSITION[0])
+    touching = SpaceFailure("in-the-way", "where it shall go lab:Eraser-1 would touch lab:Desk-1")
+
+    def goes(there: WorldState) -> bool:
+        return there.value(desk, POSITION[0]) > before_m + 0.12
+
+    cured = cure.find_cure(state, [eraser], touching, goes, CancelToken())
+    assert cured == f"with lab:Desk-1 moved by 0.15 m, to PositionX {before_m + 0.15:g}, all steps go"
+    far = replace(touching, cause="out-of-reach")
+    assert cure.find_cure(state, [eraser], far, goes, CancelToken()) == "", "no eraser helps there"
 
 
 @pytest.mark.slow

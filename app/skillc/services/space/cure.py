@@ -8,6 +8,7 @@ from itertools import product
 from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.collision.solid_geoms import find_overlap_m
+from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.occupants import read_occupants
 from skillc_runtime.world.state.changes import SetProperty
@@ -22,24 +23,31 @@ ROOM_M = 0.02
 """How far from the place that is proposed the thing may be, along each of these numbers, so that all still goes."""
 
 
-def find_cure(state: WorldState, things: Iterable[str], goes: Callable[[WorldState], bool], cancel: CancelToken) -> str:
-    """Return with which place of the first of some things that stands somewhere all goes, as a sentence.
+def find_cure(
+    state: WorldState,
+    things: Iterable[str],
+    failure: SpaceFailure,
+    goes: Callable[[WorldState], bool],
+    cancel: CancelToken,
+) -> str:
+    """Return with which place of a thing all goes, as a sentence: of the first of some things that stands somewhere.
 
-    All goes as well with the thing up to ROOM_M from there. Places are tried from the nearest on, and those left out at
-    which it would lie deeper in another thing. Empty if none was found before `cancel` ends the search.
+    Before it comes what a failure says to be in the way. All goes as well with the thing up to ROOM_M from there.
+    Places are tried from the nearest on, and those left out at which it would lie deeper in another thing. Empty if
+    none was found before `cancel` ends the search.
     """
+    standing = [each.individual for each in read_occupants(state) if any(_numbers(state, each.individual))]
+    given = [each for each in things if each in standing][:1]
+    words = {each.rstrip(".,;:") for each in failure.why.split()} if failure.cause == "in-the-way" else set[str]()
+    blocking = [each for each in dict.fromkeys(standing) if state.vocabulary.short(each) in words and each not in given]
     try:
         with cancelling(cancel):
-            return _find_place(state, things, goes)
+            return next(filter(None, (_find_place(state, each, goes) for each in (*blocking, *given))), "")
     except Cancelled:
         return ""
 
 
-def _find_place(state: WorldState, things: Iterable[str], goes: Callable[[WorldState], bool]) -> str:
-    rooms = {each.individual for each in read_occupants(state)}
-    thing = next((each for each in things if each in rooms and any(_numbers(state, each))), None)
-    if thing is None:
-        return ""
+def _find_place(state: WorldState, thing: str, goes: Callable[[WorldState], bool]) -> str:
     short, before_m = state.vocabulary.short(thing), find_overlap_m(state, thing)
     for distance_m, (name, stated_m), sign in product(DISTANCES_M, tuple(_numbers(state, thing)), (1.0, -1.0)):
         to_m = round(stated_m + sign * distance_m, 4)

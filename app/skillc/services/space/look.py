@@ -65,7 +65,7 @@ def _look_at_goal(
     certain = seen and bool(needed) and all(each.kind == "steps" for each in needed)
     things = _given(found.failed, library)
     named = f"{found.failed.skill}({', '.join(map(state.vocabulary.short, things))})"
-    cure = find_cure(state, things, goes, cancel)
+    cure = find_cure(state, things, failure, goes, cancel)
     return Looked(SpaceProblem(named, failure.message, certain, None, cure), skills)
 
 
@@ -87,8 +87,9 @@ def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node, can
     if went or failure is None or not failure.is_in_space:
         return Looked(None, skills)
     place = next((number for number, each in enumerate(calls) if each.source == failure.source), None)
-    named = () if place is None else (each.iri for each in walk_parts(calls[place]) if isinstance(each, Individual))
+    parts = () if place is None else walk_parts(calls[place])
+    named = [each.iri for each in parts if isinstance(each, Individual)]
     step, *inside = failure.within
     why = failure.message if inside else failure.why
-    cure = find_cure(state, named, goes, cancel)
+    cure = find_cure(state, named, failure, goes, cancel)
     return Looked(SpaceProblem(step, why, not walk.unseen, place, cure), skills)
