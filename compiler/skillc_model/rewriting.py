@@ -136,8 +136,18 @@ def decide_given(condition: Condition, given: Mapping[str, bool]) -> Condition:
 def fold(item: T) -> T:
     """Return a condition or expression with constant arithmetic evaluated, except divisions by zero."""
     folded = map_children(item, fold)
-    value = constant_number(folded) if isinstance(folded, Arithmetic) else None
-    return folded if value is None else Literal(value)  # type: ignore[return-value]
+    constant = _constant(folded) if isinstance(folded, Arithmetic) else None
+    return folded if constant is None else constant  # type: ignore[return-value]
+
+
+def _constant(folded: Arithmetic) -> Literal | None:
+    """Return the value of constant arithmetic, whole if its operands are; None if it has none."""
+    value = constant_number(folded)
+    if value is None:
+        return None
+    sides = (folded.left, folded.right)
+    whole = folded.operator != "/" and all(isinstance(side, Literal) and isinstance(side.value, int) for side in sides)
+    return Literal(int(value) if whole else value)
 
 
 def constant_number(expression: Expression | None) -> float | None:

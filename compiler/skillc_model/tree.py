@@ -12,6 +12,9 @@ from skillc_dsl.position import Position
 from skillc_model.conditions import Condition, Expression
 from skillc_rdf.vocabulary.types import ValueType
 
+MOST_ROUNDS = 1_000_000
+"""The greatest number of rounds of `retry`, `repeat` and `while`; more count as endless."""
+
 
 class Sequence(msgspec.Struct, frozen=True, tag="seq"):
     """Runs its children in order until one fails; with memory unless reactive."""
@@ -44,7 +47,7 @@ class Parallel(msgspec.Struct, frozen=True, tag="par", omit_defaults=True):
 class Retry(msgspec.Struct, frozen=True, tag="retry"):
     """Runs the child up to `count` times until it succeeds."""
 
-    count: int
+    count: int | Expression
     child: Node
     source: Position
 
@@ -52,7 +55,7 @@ class Retry(msgspec.Struct, frozen=True, tag="retry"):
 class Repeat(msgspec.Struct, frozen=True, tag="repeat"):
     """Runs the child `count` times, as long as it succeeds."""
 
-    count: int
+    count: int | Expression
     child: Node
     source: Position
 

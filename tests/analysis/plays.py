@@ -60,7 +60,8 @@ class Writer:
         callable_ = [f"P{n}" for n in range(PRIMITIVES)] + ["Sense", "Setup"] + [f"C{n}" for n in range(number)] * 2
         body = Body(self, callable_, labels).node(4)
         lines = "".join(f"    verify {self.property(callable_)}\n" for _ in range(2))
-        head = f"skill C{number} {{\n{PLAIN}{self.needs()}{posts}    noplan\n}}\n"
+        count = f"    opt n: Int = {self.random.randint(1, 3)}  range 1 .. 3\n"
+        head = f"skill C{number} {{\n{PLAIN}{count}{self.needs()}{posts}    noplan\n}}\n"
         return f"{head}impl body of C{number} {{\n    do {body}\n{lines}}}\n"
 
     def needs(self) -> str:
@@ -153,7 +154,9 @@ class Body:
     def loop(self, depth: int) -> str:
         """Write a loop."""
         random = self.writer.random
-        kind = random.choice(("repeat 2", "repeat 9", "retry 9", f"while {self.condition()} max 2", "for"))
+        kind = random.choice(
+            ("repeat 2", "repeat 9", "retry 9", "repeat n", "retry n", f"while {self.condition()} max 2", "for")
+        )
         if kind != "for":
             return f"{kind} {self.nodes(depth, 1, 2)}"
         variable, outer = f"x{self.left}", self.items

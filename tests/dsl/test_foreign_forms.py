@@ -26,7 +26,6 @@ EXAMPLES = (
     ("step", "try { Go() } catch { Turn() }", "sel { seq { Go() } seq { Turn() } }"),
     ("step", "try { Go() } else { Turn() }", "sel { seq { Go() } seq { Turn() } }"),
     ("step", "retry 3 times { Go() }", "retry 3 { Go() }"),
-    ("step", "retry(3) { Go() }", "retry 3 { Go() }"),
     ("step", "retry { Go() }", "retry 3 { Go() }"),
     ("step", "repeat up to 3 { Go() }", "repeat 3 { Go() }"),
     ("step", "retry 3 Go()", "retry 3 { Go() }"),

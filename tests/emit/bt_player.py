@@ -146,10 +146,14 @@ class Player:
         return None if outcome is None or outcome.ok else outcome
 
     def _repeat(self, node: Node) -> Outcome | None:
-        return self._rounds(node, int(node.element.attrib["num_cycles"]), until=False)
+        return self._rounds(node, self._number(node, "num_cycles"), until=False)
 
     def _retry_until_successful(self, node: Node) -> Outcome | None:
-        return self._rounds(node, int(node.element.attrib["num_attempts"]), until=True)
+        return self._rounds(node, self._number(node, "num_attempts"), until=True)
+
+    def _number(self, node: Node, port: str) -> int:
+        written = node.element.attrib[port]
+        return int(str(node.board[written[1:-1]] if written.startswith("{") else written))
 
     def _rounds(self, node: Node, count: int, *, until: bool) -> Outcome | None:
         outcome = node.children[0].tick()

@@ -10,7 +10,7 @@ from dataclasses import replace
 from skillc_model import tree
 from skillc_model.conditions import Literal as Constant
 from tree.reference_calls import call
-from tree.reference_model import Child, Life, Model, Result, Scope, all_still, close, none_worked, true
+from tree.reference_model import Child, Life, Model, Result, Scope, all_still, close, none_worked, true, value_of
 from tree.reference_reactive import reactive_selector, reactive_sequence
 
 
@@ -122,23 +122,24 @@ def _with_still(result: Result, children: list[Child | None]) -> Result:
 
 
 def _loop(node: tree.Retry | tree.Repeat | tree.While, model: Model, scope: Scope) -> Life:
-    rounds = 0
+    rounds, count = 0, 0 if isinstance(node, tree.While) else node.count
+    count = count if isinstance(count, int) else value_of(count, scope)
     while True:
         if isinstance(node, tree.While):
             if not true(node.condition, model, scope):
                 return Result(still=lambda: not true(node.condition, model, scope))
             if rounds == node.limit:
                 return Result("body")
-        elif rounds == node.count:
+        elif rounds == count:
             return Result()
         result = yield from run(node.child, model, scope)
         rounds += 1
         if isinstance(node, tree.Retry):
-            if result.ok or rounds == node.count or model.dry:
+            if result.ok or rounds == count or model.dry:
                 return result
         elif not result.ok:
             return result
-        elif isinstance(node, tree.Repeat) and rounds == node.count:
+        elif isinstance(node, tree.Repeat) and rounds == count:
             return Result()
         yield
 

@@ -127,13 +127,14 @@ class _Writer:
                 return rest
 
     def loop(self, depth: int) -> tree.Node:
-        child, count = self.node(depth), self.draw(st.integers(1, 3))
+        child, limit = self.node(depth), self.draw(st.integers(1, 3))
+        count = Literal(limit) if self.draw(st.booleans()) else limit
         kind = self.draw(st.sampled_from(("retry", "repeat", "while")))
         if kind == "retry":
             return tree.Retry(count=count, child=child, source=here())
         if kind == "repeat":
             return tree.Repeat(count=count, child=child, source=here())
-        return tree.While(condition=self.condition(), text="on", limit=count, child=child, source=here())
+        return tree.While(condition=self.condition(), text="on", limit=limit, child=child, source=here())
 
     def decorator(self, depth: int) -> tree.Node:
         child = self.node(depth)

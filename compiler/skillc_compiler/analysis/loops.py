@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import reduce
+from math import inf
 from typing import assert_never
 
 from skillc_compiler.analysis.exploration import EvalContext, Exploration, explore_sequence, havoc_concurrent
@@ -18,9 +19,12 @@ from skillc_compiler.analysis.paths import (
     havoc_all,
     widen,
 )
+from skillc_compiler.logic.intervals import interval_of, parameter_intervals
 from skillc_compiler.logic.rounds import count_rounds
 from skillc_compiler.program.typed import TypedNode
 from skillc_dsl import syntax as s
+from skillc_model.conditions import Literal
+from skillc_model.tree import MOST_ROUNDS
 
 MAX_ROUNDS = 6
 """The number of rounds that are followed one by one; after them, only what every round keeps is known."""
@@ -43,33 +47,36 @@ def explore_loop(
 
 def explore_retry(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:
     """Return how a `retry` ends: a failed round is followed by another until none is left."""
-    ends, count = EndStates(), _count(node)
-    for number in range(1, min(count, MAX_ROUNDS) + 1):
-        last = number == min(count, MAX_ROUNDS)
+    ends = EndStates()
+    least, most = _count(run, node, states, ends)
+    for number in range(1, min(most, MAX_ROUNDS) + 1):
+        last = number == min(most, MAX_ROUNDS)
         one = explore_sequence(
-            run, node.children, states, context if last and count <= MAX_ROUNDS else context.with_failure_caught()
+            run, node.children, states, context if last and most <= MAX_ROUNDS else context.with_failure_caught()
         )
         add_states(ends.success, one.success)
-        ends.failure, ends.broken = one.failure, one.broken
+        if last or number >= least:
+            ends.add_failures(one)
         states = widen(one.failed)
         if not states:
             return ends
-    if count > MAX_ROUNDS:
+    if most > MAX_ROUNDS:
         ends.add_failures(_explore_any_round(run, node, states, context, ends.success))
     return ends
 
 
 def explore_repeat(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:
     """Return how a `repeat` ends: a successful round is followed by another."""
-    ends, count = EndStates(success=dict(states)), _count(node)
-    for _ in range(min(count, MAX_ROUNDS)):
-        one = explore_sequence(run, node.children, widen(ends.success), context)
-        ends.success = one.success
+    ends, going = EndStates(), dict(states)
+    least, most = _count(run, node, states, ends)
+    for number in range(1, min(most, MAX_ROUNDS) + 1):
+        one = explore_sequence(run, node.children, widen(going), context)
+        going = one.success
         ends.add_failures(one)
-    if count > MAX_ROUNDS and ends.success:
-        last: dict[State, Path] = {}
-        ends.add_failures(_explore_any_round(run, node, ends.success, context, last))
-        ends.success = last
+        if number >= least:
+            add_states(ends.success, going)
+    if most > MAX_ROUNDS and going:
+        ends.add_failures(_explore_any_round(run, node, going, context, ends.success))
     return ends
 
 
@@ -164,11 +171,15 @@ def _is_retry(node: TypedNode) -> bool:
     return isinstance(node.written, s.Decorator) and node.written.row.on_failure == "again"
 
 
-def _count(node: TypedNode) -> int:
-    """Return the number of rounds of a decorator."""
-    assert isinstance(node.written, s.Decorator), "other loops have a condition or items"
-    [count] = node.written.counts
-    return count_rounds(count)
+def _count(run: Exploration, node: TypedNode, states: StatePaths, ends: EndStates) -> tuple[int, int]:
+    """Return the least and the greatest number of rounds; where it may be none, the loop may fail without a round."""
+    count, owner = node.values[0], run.implementation
+    known = parameter_intervals(owner.parameters, owner.lets) if owner is not None else {}
+    low, high = interval_of(count.meaning, known) or (0.0, inf)
+    if not isinstance(count.meaning, Literal) and not 1 <= low <= high <= MOST_ROUNDS:
+        for state, path in states.items():
+            add_state(ends.failure, state, extend_path(path, count.span, "this is no number of rounds"))
+    return round(min(max(low, 1), MOST_ROUNDS)), round(min(max(high, 1), MOST_ROUNDS))
 
 
 def _loop_invariant(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> State | None:

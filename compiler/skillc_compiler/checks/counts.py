@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from skillc_compiler.logic.intervals import Interval, interval_of, parameter_intervals
-from skillc_compiler.logic.rounds import MOST_ROUNDS
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, TypedExpression, TypedNode
@@ -15,6 +14,7 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 from skillc_model.conditions import Arithmetic, Literal
 from skillc_model.rewriting import constant_number
+from skillc_model.tree import MOST_ROUNDS
 
 NAMES = ("bad-count", "bad-time", "bad-number")
 NEEDS = Need.TEXT
@@ -29,22 +29,20 @@ YEAR_S = 366 * 24 * 3600.0
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each invalid count, time and number."""
     for node in all_nodes(program):
-        match node.written:
-            case s.Decorator() as written:
-                yield from (each for count in written.counts for each in _count(count))
-            case s.While(limit=count):
-                yield from _count(count)
-            case _:
-                pass
+        if isinstance(node.written, s.While):
+            limit = node.written.limit
+            yield from _count((limit.value, limit.value), limit.span, limit.text)
     yield from _times(program)
     for value in all_values(program):
         yield from _number(value)
 
 
-def _count(count: s.Number) -> Iterator[Diagnostic]:
-    if not 1 <= count.value <= MOST_ROUNDS or count.value != int(count.value):
-        message = f"`{count.text}` is not a valid number of rounds"
-        yield Diagnostic("bad-count", count.span, message, help="write a whole number, 1 or more, at most a million")
+def _count(count: Interval, span: Span, text: str) -> Iterator[Diagnostic]:
+    """Yield a problem if no number, or if one that is stated, is a number of rounds."""
+    low, high = count
+    if high < 1 or low > MOST_ROUNDS or (low == high and low != int(low)):
+        message = f"`{text}` is not a valid number of rounds"
+        yield Diagnostic("bad-count", span, message, help="write a whole number, 1 or more, at most a million")
 
 
 def _times(program: Program) -> Iterator[Diagnostic]:
@@ -67,12 +65,21 @@ def _times(program: Program) -> Iterator[Diagnostic]:
 def _in_body(nodes: Iterable[TypedNode], known: Mapping[str, Interval]) -> Iterator[Diagnostic]:
     for node in nodes:
         match node.written:
-            case s.Decorator(kind=kind):
-                yield from (each for time in node.values for each in _time(time, known, kind))
+            case s.Decorator(kind=kind, row=row, slots=slots):
+                for value, slot, written in zip(node.values, row.slots, slots, strict=True):
+                    yield from _time(value, known, kind) if slot.kind == "time" else _rounds(value, known, written)
             case s.Wait():
                 yield from _time(node.values[0], known, "wait")
             case _:
                 pass
+
+
+def _rounds(value: TypedExpression, known: Mapping[str, Interval], written: s.Value) -> Iterator[Diagnostic]:
+    found = interval_of(value.meaning, known)
+    if found is not None:
+        low, high = found
+        text = written.text if isinstance(written, s.Number) else f"{low:g} to {high:g}"
+        yield from _count(found, value.span, text)
 
 
 def _time(value: TypedExpression, known: Mapping[str, Interval], word: str) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import chain
 from typing import TypeAlias
 
@@ -13,7 +13,7 @@ import msgspec
 from skillc_compiler.program.labels import label_values
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Call, Parameter, Program, Refinement, TypedExpression
+from skillc_compiler.program.typed import Call, Parameter, Program, Refinement, TypedExpression, TypedNode
 from skillc_compiler.program.types import (
     INT,
     TEXT,
@@ -30,6 +30,7 @@ from skillc_compiler.program.types import (
 )
 from skillc_compiler.program.walk import all_calls, all_nodes, all_values
 from skillc_dsl import syntax as s
+from skillc_dsl.descriptions.rows import SlotKind
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
 from skillc_dsl.units import NUMBER, TIME, UNITS, Dimension
@@ -175,16 +176,23 @@ def type_constraints(program: Program) -> Iterator[TypeConstraint]:
     for call in all_calls(program):
         yield from argument_constraints(call)
     for node in all_nodes(program):
-        match node.written:
-            case s.Decorator() | s.Wait():
-                yield from (each for time in node.values for each in _time_constraint(time, "as time"))
-            case s.For():
-                yield TypeConstraint(node.values[0], ListOf(UNKNOWN), "to go through")
-            case _:
-                pass
+        yield from _node_constraints(node)
     for value in all_values(program):
         if isinstance(value.meaning, Invoke):
             yield from _function_constraints(program, value, value.meaning)
+
+
+def _node_constraints(node: TypedNode) -> Iterator[TypeConstraint]:
+    match node.written:
+        case s.Decorator(row=row):
+            for value, slot in zip(node.values, row.slots, strict=True):
+                yield TypeConstraint(value, *_SLOTS[slot.kind])
+        case s.Wait():
+            yield from _time_constraint(node.values[0], "as time")
+        case s.For():
+            yield TypeConstraint(node.values[0], ListOf(UNKNOWN), "to go through")
+        case _:
+            pass
 
 
 def argument_constraints(call: Call) -> Iterator[TypeConstraint]:
@@ -202,6 +210,12 @@ def _parameter_constraints(parameter: Parameter | Refinement, name: str, declare
     for bound in (parameter.low, parameter.high):
         if bound is not None:
             yield TypeConstraint(bound, parameter.type, f"as a bound of `{name}`", declared)
+
+
+_SLOTS: Mapping[SlotKind, tuple[Type, str]] = {
+    "count": (INT, "as the number of rounds"),
+    "time": (SECONDS, "as time"),
+}
 
 
 def _time_constraint(value: TypedExpression | None, by: str) -> Iterator[TypeConstraint]:

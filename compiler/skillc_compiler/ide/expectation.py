@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from skillc_compiler.ide.calls import OpenCall, find_open_call
 from skillc_compiler.ide.cursor_context import CursorContext
 from skillc_compiler.program.typed import Skill
-from skillc_compiler.program.types import Measure, Thing, Type, Vector, fits, type_of
+from skillc_compiler.program.types import INT, Measure, Thing, Type, Vector, fits, type_of
 from skillc_compiler.resolve.type_names import BUILT_IN, is_built_in
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType
 from skillc_dsl.parsing.tokens import Token
@@ -15,6 +15,7 @@ from skillc_dsl.units import DIMENSIONS, TIME, UNITS
 
 _COMPARISONS = ("EQUALS", "UNEQUAL", "LESS", "LESS_EQUAL", "MORE", "MORE_EQUAL")
 _TIMES = ("DURATION", "KEEP", "WAIT", "TIMEOUT")
+_COUNTS = ("RETRY", "REPEAT")
 _SAME_AS_LEFT = ("PLUS", "MINUS")
 
 
@@ -25,6 +26,8 @@ def find_expected_type(around: CursorContext, skills: Mapping[str, Skill], token
         return _compared(around, tokens[:-1])
     if last in _TIMES:
         return ExpectedType(Measure(TIME))
+    if last in _COUNTS:
+        return ExpectedType(INT)
     if last in ("EQUAL", "RANGE", "DOTS"):
         return _declared(around, tokens)
     if last in _SAME_AS_LEFT:

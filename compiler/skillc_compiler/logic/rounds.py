@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from skillc_dsl import syntax as s
-
-MOST_ROUNDS = 1_000_000
-"""More rounds count as endless."""
+from skillc_model.tree import MOST_ROUNDS
 
 
 def count_rounds(written: s.Number) -> int:

@@ -10,7 +10,7 @@ from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.types import declared_as
 from skillc_dsl import syntax as s
 from skillc_model import tree as t
-from skillc_model.conditions import Condition, Expression
+from skillc_model.conditions import Condition, Expression, Literal
 from skillc_model.rewriting import fold
 
 
@@ -65,11 +65,17 @@ def _lower_leaf(node: TypedNode, written: s.Wait | s.WaitUntil | s.CheckNode | s
 
 
 def _lower_decorator(node: TypedNode, written: s.Decorator) -> t.Node:
-    """Return the node with a number of rounds, or an expression in seconds, for each slot."""
-    counts, times = map(count_rounds, written.counts), (fold(time.meaning) for time in node.values)
-    slots = {slot.field: next(counts if slot.kind == "count" else times) for slot in written.row.slots}
+    """Return the node with a number of rounds, or an expression of it or in seconds, for each slot."""
+    values = {slot.field: fold(value.meaning) for slot, value in zip(written.row.slots, node.values, strict=True)}
+    counts = {slot.field for slot in written.row.slots if slot.kind == "count"}
+    slots = {name: _rounds(value) if name in counts else value for name, value in values.items()}
     child, source = _lower_as_one(node.children, node), written.span.start
     return t.DECORATORS[written.kind](**slots, child=child, source=source)
+
+
+def _rounds(value: Expression) -> int | Expression:
+    """Return a number of rounds, or the expression of one that is not known before a run."""
+    return int(value.value) if isinstance(value, Literal) and isinstance(value.value, int) else value
 
 
 def _lower_block(node: TypedNode, written: s.Block) -> t.Node:

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import assert_never
 
 from msgspec import structs
 from msgspec.structs import replace
 
 from skillc_compiler.program.typed import TypedNode
-from skillc_compiler.program.types import TEXT, UNKNOWN, ListOf, Measure
+from skillc_compiler.program.types import INT, TEXT, UNKNOWN, ListOf, Measure
 from skillc_compiler.resolve.calls import resolve_call
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.values import ExpectedType, resolve_value
 from skillc_dsl import syntax as s
+from skillc_dsl.descriptions.rows import SlotKind
 from skillc_dsl.units import TIME
 
 SECONDS = ExpectedType(Measure(TIME))
+EXPECTED: Mapping[SlotKind, ExpectedType] = {"count": ExpectedType(INT), "time": SECONDS}
+"""What is expected in each kind of slot of a decorator."""
 
 
 def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[TypedNode, Scope]:
@@ -26,9 +29,10 @@ def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[T
         case s.Block():
             return _block(context, scope, written)
         case s.Decorator(children=children):
-            times = tuple(resolve_value(context, scope, time, SECONDS) for time in written.times)
+            slots = zip(written.slots, written.row.slots, strict=True)
+            values = tuple(resolve_value(context, scope, value, EXPECTED[slot.kind]) for value, slot in slots)
             inner, after = _resolve_sequence(context, scope, children)
-            return TypedNode(written, times, children=inner), after
+            return TypedNode(written, values, children=inner), after
         case s.Wait(time=time):
             return TypedNode(written, (resolve_value(context, scope, time, SECONDS),)), scope
         case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):

@@ -8,7 +8,7 @@ from skillc_dsl.parsing.tables import load_tables
 from skillc_dsl.parsing.tokens import Token
 
 END = "$END"
-DECLARATIONS = frozenset({"CLASS", "RELATION", "PROPERTY", "FUNCTION", "SKILL", "IMPL", "TASK", "TEST"})
+DECLARATIONS = frozenset({"CLASS", "RELATION", "PROPERTY", "FUNCTION", "SKILL", "IMPL", "TASK", "TEST", "ENUM"})
 
 
 def fixed_texts() -> Mapping[str, str]:

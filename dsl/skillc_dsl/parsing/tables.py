@@ -19,8 +19,6 @@ from skillc_dsl.descriptions.nodes import DECORATORS
 from skillc_dsl.parsing.table_types import Tables
 from skillc_dsl.units import UNITS
 
-_SLOTS = {"count": "number", "time": "_sum"}
-
 
 def grammar_text() -> str:
     """Return the grammar as lark reads it."""
@@ -31,7 +29,7 @@ def grammar_text() -> str:
 def _made() -> Iterator[str]:
     """Yield the rules and terminals that are not in the file."""
     yield f"flag: {' | '.join(terminal(each.keyword) for each in FLAGS)}"
-    forms = ([terminal(each.kind), *(_SLOTS[slot.kind] for slot in each.slots), "_nodes"] for each in DECORATORS)
+    forms = ([terminal(each.kind), *("_sum" for _ in each.slots), "_nodes"] for each in DECORATORS)
     yield f"decorator: {' | '.join(map(' '.join, forms))}"
     for place in ("anywhere", "leading", "trailing"):
         yield f"_{place}: {' | '.join(terminal(word.text) for word in all_words() if word.name == place)}"

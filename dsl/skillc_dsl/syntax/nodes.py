@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Literal, TypeAlias
 
 import msgspec
 
 from skillc_dsl.descriptions.nodes import DECORATOR_OF
 from skillc_dsl.descriptions.rows import Decorator as DecoratorRow
-from skillc_dsl.descriptions.rows import Slot
 from skillc_dsl.source import Span
 from skillc_dsl.syntax.conditions import Condition
 from skillc_dsl.syntax.values import Message, Name, Number, Value
@@ -24,7 +22,7 @@ class Block(msgspec.Struct, frozen=True):
 
 
 class Decorator(msgspec.Struct, frozen=True):
-    """`WORD SLOT .. { }`: a node of `descriptions.nodes.DECORATORS`, with a number or a time for each of its slots."""
+    """`WORD SLOT .. { }`: a node of `descriptions.nodes.DECORATORS`, with a value for each of its slots."""
 
     kind: str
     slots: tuple[Value, ...]
@@ -35,20 +33,6 @@ class Decorator(msgspec.Struct, frozen=True):
     def row(self) -> DecoratorRow:
         """What it is."""
         return DECORATOR_OF[self.kind]
-
-    @property
-    def counts(self) -> tuple[Number, ...]:
-        """The numbers of rounds in its slots."""
-        return tuple(each for each, slot in self._filled if isinstance(each, Number) and slot.kind == "count")
-
-    @property
-    def times(self) -> tuple[Value, ...]:
-        """The times in its slots."""
-        return tuple(each for each, slot in self._filled if slot.kind == "time")
-
-    @property
-    def _filled(self) -> Iterator[tuple[Value, Slot]]:
-        return zip(self.slots, self.row.slots, strict=True)
 
 
 class Wait(msgspec.Struct, frozen=True):

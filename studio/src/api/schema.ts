@@ -1054,7 +1054,7 @@ export interface components {
         Retry: {
             /** @enum {unknown} */
             type: "retry";
-            count: number;
+            count: number | (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"]);
             child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"];
             source: components["schemas"]["Position"];
         };
@@ -1065,7 +1065,7 @@ export interface components {
         Repeat: {
             /** @enum {unknown} */
             type: "repeat";
-            count: number;
+            count: number | (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"]);
             child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"];
             source: components["schemas"]["Position"];
         };

@@ -9,6 +9,7 @@ from skillc.contract.runs.run_diff import Difference
 from skillc.services.run_diff.alignment import align
 from skillc.services.run_diff.difference import find_difference
 from skillc_dsl.descriptions.nodes import DECORATOR_OF
+from skillc_dsl.descriptions.rows import SlotKind
 from skillc_model.conditions import Expression
 from skillc_model.format_condition import format_condition, format_expression
 from skillc_model.traversal import children
@@ -100,11 +101,13 @@ def _describe_node(node: Node) -> str:
             return _kind(node)
         case _:
             row = DECORATOR_OF[kind_of(node)]
-            return " ".join((row.kind, *(_slot(getattr(node, slot.field)) for slot in row.slots)))
+            return " ".join((row.kind, *(_slot(getattr(node, slot.field), slot.kind) for slot in row.slots)))
 
 
-def _slot(value: int | Expression) -> str:
-    return str(value) if isinstance(value, int) else f"{format_expression(value, _WORDS)} s"
+def _slot(value: int | Expression, kind: SlotKind = "time") -> str:
+    if isinstance(value, int):
+        return str(value)
+    return f"{format_expression(value, _WORDS)}{' s' if kind == 'time' else ''}"
 
 
 def _describe_call(call: Call) -> str:

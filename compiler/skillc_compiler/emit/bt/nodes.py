@@ -28,6 +28,7 @@ from skillc_compiler.emit.bt.patterns import (
     run_while,
 )
 from skillc_dsl.descriptions.nodes import DECORATOR_OF
+from skillc_dsl.descriptions.rows import SlotKind
 from skillc_model.conditions import Arithmetic, Expression, Literal, Variable
 from skillc_model.skills import Post
 from skillc_model.traversal import find_calls, free_variables_in_order, walk
@@ -197,11 +198,13 @@ class NodeWriter(TreeWriter):
             ports = [Port(slot.port, type=PORT_TYPES[slot.kind]) for slot in row.slots]
             self.model.declare("Decorator", tag, path, ports, row.tree_cpp_doc)
         child, before = self.node(node.child), list[Element]()
-        attributes = {slot.port: self._slot(getattr(node, slot.field), before) for slot in row.slots}
+        attributes = {slot.port: self._slot(getattr(node, slot.field), slot.kind, before) for slot in row.slots}
         return run_after(before, with_children(Element(tag, attributes), child))
 
-    def _slot(self, value: int | Expression, before: list[Element]) -> str:
-        return format_rounds(value) if isinstance(value, int) else self._milliseconds(value, 1, before)
+    def _slot(self, value: int | Expression, kind: SlotKind, before: list[Element]) -> str:
+        if isinstance(value, int):
+            return format_rounds(value)
+        return self.value("rounds", value, before, "int") if kind == "count" else self._milliseconds(value, 1, before)
 
     def _milliseconds(self, seconds: Expression, least: int, before: list[Element]) -> str:
         """Return a time in milliseconds, at least `least`: a timeout of 0 would never expire."""

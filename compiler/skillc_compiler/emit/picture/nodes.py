@@ -43,8 +43,12 @@ class NodeDrawer(msgspec.Struct, frozen=True):
             case s.Block(kind=kind, children=children):
                 return _box(kind if kind in PICTURES else "par", title=kind, children=self._all(children))
             case s.Decorator(kind=kind, row=row, children=children):
-                title = " ".join((kind, *(count.text for count in node.counts)))
-                times = tuple(self.places.written(time.span) for time in node.times)
+                slots = [
+                    (self.places.written(value.span), slot.kind)
+                    for value, slot in zip(node.slots, row.slots, strict=True)
+                ]
+                title = " ".join((kind, *(text for text, what in slots if what == "count")))
+                times = tuple(text for text, what in slots if what == "time")
                 return PictureBox(row.picture.kind, row.picture.symbol, title, times, self._all(children))
             case s.If(text=text):
                 return _box("if", text, children=self._branches(node))

@@ -44,8 +44,11 @@ FORMS = (
     ),
     leading(r"(?:catch|except|rescue)\b\s*(?:\([^)]*\))?", None, _SEL),
     leading(r"try\s*:", None, _SEL),
-    leading(r"finally\b", None, "what is undone however a block ends is a scoped skill: `with CALL { .. }`"),
-    leading(r"(?P<a>retry|repeat)\s*\(\s*(?P<b>\d+)\s*\)", r"\g<a> \g<b>"),
+    leading(
+        r"finally\b",
+        None,
+        "write it after a block: `seq { .. } finally { .. }`; what is undone is a scoped skill: `with CALL { .. }`",
+    ),
     leading(r"(?P<a>retry|repeat)\s+(?:up\s+to|at\s+most)\s+(?P<b>\d+)(?:\s+times)?", r"\g<a> \g<b>"),
     leading(r"(?P<a>retry|repeat)\s+(?P<b>\d+)\s*(?:times|x)\b", r"\g<a> \g<b>"),
     leading(r"repeat\s*\{.*\}\s*until\b.*", None, "write `while not C max 10 { .. }`"),

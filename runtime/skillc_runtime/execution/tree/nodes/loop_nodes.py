@@ -6,6 +6,7 @@ from typing import ClassVar
 
 from skillc_dsl.position import Position
 from skillc_model import tree
+from skillc_model.tree import MOST_ROUNDS
 from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
@@ -60,20 +61,43 @@ class LoopNode(Node):
         raise NotImplementedError
 
 
-class RetryNode(LoopNode):
+class CountedNode(LoopNode):
+    """A loop whose number of rounds is computed when it starts."""
+
+    __slots__ = ("_written", "count", "frame")
+
+    def __init__(self, context: TreeContext, node: tree.Retry | tree.Repeat, child: Node, scope: LexicalScope) -> None:
+        super().__init__(context, node.source, child, self.kind)
+        self._written, self.frame, self.count = node.count, scope.frame, 0
+        if isinstance(node.count, int):
+            self.name = f"{self.kind} {node.count}"
+
+    def on_start(self) -> Status:
+        self.count = self.evaluate_count()
+        self.name = f"{self.kind} {self.count}"
+        return super().on_start()
+
+    def evaluate_count(self) -> int:
+        """Return the number of rounds. Raises ValueError if it is none."""
+        if isinstance(self._written, int):
+            return self._written
+        count = value_of(self._written, self.context.state, self.frame)
+        if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= MOST_ROUNDS:
+            raise ValueError(f"`{self.kind}` needs a whole number of rounds from 1 to a million, not {count!r}")
+        return count
+
+
+class RetryNode(CountedNode):
     """Repeats the child until it succeeds, at most `count` times.
 
     A child that lacked space is not repeated unless something stands elsewhere than when its round began.
     """
 
     kind: ClassVar[str] = "retry"
-    __slots__ = ("_began", "count")
-
-    def __init__(self, context: TreeContext, node: tree.Retry, child: Node, scope: LexicalScope) -> None:
-        super().__init__(context, node.source, child, f"retry {node.count}")
-        self.count = node.count
+    __slots__ = ("_began",)
 
     def foresee(self, freed: Holders) -> Status:
+        self.evaluate_count()
         return self.child.dry_start(freed)
 
     def next_round(self) -> Status:
@@ -97,18 +121,15 @@ class RetryNode(LoopNode):
         return self.status is SUCCESS and self.child.remains_satisfied()
 
 
-class RepeatNode(LoopNode):
+class RepeatNode(CountedNode):
     """Repeats the child `count` times while it succeeds."""
 
     kind: ClassVar[str] = "repeat"
-    __slots__ = ("count",)
-
-    def __init__(self, context: TreeContext, node: tree.Repeat, child: Node, scope: LexicalScope) -> None:
-        super().__init__(context, node.source, child, f"repeat {node.count}")
-        self.count = node.count
+    __slots__ = ()
 
     def foresee(self, freed: Holders) -> Status:
-        return SUCCESS if self.count == 0 else self.foresee_round(freed, is_only=self.count == 1)
+        count = self.evaluate_count()
+        return SUCCESS if count == 0 else self.foresee_round(freed, is_only=count == 1)
 
     def next_round(self) -> Status:
         return self.start_round() if self.rounds < self.count else self.succeed()
