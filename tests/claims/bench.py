@@ -165,6 +165,13 @@ class Finds(Does):
         world.commit([SetProperty(surface, LOCATED, True)], "Find", "sensed")
 
 
+class Tells(Does):
+    """Says what came of it, by the name of the outcome."""
+
+    def done(self, world: WorldModel, *, surface: str) -> None:
+        self.outcome = "gone" if "gone" in self.outcomes else "lost"
+
+
 class Guesses(Does):
     """Writes what it never looked at."""
 

@@ -104,9 +104,23 @@ def test_an_outcome_that_nothing_sensed_fails(call: str, words: str) -> None:
     assert words in execution.failure.message
 
 
-def test_an_outcome_that_was_sensed_is_claimed() -> None:
-    execution = run("Find[camera](surface: lab:table)", bench())
-    assert execution.verified is True and how(execution.facts) == {"lab:table.located == true": "sensed by Find"}
+@pytest.mark.parametrize(
+    ("call", "facts"),
+    [
+        ("Find[camera](surface: lab:table)", {"lab:table.located == true": "sensed by Find"}),
+        ("Find[told](surface: lab:table)", {"lab:table.located == false": "sensed by Find"}),
+        ("Question(surface: lab:table)", {"lab:table.located == true": "reported by Question"}),
+    ],
+)
+def test_an_outcome_that_was_sensed_or_told_is_claimed(call: str, facts: dict[str, str]) -> None:
+    execution = run(call, bench())
+    assert execution.status == "succeeded", execution.failure
+    assert execution.verified is True and how(execution.facts) == facts
+
+
+def test_a_default_that_is_no_outcome_is_refused() -> None:
+    execution = run('Question(surface: lab:table, default: "perhaps")', bench())
+    assert execution.failure is not None and '"perhaps" is none of there, gone' in execution.failure.message
 
 
 def test_who_looks_when_it_must_is_believed() -> None:

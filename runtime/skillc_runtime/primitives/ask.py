@@ -70,6 +70,34 @@ class Ask(Primitive):
         return Status.SUCCESS
 
 
+class AskOutcome(Ask):
+    """Asks what has come of its skill: the labels of its outcomes are the choices, and the answer counts as reported.
+
+    It takes a `text`, may take a `default` and a `limit` in s, and further parameters, which the outcomes are about.
+    """
+
+    outcome_evidence = "reported"
+
+    def __init__(
+        self, cell: Cell, *, text: str, default: str | None = None, limit: float = 300.0, **about: object
+    ) -> None:
+        super().__init__(cell, text=text, choices="", default=default, limit=limit)
+
+    def start(self) -> None:
+        """Show the prompt; SkillFailure if the default is no outcome that may come."""
+        self._choices = self.outcomes
+        if self._default and self._default not in self._choices:
+            raise SkillFailure(f'the default "{self._default}" is none of {", ".join(self._choices)}')
+        super().start()
+
+    def tick(self) -> Status:
+        """Return SUCCESS once there is an answer, which is the outcome; SkillFailure as `Ask`."""
+        status = super().tick()
+        if status is Status.SUCCESS:
+            self.outcome = str(self.outputs.pop("answer"))
+        return status
+
+
 def split_choices(text: str) -> tuple[str, ...]:
     """Return the choices in a text, which `|` separates."""
     return tuple(each.strip() for each in text.split("|"))

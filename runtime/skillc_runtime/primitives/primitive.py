@@ -7,6 +7,7 @@ from enum import Enum
 from types import MappingProxyType
 from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 
+from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.labels.labelled import LabelledValue
 from skillc_runtime.world.state.labels.labelling import make_recordable
 
@@ -96,6 +97,9 @@ class Primitive:
     what is to be computed, and is sent the results; it is ended by `halt`. If `start` has set it, the start lasts until
     it ends: nothing may have moved if it raises SkillFailure.
 
+    `outcomes` are the labels of what may come of its skill. If it sets `outcome` to one of them before it succeeds,
+    what that outcome says is written to the world model with its `outcome_evidence`; or it writes that itself.
+
     `planned_postures` are those of the plan that it is part of, None where nothing was planned.
     """
 
@@ -105,7 +109,10 @@ class Primitive:
     moves: ClassVar[Mapping[str, str | None] | None] = None
     uses_devices: ClassVar[bool] = True
     stays_put: ClassVar[bool] = False
+    outcome_evidence: ClassVar[Evidence] = "sensed"
     planned_postures: PlannedPostures | None = None
+    outcomes: tuple[str, ...] = ()
+    outcome: str = ""
 
     @classmethod
     def find_problem(cls, arguments: Mapping[str, Value], state: WorldState) -> str | None:

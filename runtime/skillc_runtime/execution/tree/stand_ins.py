@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from random import Random
 from typing import assert_never
 
 from skillc_model.conditions import Compare, Condition, Expression, HasProperty, Individual, PropertyOf, Term, Variable
-from skillc_model.skills import Implementation, Outcome, Parameter, Post, Skill
+from skillc_model.skills import Implementation, Outcome, Parameter, Post
 from skillc_model.traversal import conjuncts, free_variables
 from skillc_rdf.vocabulary.types import ClassType, DirectionType, ListType, NumberType, PlainType, ValueType, VectorType
 from skillc_runtime.motion.arrays import np
@@ -73,16 +73,16 @@ def _fits(
     return all(evaluate(each, state, {**bound, name: individual}) for each in literals)
 
 
-def choose_outcome(skill: Skill, state: WorldState, bound: Mapping[str, Value | None], chance: str) -> Outcome | None:
-    """Return what comes of a skill, drawn by how likely that is among what may come; None without outcomes.
+def choose_outcome(outcomes: Iterable[Outcome], may_come: Collection[str], chance: str) -> str:
+    """Return the label of what comes, drawn by how likely that is among what `may_come`; empty if nothing may.
 
     The same text `chance` draws the same.
     """
-    possible = [each for each in skill.outcomes if evaluate(skill.find_possibility(each), state, bound)]
+    possible = [each for each in outcomes if each.label in may_come]
     if not possible:
-        return None
+        return ""
     weights = [each.likely for each in possible]
-    return Random(chance).choices(possible, weights if sum(weights) > 0.0 else None)[0]
+    return Random(chance).choices(possible, weights if sum(weights) > 0.0 else None)[0].label
 
 
 def find_stand_in(type_: ValueType) -> Value | None:

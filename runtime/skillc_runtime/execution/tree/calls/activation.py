@@ -7,7 +7,8 @@ from functools import partial
 from typing import Literal, TypeAlias, assert_never, cast
 
 from skillc_model import tree
-from skillc_model.skills import Compound, Declared, Implementation, Outcome, Primitive, Skill
+from skillc_model.skills import Compound, Declared, Implementation, Outcome, Skill
+from skillc_model.skills import Primitive as PythonBody
 from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.selection.arguments import check_value
 from skillc_runtime.execution.selection.binding import BoundImplementation, describe_unmet_condition
@@ -21,7 +22,7 @@ from skillc_runtime.execution.tree.node import Node
 from skillc_runtime.execution.tree.nodes.primitive_node import PrimitiveNode
 from skillc_runtime.execution.tree.sensing import drop_sensed_changes, explain_not_sensed
 from skillc_runtime.execution.tree.verify_monitor import find_violation, monitored_properties
-from skillc_runtime.primitives.primitive import Status
+from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.recording.failure import Failure, FailureKind, Rejection, Stage
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.effects import changes_of, find_unmet
@@ -91,7 +92,7 @@ class Activation:
         """Read a primitive's outputs, write its posts and check the results of the body; return the failure."""
         self._context.refresh_state()
         if isinstance(self.body, PrimitiveNode):
-            problem = self._read_outputs(self.body.outputs)
+            problem = self._read_outputs(self.body.outputs) or self._write_outcome(self.body)
             if problem is not None:
                 return problem
             self._write_posts(self.body)
@@ -129,6 +130,20 @@ class Activation:
                 if problem is not None:
                     return self._failure("error", f"output `{parameter.name}` {problem}")
                 self.frame[parameter.name] = value
+        return None
+
+    def _write_outcome(self, body: PrimitiveNode) -> Failure | None:
+        """Write what an outcome says that a primitive has sensed; return the failure if it may not come."""
+        sensed = body.done_by
+        if sensed is None or not sensed.outcome:
+            return None
+        outcome = self.skill.find_outcome(sensed.outcome)
+        if outcome is None or outcome.label not in sensed.outcomes:
+            may = ", ".join(f"`{each}`" for each in sensed.outcomes) or "nothing"
+            return self._failure("post", f"{self.skill.name} ended with `{sensed.outcome}`, where only {may} may come")
+        changes = changes_of(outcome.effects, self._context.state, self.frame)
+        self._context.cell.world.commit(changes, self.skill.name, sensed.outcome_evidence)
+        self._context.refresh_state()
         return None
 
     def _write_posts(self, body: PrimitiveNode) -> None:
@@ -260,18 +275,26 @@ def _build_body(
                 scope.undo, frame, implementation, calls, writes_at_start=writes, lets_read=context.state
             )
             return build(node, context, inside)
-        case Primitive(python=python):
+        case PythonBody(python=python):
             cls = import_matching_primitive(python, implementation.parameters)
             names = [p.name for p in implementation.parameters if p.direction != "out"]
             make = partial(cls, context.run_cell, **{name: frame.get(name) for name in names})
-            undo = scope.undo if skill.scoped else None
-            return PrimitiveNode(context, implementation.source, python.partition(":")[2], make, undo)
+            undo, told = scope.undo if skill.scoped else None, partial(_tell_outcomes, make, context, skill, frame)
+            return PrimitiveNode(context, implementation.source, python.partition(":")[2], told, undo)
         case Declared():
             claim = partial(DeclaredRun, context, skill, implementation, frame)
-            undo = scope.undo if skill.scoped else None
-            return PrimitiveNode(context, implementation.source, skill.name, claim, undo)
+            undo, told = scope.undo if skill.scoped else None, partial(_tell_outcomes, claim, context, skill, frame)
+            return PrimitiveNode(context, implementation.source, skill.name, told, undo)
         case _:
             assert_never(implementation.body)
+
+
+def _tell_outcomes(make: Callable[[], Primitive], context: TreeContext, skill: Skill, frame: Frame) -> Primitive:
+    """Return a new primitive that knows what may come of its skill."""
+    primitive, state = make(), context.state
+    possible = (each for each in skill.outcomes if evaluate(skill.find_possibility(each), state, frame))
+    primitive.outcomes = tuple(each.label for each in possible)
+    return primitive
 
 
 def _undo_posts(

@@ -51,9 +51,7 @@ class DeclaredRun(Primitive):
         if lacking := [name for name, value in outputs.items() if value is None]:
             raise SkillFailure(f"the world has no individual that `{lacking[0]}` may be")
         values = {**self._values, **{name: value for name, value in outputs.items() if value is not None}}
-        outcome = choose_outcome(self._skill, state, values, self._chance)
-        sensed = [post for post in self._implementation.post if post.sensed]
-        effects = tuple(each for one in (*sensed, *((outcome,) if outcome else ())) for each in one.effects)
+        effects = tuple(each for post in self._implementation.post if post.sensed for each in post.effects)
         measured = (
             *changes_of(effects, state, values),
             *find_measured(self._implementation.post, state, values),
@@ -61,6 +59,7 @@ class DeclaredRun(Primitive):
         if measured:
             self.cell.world.commit(measured, self._skill.name, "sensed")
         self.outputs = dict(outputs)
+        self.outcome = choose_outcome(self._skill.outcomes, self.outcomes, self._chance)
         return Status.SUCCESS
 
     @property

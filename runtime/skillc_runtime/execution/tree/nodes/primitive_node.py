@@ -23,7 +23,7 @@ class PrimitiveNode(Node):
     except if `start`, or what it computes, refused (`refused_to_start`) or `tick` succeeded. A scoped skill passes
     `undo`: its primitive is released exactly once unless `start` refused, immediately if it does not succeed, else by
     `undo`. After the release `undo_posts` undoes the changes written by the posts. From its start until it ends, or is
-    released, a pause of the run concerns it.
+    released, a pause of the run concerns it. `done_by` is the primitive once it has succeeded.
     """
 
     kind: ClassVar[str] = "primitive"
@@ -34,6 +34,7 @@ class PrimitiveNode(Node):
         "_running",
         "_tick",
         "_undo",
+        "done_by",
         "outputs",
         "refused_to_start",
         "undo_posts",
@@ -46,6 +47,7 @@ class PrimitiveNode(Node):
         self.refused_to_start = True
         self.undo_posts: Callable[[], None] | None = None
         self.outputs: dict[str, object] = {}
+        self.done_by: Primitive | None = None
         self._make = make
         self._undo = undo
         self._primitive: Primitive | None = None
@@ -142,6 +144,7 @@ class PrimitiveNode(Node):
             if self._undo is None:
                 self.context.active.discard(self._primitive)
             self.outputs = dict(self._primitive.outputs)
+            self.done_by = self._primitive
             return self.succeed()
         if status is FAILURE:
             return self._halt_and_fail(SkillFailure(f"{self.name} failed without a reason"))
