@@ -9,6 +9,7 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 from skillc_model.conditions import Not
 from skillc_model.format_condition import format_condition
+from skillc_model.rewriting import ALWAYS
 from skillc_model.skills import Skill
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -28,7 +29,7 @@ def report_skill_as_goal(text: str, skills: Mapping[str, Skill], vocabulary: Voc
     values = _values(required, text[found.end() :])
     passed = ", ".join(f"{each}: {values.get(each, '..')}" for each in required)
     run = f"to run it, call it (`--call` on the command line): `{name}({passed})`"
-    made = [each.condition for each in skill.post if not isinstance(each.condition, Not)]
+    made = [each.condition for each in skill.post if not isinstance(each.condition, Not) and each.condition != ALWAYS]
     help_ = run
     if made:
         help_ = f"write what it makes true: `{_with_values(format_condition(made[0], vocabulary), values)}`; {run}"

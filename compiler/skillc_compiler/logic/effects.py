@@ -27,6 +27,7 @@ from skillc_model.conditions import (
     Retract,
     Variable,
 )
+from skillc_model.traversal import walk
 
 
 class NoEffect(msgspec.Struct, frozen=True):
@@ -92,6 +93,8 @@ def _negative_effect(whole: TypedCondition, body: TypedCondition) -> Effect | No
 
 
 def _assign(post: TypedCondition, of: Expression, name: str, value: Expression) -> Effect | NoEffect:
+    if any(part == PropertyOf(of, name) for part in walk(value) if part is not value):
+        return NoEffect(post.span, "it reads the value that it sets, which would have to differ from itself")
     if isinstance(of, Variable | Individual):
         return Assign(of, name, value)
     return NoEffect(post.span, "only a parameter's or an individual's property can be set")

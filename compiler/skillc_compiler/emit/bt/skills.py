@@ -12,6 +12,7 @@ from skillc_compiler.emit.bt.names import NodeIds, given_port, port_name
 from skillc_compiler.emit.bt.nodes import NodeWriter, with_start_scripts
 from skillc_compiler.emit.bt.ports import forward_parameters, inferring_ports
 from skillc_model.conditions import Expression, IsA, Variable
+from skillc_model.rewriting import ALWAYS
 from skillc_model.skills import Compound, Implementation, Outcome, Post, Requirement, Skill, SkillLibrary
 from skillc_model.tree import Call
 from skillc_rdf.vocabulary.types import ClassType
@@ -76,7 +77,7 @@ def _guarded(body: NodeWriter, skill: Skill, implementations: Sequence[Implement
             *_inference(body, skill),
             *(_required(body, (*described, "pre"), each) for each in skill.pre),
             _held(body, described, skill.hold, choice),
-            *(_required(body, (*described, "post"), each) for each in skill.post),
+            *(_required(body, (*described, "post"), each) for each in skill.post if each.condition != ALWAYS),
             *_outcomes(body, described, skill),
         ]
     )
