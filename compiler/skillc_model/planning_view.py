@@ -8,7 +8,7 @@ from typing import TypeAlias
 import msgspec
 
 from skillc_dsl.position import Position
-from skillc_model.conditions import Expression, Given, Individual, PropertyOf, Variable
+from skillc_model.conditions import Condition, Expression, Given, Individual, Variable
 from skillc_model.skills import Implementation, Let, Outcome, Parameter, Post, Requirement, Skill
 from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.closure import reachable
@@ -39,7 +39,7 @@ class _View(msgspec.Struct, frozen=True):
     flags: tuple[bool, ...]
     implementations: tuple[str, ...]
     conditions: tuple[_Conditions, ...]
-    senses: tuple[PropertyOf, ...]
+    senses: tuple[Condition, ...]
     outcomes: tuple[Outcome, ...]
     places: tuple[Position, ...]
 

@@ -10,6 +10,8 @@ import msgspec
 from skillc_dsl.position import Position
 from skillc_model.conditions import (
     And,
+    Anything,
+    Assert,
     Assign,
     Compare,
     Condition,
@@ -17,6 +19,8 @@ from skillc_model.conditions import (
     Expression,
     Forall,
     ForEach,
+    HasProperty,
+    Holds,
     Not,
     Or,
     PropertyOf,
@@ -106,7 +110,7 @@ class PausePolicy(msgspec.Struct, frozen=True):
 class Skill(msgspec.Struct, frozen=True, kw_only=True):
     """A skill description. `implementations` are names in rank order; the first that is applicable is run.
 
-    `senses` are the properties that it makes known, `outcomes` what can come of it.
+    `senses` are the conditions that what it makes known is so, `outcomes` what can come of it.
     """
 
     name: str
@@ -115,7 +119,7 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True):
     pre: tuple[Requirement, ...] = ()
     hold: tuple[Requirement, ...] = ()
     post: tuple[Post, ...] = ()
-    senses: tuple[PropertyOf, ...] = ()
+    senses: tuple[Condition, ...] = ()
     outcomes: tuple[Outcome, ...] = ()
     duration: Expression | None = None
     uses: tuple[str, ...] = ()
@@ -139,11 +143,12 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True):
 
     def find_possibility(self, outcome: Outcome) -> Condition:
         """Return under which condition an outcome may come: what the skill senses is not known to be otherwise."""
-        known = (
-            Not(Compare(PropertyOf(each.subject, each.property), "!=", each.value))
-            for each in outcome.effects
-            if isinstance(each, Assign) and PropertyOf(each.subject, each.property) in self.senses
-        )
+        known: list[Condition] = []
+        for each in outcome.effects:
+            if isinstance(each, Assign) and HasProperty(each.subject, each.property) in self.senses:
+                known.append(Not(Compare(PropertyOf(each.subject, each.property), "!=", each.value)))
+            elif isinstance(each, Assert) and (has := Holds(each.subject, each.relation, Anything())) in self.senses:
+                known.append(Or((Not(has), Holds(each.subject, each.relation, each.object))))
         return And(tuple(known))
 
 

@@ -64,3 +64,59 @@ def test_classical_planners_get_an_action_for_each_outcome(sorting: Path) -> Non
     call("compile", ".", "-o", "build")
     domain = Path("build/domain.pddl").read_text(encoding="utf-8")
     assert "-> good, an outcome" in domain and "-> scrap, an outcome" in domain
+
+
+GRADES = """use skiros, cora
+prefix lab: <http://example.org/lab#>
+
+enum Grade { Good, Rework, Scrap }
+property grade(Product): Grade
+
+skill Look {
+    in    robot: Robot
+    in    part:  Product
+    infer place: Location
+    pre   robot at place
+    pre   place contain part
+    senses part.grade
+    outcome good:   part.grade == Good  likely 0.8
+    outcome rework: part.grade == Rework
+    outcome scrap:  part.grade == Scrap  likely 0.05
+    duration 2 s
+}
+
+task look_at_all {
+    scene "cell.ttl"
+    goal  forall p: Product (p has grade)
+}
+
+test what_is_known_is_not_looked_at {
+    scene  "cell.ttl"
+    start  Look -> scrap
+    do     Look(robot: lab:R, part: lab:P1)
+    expect lab:P1.grade == Scrap
+}
+"""
+GRADED = """@prefix lab: <http://example.org/lab#> .
+@prefix own: <https://w3id.org/skillc/library/grades#> .
+@prefix skiros: <http://rvmi.aau.dk/ontologies/skiros.owl#> .
+@prefix skillc: <https://w3id.org/skillc/core#> .
+lab:R a skillc:FixedRobot ; skiros:at lab:Bench .
+lab:Bench a skillc:Workstation ; skiros:contain lab:P1, lab:P2, lab:P3 .
+lab:P1 a skiros:Product .
+lab:P2 a skiros:Product .
+lab:P3 a skiros:Product ; own:grade own:Grade-Rework .
+"""
+
+
+def test_values_of_an_enumeration_are_sensed(tmp_path: Path, own_cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    manifest = 'name = "grades"\nedition = 2\n\n[tool.run]\nbackend = "symbolic"\n'
+    for name, text in (("skillc.toml", manifest), ("grades.skill", GRADES), ("cell.ttl", GRADED)):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    call("check")
+    planned = json.loads(call("plan", "look_at_all", "--json").stdout)
+    assert [each["outcome"] for each in planned["branches"]] == ["good", "rework", "scrap"]
+    assert "P3" not in json.dumps(planned), "what is known is not looked at"
+    assert "passed  what_is_known" in call("test").stdout
+    assert "Look has ended with" in call("run", "look_at_all", "--tick-timeout", "0").stdout

@@ -24,7 +24,7 @@ from skillc_compiler.analysis.knowledge.writes import Write
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, extend_path
 from skillc_compiler.analysis.summaries import hide_names, in_caller_terms
 from skillc_compiler.program.typed import Call, Requirement
-from skillc_model.conditions import HasProperty, Individual, PropertyOf, Variable
+from skillc_model.conditions import Variable
 from skillc_model.traversal import free_variables
 
 
@@ -174,11 +174,7 @@ def _list_outcomes(run: Exploration, call: Call, binding: Binding, state: State)
     if not binding.skill.outcomes:
         yield "", state
         return
-    sensed = [
-        HasProperty(each.meaning.of, each.meaning.property)
-        for each in binding.skill.senses
-        if isinstance(each.meaning, PropertyOf) and isinstance(each.meaning.of, Variable | Individual)
-    ]
+    sensed = [each.known for each in binding.skill.senses if each.known is not None]
     known = bool(sensed) and all(evaluate(run.types, state, binding.at_end(each)) for each in sensed)
     for outcome in binding.skill.outcomes:
         condition = binding.at_end(outcome.condition.meaning)

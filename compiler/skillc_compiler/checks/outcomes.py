@@ -12,7 +12,7 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Requirement, Skill, Test, TypedExpression
 from skillc_dsl.diagnostics import Diagnostic, Label
-from skillc_model.conditions import Assign, Individual, PropertyOf, Variable
+from skillc_model.conditions import Assert, Assign, Individual, PropertyOf, Variable
 from skillc_rdf.vocabulary.types import local_name
 
 NAMES = (
@@ -91,8 +91,7 @@ def _check_left_open(skill: Skill, value: TypedExpression, sensed: PropertyOf) -
             help="write an `outcome` line for each, or `post sensed THING has PROPERTY` if it can be any value",
         )
     for outcome in skill.outcomes:
-        known = [each for each in effects_of(outcome.condition) if isinstance(each, Assign)]
-        if not any((each.subject, each.property) == (sensed.of, sensed.property) for each in known):
+        if not any(_says(each, sensed) for each in effects_of(outcome.condition)):
             yield Diagnostic(
                 "outcome-leaves-open",
                 outcome.span,
@@ -100,6 +99,15 @@ def _check_left_open(skill: Skill, value: TypedExpression, sensed: PropertyOf) -
                 help=f"say which value `{name}` has then",
                 labels=(Label(value.span, "this is sensed"),),
             )
+
+
+def _says(effect: object, sensed: PropertyOf) -> bool:
+    """Whether an effect says which value something has, also one of an enumeration, which a relation leads to."""
+    match effect:
+        case Assign(subject=of, property=iri) | Assert(subject=of, relation=iri):
+            return (of, iri) == (sensed.of, sensed.property)
+        case _:
+            return False
 
 
 def _check_likelihoods(outcomes: Sequence[Requirement]) -> Iterator[Diagnostic]:

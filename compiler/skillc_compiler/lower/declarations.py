@@ -25,7 +25,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.descriptions.members import FLAGS
 from skillc_model import properties
 from skillc_model import skills as library
-from skillc_model.conditions import Effect, Expression, PropertyOf
+from skillc_model.conditions import Effect, Expression
 from skillc_model.rewriting import constant_number, fold
 
 
@@ -39,7 +39,7 @@ def lower_skill(typed: Skill, implementations: Sequence[str]) -> library.Skill:
         pre=_requirements(labelled, "pre"),
         hold=_requirements(labelled, "hold"),
         post=_posts(labelled),
-        senses=tuple(each for each in (fold(value.meaning) for value in typed.senses) if isinstance(each, PropertyOf)),
+        senses=tuple(each.known for each in typed.senses if each.known is not None),
         outcomes=_outcomes(typed),
         duration=_expression(typed.duration),
         uses=_devices(typed, "uses"),

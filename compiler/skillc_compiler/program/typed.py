@@ -15,8 +15,18 @@ from skillc_compiler.program.unknown import LostNames, UnknownName
 from skillc_dsl import syntax as s
 from skillc_dsl.editions import NEWEST
 from skillc_dsl.source import Span
-from skillc_model.conditions import Condition, Expression, Operator
-from skillc_rdf.vocabulary.types import ValueType, Vocabulary
+from skillc_model.conditions import (
+    Anything,
+    Condition,
+    Expression,
+    HasProperty,
+    Holds,
+    Individual,
+    Operator,
+    PropertyOf,
+    Variable,
+)
+from skillc_rdf.vocabulary.types import ClassType, ValueType, Vocabulary
 
 
 class TypedExpression(msgspec.Struct, frozen=True):
@@ -30,6 +40,15 @@ class TypedExpression(msgspec.Struct, frozen=True):
     span: Span
     parts: tuple[TypedExpression, ...] = ()
     declared: Span | None = None
+
+    @property
+    def known(self) -> Condition | None:
+        """The condition that a property of a thing has a value, or a functional relation leads somewhere; else None."""
+        match self.meaning:
+            case PropertyOf(of=Variable() | Individual() as of, property=iri):
+                return Holds(of, iri, Anything()) if isinstance(self.type, ClassType) else HasProperty(of, iri)
+            case _:
+                return None
 
 
 class EffectScope(msgspec.Struct, frozen=True):

@@ -32,7 +32,7 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
-from skillc_model.format_condition import format_expression
+from skillc_model.format_condition import format_condition
 from skillc_model.format_type import SI_UNITS
 from skillc_model.skills import (
     Implementation,
@@ -77,7 +77,7 @@ def describe_skill(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
     for parameter in skill.parameters:
         yield from _parameter(iri, parameter, library)
     for sensed in skill.senses:
-        yield iri, f"{SKILLC}senses", format_expression(sensed, library.vocabulary)
+        yield iri, f"{SKILLC}senses", format_condition(sensed, library.vocabulary)
     kinds = (("pre", skill.pre), ("hold", skill.hold), ("post", skill.post), ("outcome", skill.outcomes))
     for kind, listed in kinds:
         for each in listed:

@@ -9,7 +9,7 @@ from msgspec import structs
 
 from skillc_dsl.position import Position
 from skillc_model import tree
-from skillc_model.conditions import And, Condition, Expression, HasProperty, Individual, Not, Variable
+from skillc_model.conditions import And, Condition, Expression, Individual, Not
 from skillc_model.rewriting import substitute
 from skillc_model.skills import SkillLibrary
 from skillc_model.traversal import free_variables
@@ -41,8 +41,7 @@ def achieved_condition(step: Step, library: SkillLibrary) -> Condition | None:
     skill = library.skills[step.skill]
     if skill.outcomes and not skill.senses:
         return None
-    known = (HasProperty(each.of, each.property) for each in skill.senses if isinstance(each.of, Variable | Individual))
-    wanted = (*(post.achieved for post in skill.post), *known)
+    wanted = (*(post.achieved for post in skill.post), *skill.senses)
     if not wanted or any(free_variables(each) - individuals.keys() for each in wanted):
         return None
     return And(tuple(substitute(each, individuals) for each in wanted))
