@@ -89,8 +89,12 @@ def pytest_collection() -> Generator[None, object, object]:
 
 
 def pytest_collection_finish() -> None:
-    """Spare what was imported for the tests, which stays to the end, from being looked through for garbage."""
+    """Spare what was imported for the tests, which stays to the end, from being looked through for garbage.
+
+    The rest is looked through less often than usual, which took a fortieth of the time.
+    """
     gc.freeze()
+    gc.set_threshold(20_000, 20, 20)
 
 
 @pytest.fixture

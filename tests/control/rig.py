@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import mujoco
@@ -41,6 +42,7 @@ LAWS = {"iiwa14": "impedance", "ur5e": "forward_dynamics"}
 HOMES = {"iiwa14": [0.0, 0.5, 0.0, -1.6, 0.0, 1.04, 0.0], "ur5e": [0.0, -1.9, 2.2, -1.87, -1.5708, 0.0]}
 GAINS = {robot: read_gains(LAWS[robot], sheet.__getitem__) for robot, sheet in SHEETS.items()}
 TOOL_M = np.array([0.1, 0.05, 0.03])
+_load_virtual = cache(load_virtual_model)
 
 
 def moved_by(pose: Pose, *way: float, turn=(0.0, 0.0, 0.0)) -> Pose:
@@ -75,7 +77,7 @@ class Bench:
         ranges = self.model.jnt_range.copy()
         control = self.model.actuator_ctrlrange if self.interface == "torque" else self.model.actuator_forcerange
         self.limits = ArmLimits(ranges, np.full(self.nv, 2.0), control[:, 1].copy(), np.full(self.nv, np.inf))
-        virtual = load_virtual_model(ROBOTS / f"{robot}.xml")
+        virtual = _load_virtual(ROBOTS / f"{robot}.xml")
         self.driver = CompliantArmDriver(ArmSetup(self, virtual, GAINS[robot], self.limits, lambda: self.base, period))
         self.log: dict[str, list] = {"time": [], "force": [], "tool": [], "torque": []}
 

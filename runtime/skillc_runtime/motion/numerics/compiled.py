@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import logging
 import os
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache, partial, update_wrapper
@@ -101,6 +100,10 @@ class _Compiled(partial[Any]):
         return import_module("skillc_runtime.motion.numerics.emission").find_type(self.__wrapped__)
 
 
+_imported: list[_Compiled] = []
+"""All there are, in the order in which they were imported."""
+
+
 def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     """Compile a function for the types of its annotations: those of `arrays`, numbers, bool, and tuples as a result.
 
@@ -115,6 +118,7 @@ def compiled(function: Callable[Parameters, Result]) -> Callable[Parameters, Res
     made: Any = _Compiled(function)
     update_wrapper(made, function)
     made.call_from_now_on(made.call_first)
+    _imported.append(made)
     lazy: Callable[Parameters, Result] = made
     return lazy
 
@@ -164,9 +168,7 @@ def compile_imported() -> None:
 
 def list_imported() -> list[_Compiled]:
     """Return the compiled functions that loops may call, of all modules of this package that are imported."""
-    modules = [module for name, module in sorted(sys.modules.items()) if name.startswith("skillc_runtime.")]
-    found = (each for module in modules for each in vars(module).values() if isinstance(each, _Compiled))
-    return [each for each in found if not each.is_rare]
+    return [each for each in _imported if each.__module__.startswith("skillc_runtime.") and not each.is_rare]
 
 
 def _make(function: Callable[..., Any]) -> MachineCode:
