@@ -10,7 +10,7 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.time_limits import describe_slowness
-from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.space.frames import pose, relocation_changes
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
 from skillc_runtime.world.state.labels.labelled import LabelledQuantity
@@ -28,21 +28,43 @@ SEATED_SHARE = 0.9
 of the opening is not known better than that."""
 
 
+UNSURE_M = 0.01
+"""A tool that presses nearer than this to where a surface is believed to be presses on it: nobody calibrates better."""
+
+
 class SinkBelow(Primitive):
-    """Waits up to `patience` s until the tool is `depth` m below a target, against the unit direction `along` (3,)."""
+    """Waits up to `patience` s until the tool is `depth` m below a target, against the unit direction `along` (3,).
+
+    A tool that presses near the target at the start touches the surface there, so that it has to sink as much from
+    where it is. Then the opening of the socket `into`, if one is given, is written to be at this height.
+    """
 
     moves = NOTHING
     activity = "search"
 
-    def __init__(self, cell: Cell, *, arm: str, target: Pose, along: Array, depth: float, patience: float) -> None:
+    def __init__(
+        self,
+        cell: Cell,
+        *,
+        arm: str,
+        target: Pose,
+        along: Array,
+        depth: float,
+        patience: float,
+        into: str | None = None,
+    ) -> None:
         super().__init__(cell)
-        self.arm, self._target, self._along = cell.arm(arm), target.position, along
+        self.arm, self._target, self._along, self._into = cell.arm(arm), target.position, along, into
         self._depth, self._patience, self._began, self._deepest = depth, patience, 0.0, -np.inf
 
     def start(self) -> None:
-        """Start waiting."""
+        """Start waiting; take the height of the surface from where the tool touches it."""
         raise_fault(self.arm)
         self._began = self.cell.now
+        higher = float(self._along @ (self.arm.measured.pose.position - self._target))
+        if abs(higher) < UNSURE_M:
+            self._target = self._target + higher * self._along
+            self._write_height(higher)
 
     def tick(self) -> Status:
         """Return SUCCESS when the tool is deep enough."""
@@ -60,6 +82,15 @@ class SinkBelow(Primitive):
                 wanted=LabelledQuantity(self._depth, "m"),
             )
         return Status.RUNNING
+
+    def _write_height(self, higher: float) -> None:
+        """Write that the opening of the socket is higher by so many m, along the axis, than it was believed to be."""
+        if self._into is None:
+            return
+        state = self.cell.world.snapshot()
+        believed = pose(state, self._into)
+        found = Pose(believed.position + higher * self._along, believed.rotation)
+        self.cell.world.commit(relocation_changes(state, self._into, found), "SinkBelow", "sensed")
 
 
 class Seat(Primitive):

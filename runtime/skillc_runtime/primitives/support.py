@@ -23,6 +23,9 @@ APPROACH_M_S: Final = 0.02
 SUPPORT_N, SUPPORT_M = 4.0, 0.03
 """With which force it is felt whether something carries a held thing, and how far it is lowered for that."""
 
+NOTHING_N: Final = SUPPORT_N / 2
+"""Less than this that pulls does not spoil how gently it presses."""
+
 SINKING_M_S: Final = 0.005
 """A thing that sinks faster than this while it is pressed down is not carried."""
 
@@ -73,27 +76,32 @@ class PressOnSupport(Push):
 class SupportCheck:
     """Feels whether something carries a held `object` at `to`: the arm yields, lowers it gently and presses on it.
 
-    Its sensor is not tared before: what carries the object may touch it already.
+    An arm that believes to be heavier than it is would lift the object. As nothing that carries it pulls it down, it is
+    tared before if it feels that; what it feels else may be a contact with what carries the object already.
     """
 
     def __init__(self, cell: Cell, arm: str, object: str, to: str) -> None:
         self._press = PressOnSupport(cell, arm=arm, along=UP, object=object, to=to, force=SUPPORT_N, travel=SUPPORT_M)
         self._cell, self._arm, self._object = cell, cell.arm(arm), object
-        self._runs, self._height_m = False, 0.0
+        self._runs, self._tares, self._height_m = False, False, 0.0
 
     def start(self) -> None:
         """Begin to lower it; SkillFailure, and nothing moves, if the arm cannot yield upwards."""
-        self._height_m = self._lifted_m
         raise_fault(self._arm)
-        yield_along(self._arm, UP, 0.0)
-        self._runs = True
-        self._press.start()
+        self._runs = False
+        felt = self._arm.measured.felt
+        self._tares = felt is not None and float(felt[2]) < -NOTHING_N
+        self._try_to_yield()
 
     def is_carried(self) -> bool:
-        """Whether something is felt to carry it; to be called in each tick.
+        """Whether something is felt to carry it; to be called in each tick. It is not lowered until the arm is tared.
 
         SkillFailure if nothing does, or if the arm lifts it because it is lighter than the arm believes.
         """
+        if not self._runs:
+            raise_fault(self._arm)
+            self._try_to_yield()
+            return False
         carried = self._press.tick() is Status.SUCCESS
         if self._lifted_m - self._height_m > RISE_M:
             raise SkillFailure(
@@ -102,6 +110,15 @@ class SupportCheck:
                 object=label(self._object, self._cell.world.snapshot().vocabulary),
             )
         return carried
+
+    def _try_to_yield(self) -> None:
+        """Begin to lower it, once the arm is tared where it is to be; SkillFailure if it cannot yield upwards."""
+        if self._tares and not self._arm.compliance.tare():
+            return
+        self._height_m = self._lifted_m
+        yield_along(self._arm, UP, 0.0)
+        self._runs = True
+        self._press.start()
 
     @property
     def _lifted_m(self) -> float:
