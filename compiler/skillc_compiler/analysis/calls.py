@@ -17,8 +17,9 @@ from skillc_compiler.analysis.binding import (
 from skillc_compiler.analysis.exploration import CallEffect, EvalContext, Exploration, havoc_concurrent
 from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
 from skillc_compiler.analysis.knowledge.assume import assume, unify
-from skillc_compiler.analysis.knowledge.evaluate import evaluate, known_individuals
+from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.havoc import havoc
+from skillc_compiler.analysis.knowledge.quantifiers import known_individuals
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import Write
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, extend_path

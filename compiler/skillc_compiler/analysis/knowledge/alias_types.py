@@ -6,7 +6,7 @@ import msgspec
 
 from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
-from skillc_model.conditions import Individual, IsA, Same, Variable
+from skillc_model.conditions import Anything, Individual, IsA, Same, Term, Variable
 from skillc_rdf.vocabulary.types import THING, Vocabulary
 
 ANY_PREFIX = "?"
@@ -71,6 +71,12 @@ class AliasTypes(msgspec.Struct, frozen=True):
             for mine in self._classes(state, one)
             for yours in self._classes(state, other)
         )
+
+    def may_be_same(self, state: State, one: Term, other: Term) -> bool:
+        """Whether the two may be the same individual; `_` may be any."""
+        if isinstance(one, Anything) or isinstance(other, Anything):
+            return True
+        return not self.are_distinct(state, one, other)
 
     def _classes(self, state: State, thing: IndividualTerm) -> list[str]:
         return [self.class_of(thing), *state.classes.get(thing, ())]

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import lru_cache
 from typing import assert_never
 
 from msgspec.structs import replace
 
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, same_individual
 from skillc_compiler.analysis.knowledge.quantifiers import (
-    is_bound_variable,
     is_ruled_out,
+    known_individuals,
     normalise_quantifier,
     possible_witnesses,
 )
@@ -39,7 +38,6 @@ from skillc_model.conditions import (
 )
 from skillc_model.definitions import write_out
 from skillc_model.rewriting import substitute
-from skillc_model.traversal import walk
 
 
 def evaluate(types: AliasTypes, state: State, condition: Condition) -> bool | None:
@@ -231,17 +229,6 @@ def _evaluate_exists(types: AliasTypes, state: State, condition: Exists) -> bool
     return (
         False if any(all(of(one) is False for one in group) for group in possible_witnesses(state, condition)) else None
     )
-
-
-def known_individuals(state: State) -> tuple[IndividualTerm, ...]:
-    """Return the individuals of which something is known, in the order in which it became known."""
-    return tuple(dict.fromkeys(thing for fact in state.facts for thing in _individuals_in(fact)))
-
-
-@lru_cache(maxsize=4096)
-def _individuals_in(fact: Condition) -> tuple[IndividualTerm, ...]:
-    terms = (part for part in walk(fact) if isinstance(part, Variable | Individual))
-    return tuple(dict.fromkeys(term for term in terms if not is_bound_variable(term)))
 
 
 def _evaluate_comparison(types: AliasTypes, state: State, asked: Compare) -> bool | None:

@@ -157,8 +157,8 @@ def _matches(types: AliasTypes, state: State, fact: Holds, pattern: Pattern) -> 
         return False
     if pattern.is_link:
         return _may_lead_over(types, state, fact, pattern)
-    return _may_be_same(types, state, fact.subject, pattern.subject) and _may_be_same(
-        types, state, fact.object, pattern.object
+    return types.may_be_same(state, fact.subject, pattern.subject) and types.may_be_same(
+        state, fact.object, pattern.object
     )
 
 
@@ -179,18 +179,12 @@ def _may_lead_over(types: AliasTypes, state: State, fact: Holds, link: Pattern) 
 
 def _may_lead_to(types: AliasTypes, state: State, start: Term, relation: str, end: Term) -> bool:
     """Whether two terms may be the same, or a chain of a relation may lead from one to the other."""
-    return _may_be_same(types, state, start, end) or state.facts.get(Holds(start, relation, end)) is not False
+    return types.may_be_same(state, start, end) or state.facts.get(Holds(start, relation, end)) is not False
 
 
 def _is_one(one: Term, other: Term) -> bool:
     """Whether two terms are certainly the same individual."""
     return one == other and not isinstance(one, Anything) and not is_any_individual(one)
-
-
-def _may_be_same(types: AliasTypes, state: State, one: Term, other: Term) -> bool:
-    if isinstance(one, Anything) or isinstance(other, Anything):
-        return True
-    return not types.are_distinct(state, one, other)
 
 
 def _add_possible(
@@ -200,7 +194,7 @@ def _add_possible(
     relation, thing, is_subject = side
     for subject, above, object_, _ in adds:
         near, far = (subject, object_) if is_subject else (object_, subject)
-        if above == relation and _may_be_same(types, state, thing, near):
+        if above == relation and types.may_be_same(state, thing, near):
             if isinstance(far, Anything) or is_any_individual(far):
                 return None
             others |= {far}
@@ -249,7 +243,7 @@ def _reads_value(types: AliasTypes, state: State, fact: Condition, write: Proper
         term = types.vocabulary.properties.get(iri)
         if term is None or term.computed_by is not None:
             return True
-        if iri == write.property and (of is None or _may_be_same(types, state, of, subject)):
+        if iri == write.property and (of is None or types.may_be_same(state, of, subject)):
             return True
     return _calls_python(fact)
 

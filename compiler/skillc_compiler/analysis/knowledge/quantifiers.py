@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
@@ -18,6 +19,17 @@ BOUND_PREFIX = "|"
 def is_bound_variable(term: Term) -> bool:
     """Whether a quantifier binds the name."""
     return isinstance(term, Variable) and term.name.startswith(BOUND_PREFIX)
+
+
+def known_individuals(state: State) -> tuple[IndividualTerm, ...]:
+    """Return the individuals of which something is known, in the order in which it became known."""
+    return tuple(dict.fromkeys(thing for fact in state.facts for thing in _individuals_in(fact)))
+
+
+@lru_cache(maxsize=4096)
+def _individuals_in(fact: Condition) -> tuple[IndividualTerm, ...]:
+    terms = (part for part in walk(fact) if isinstance(part, Variable | Individual))
+    return tuple(dict.fromkeys(term for term in terms if not is_bound_variable(term)))
 
 
 def normalise_quantifier(
