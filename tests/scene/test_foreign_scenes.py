@@ -226,3 +226,72 @@ def test_an_individual_of_an_ontology_where_it_does_not_fit_is_an_error_at_the_s
     result = CliRunner().invoke(skillc, ["world", "scene.ttl", "--ontology", "own"])
     assert result.exit_code == 1 and "relation-range" in result.stderr
     assert re.search(r"-> scene.ttl:\d+:\d+", result.stderr) and "ontologies:" not in result.stderr
+
+
+SKIROS_CELL = """@prefix cora: <http://www.inf.ufrgs.br/phi-group/ontologies/cora.owl#> .
+@prefix demo: <http://example.org/demo#> .
+@prefix owl: <http://www.w3.org/2002/07/owl#> .
+@prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .
+@prefix rparts: <http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#> .
+@prefix skiros: <http://rvmi.aau.dk/ontologies/skiros.owl#> .
+@prefix xsd: <http://www.w3.org/2001/XMLSchema#> .
+
+demo:Approach a owl:class ; rdfs:subClassOf skiros:Skill .
+demo:Scene-0 a skiros:Scene ; skiros:FrameId "world"^^xsd:string ; skiros:BaseFrameId ""^^xsd:string ;
+    skiros:PositionX "0.0"^^xsd:float ; skiros:PositionY "0.0"^^xsd:float ; skiros:PositionZ "0.0"^^xsd:float ;
+    skiros:contain cora:Robot-1, demo:Box-4, demo:Pose-5, rparts:ArmDevice-2 .
+cora:Robot-1 a cora:Robot, owl:NamedIndividual ; skiros:FrameId "cora:Robot-1" ; skiros:BaseFrameId "" ;
+    skiros:hasA rparts:ArmDevice-2 ; skiros:SkillMgr "demo" ; skiros:hasSkill demo:Approach-1 .
+demo:Approach-1 a demo:Approach, owl:NamedIndividual .
+rparts:ArmDevice-2 a rparts:ArmDevice, owl:NamedIndividual ; skiros:BaseFrameId "cora:Robot-1" ;
+    skiros:CartesianGoalAction "/iiwa/goal" ; skiros:CartesianStiffnessTopic "/iiwa/stiffness" .
+demo:Box-4 a skiros:Container ; skiros:FrameId "demo:Box-4" ; skiros:BaseFrameId "world" ; skiros:TfTimeStamp 0.0 ;
+    skiros:PositionX "0.5"^^xsd:float ; skiros:PositionY "0.0"^^xsd:float ; skiros:PositionZ "0.05"^^xsd:float ;
+    skiros:OrientationX 0.0 ; skiros:OrientationY -1.0 ; skiros:OrientationZ 0.0 ; skiros:OrientationW 0.0 .
+demo:Pose-5 a skiros:ObservationPose ; skiros:BaseFrameId "demo:Box-4" ; skiros:FrameId "demo:Pose-5" ;
+    skiros:PositionX "0.0"^^xsd:float ; skiros:PositionY "0.0"^^xsd:float ; skiros:PositionZ "-0.4"^^xsd:float .
+"""
+"""A cell as SkiROS2 saves it: the root frame has no base, the arm has topics, and neither a pose nor a data sheet."""
+LOOKING = """use skiros, rparts, cora, skillc
+import "motion.skill"
+
+skill Look {
+    in   arm: ArmDevice
+    in   at:  ObservationPose
+    pre  exists robot: Robot (robot hasA arm)
+    noplan
+}
+
+impl tool_down of Look { do MoveTo(arm, target: at.pose) }
+"""
+LOOK = "Look(arm: rparts:ArmDevice-2, at: demo:Pose-5)"
+OF_THE_ARM = (
+    "is Iiwa14",
+    "skillc:hasSheet skillc:iiwa14-sheet",
+    'skiros:CompliantController "impedance"',
+    'skiros:FrameId "iiwa_base"',
+    *(f"skiros:Position{axis} 0.0" for axis in "XYZ"),
+)
+"""What a SkiROS2 scene does not say of its arm, and a run needs."""
+
+
+@pytest.mark.slow
+def test_a_robot_cell_of_skiros2_runs_once_its_arm_is_known(tmp_path: Path) -> None:
+    scene = tmp_path / "cell.ttl"
+    scene.write_text(SKIROS_CELL, "utf-8")
+    (tmp_path / "look.skill").write_text(LOOKING, "utf-8")
+    edits = [f"rparts:ArmDevice-2 {each}" for each in OF_THE_ARM]
+    library = ("--library", str(tmp_path))
+
+    half = CliRunner().invoke(skillc, ["scene", "edit", str(scene), *library, *edits[:3]])
+    assert half.exit_code == 1 and "unchanged, because the scene would have errors" in half.stderr
+    assert "skiros:PositionX" in half.stderr and "hasSheet" not in half.stderr
+    assert scene.read_text("utf-8") == SKIROS_CELL
+    whole = CliRunner().invoke(skillc, ["scene", "edit", str(scene), *library, *edits])
+    assert whole.exit_code == 0, whole.output
+    before, after = (Graph().parse(data=text) for text in (SKIROS_CELL, scene.read_text("utf-8")))
+    assert not set(before) - set(after) and len(set(after) - set(before)) == len(edits)
+
+    call = ["run", *library, "--scene", str(scene), "--backend", "kinematic", "--call", LOOK, "--tick-timeout", "0"]
+    ran = CliRunner().invoke(skillc, call)
+    assert ran.exit_code == 0 and "Look  succeeded" in ran.stdout, ran.output

@@ -206,15 +206,17 @@ def remove(scene: Path, names: tuple[str, ...], library: Path | None) -> None:
 def edit(scene: str | None, edits: tuple[str, ...], library: Path | None, why: str | None) -> None:
     """Change facts of SCENE: 'lab:Cup-1.Weight == 120 g', 'lab:Tray-1 contain lab:Cup-1'.
 
-    Either all edits are applied or none, and only if the scene is valid afterwards. The value of a functional relation
-    or property is replaced. 'not' before a fact removes it, 'not INDIVIDUAL' all facts about an individual, and
-    'lab:Cup-2 is Cup' adds one. Statements of Turtle, 'SUBJECT PREDICATE VALUE', are taken, too.
+    Either all edits are applied or none, and only if the scene is valid then, even if it was not before. The value of a
+    functional relation or property is replaced. 'not' before a fact removes it, 'not INDIVIDUAL' all facts about an
+    individual, and 'lab:Cup-2 is Cup' adds one. Statements of Turtle, 'SUBJECT PREDICATE VALUE', are taken, too.
 
     With --cell or --server and without SCENE, the world of a cell that runs is changed in one transaction. --why is
     recorded, and who you are.
     """
     from skillc.cli import cell_questions
+    from skillc.cli.console import Terminal
     from skillc.services.scene.editing import edit_file
+    from skillc.services.views.scenes import read_to_mend
 
     if asks_cell():
         refuse_options(library=library)
@@ -224,8 +226,7 @@ def edit(scene: str | None, edits: tuple[str, ...], library: Path | None, why: s
         raise click.UsageError("name SCENE, and what to change in it")
     if why is not None:
         raise click.UsageError("--why requires --cell or --server")
-    with _opened(Path(scene), library) as (path, state):
-        print_remark(edit_file(path, state, edits))
+    print_remark(edit_file(*read_to_mend(Path(scene), library, Terminal()), edits))
 
 
 @command.command("import", cls=Command)

@@ -158,4 +158,4 @@ def _errors_after(scene: Path, problems: Sequence[Diagnostic]) -> str:
     """Return the message about the errors that the scene would have."""
     errors = (each for each in problems if each.severity == "error")
     lines = (f"  {each.message}" + (f" ({each.help})" if each.help else "") for each in errors)
-    return "\n".join((f"{scene} is unchanged, because the edit would cause errors", *lines))
+    return "\n".join((f"{scene} is unchanged, because the scene would have errors", *lines))

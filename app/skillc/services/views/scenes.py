@@ -12,13 +12,14 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
-from skillc.errors import RequestError, ServiceError
+from skillc.errors import DiagnosticsError, RequestError, ServiceError
 from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import find_library, find_scene
 from skillc.services.library.skill_descriptions import describe_skills, with_library_prefix
 from skillc.services.project.loading import find_project
 from skillc.services.project.project import find_root
 from skillc.services.reporting.reporter import Reporter
+from skillc.services.scene.diagnostics import read_scene_text, with_shown_paths
 from skillc.services.scene.stores import StoreChoice, load_world, open_world
 from skillc.services.tasks.assignments import assign_goal
 from skillc.services.tasks.listing import default_library
@@ -31,8 +32,8 @@ from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess
-from skillc_runtime.scene.documents import Document
-from skillc_runtime.scene.load import load_documents, sheet_documents
+from skillc_runtime.scene.documents import Document, SceneError
+from skillc_runtime.scene.load import load_documents, read_with_sheets, sheet_documents
 from skillc_runtime.scene.query import QueryAnswer, QueryError, run_query
 from skillc_runtime.scene.statements import read_contents
 from skillc_runtime.store.triples import all_triples
@@ -115,8 +116,7 @@ def open_scene(
     `everything`, the individuals of the shipped data sheets are listed too.
     """
     path = find_scene(scene) if scene is not None else None if store.place else _scene_here()
-    named = library or _library_beside(path)
-    compiled = compile_valid(find_library(named) if named else default_library())
+    compiled = _compile_library(library, path)
     with open_world(store, path, compiled.vocabulary, reporter) as world:
         state = world.snapshot()
         document = Document.read(path) if path and not store.place else describe_state(store.name, state)
@@ -124,6 +124,28 @@ def open_scene(
         labels = {**read_contents(sheet_documents()).labels, **read_contents([document]).labels}
         meant = state.individuals if everything else own
         yield OpenScene(path, compiled, world, document, state, labels, meant)
+
+
+def read_to_mend(scene: Path, library: Path | None, reporter: Reporter) -> tuple[Path, WorldState]:
+    """Return the path of a scene file and its world, as far as it is understood if the scene has errors.
+
+    Its warnings are reported, its errors are not: an edit may mend them. Other errors as `open_scene`.
+    """
+    path = find_scene(scene)
+    vocabulary = _compile_library(library, path).vocabulary
+    try:
+        return path, load_world(path, vocabulary, reporter)
+    except DiagnosticsError:
+        try:
+            return path, read_with_sheets(Document.read(path), vocabulary).state
+        except SceneError as error:
+            raise DiagnosticsError(with_shown_paths(error.problems), read_scene_text(path)) from error
+
+
+def _compile_library(library: Path | None, scene: Path | None) -> SkillLibrary:
+    """Compile a library, else that in the folder of a scene, else the shipped one."""
+    named = library or _library_beside(scene)
+    return compile_valid(find_library(named) if named else default_library())
 
 
 def view_world(name: str, library: SkillLibrary, state: WorldState) -> OpenScene:

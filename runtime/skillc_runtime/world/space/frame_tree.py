@@ -78,7 +78,8 @@ class FrameTree:
 
     The carrier is the object whose FrameId its BaseFrameId names, or whose IRI if that has none; else the object that
     it is `on`. Without either it is the place that the object is `at`, else what contains it, else what it is a part
-    of, and the object has the carrier's pose. The pose of an object that an arm carries is not known.
+    of, and the object has the carrier's pose. A whole scene that states its pose has it in the world. The pose of an
+    object that an arm carries is not known.
     """
 
     def __init__(self, state: WorldState, former: FrameTree | None = None) -> None:
@@ -136,6 +137,8 @@ class FrameTree:
         ):
             if holders:
                 return self._moved_with(min(holders), individual)
+        if SCENE in self._classes.get(individual) and self._values[POSITION[0]].get(individual) is not None:
+            return None
         raise Unplaced(
             f"the world model does not say where {self._short(individual)} is: "
             "it has neither a BaseFrameId nor a place it is at, and it is on nothing"
