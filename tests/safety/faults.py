@@ -89,7 +89,7 @@ KINDS = {
 """Of which classes the things are that parameters of these names stand for."""
 
 MOTION = {"posture": "home", "pace": 0.5, "speed": 0.2, "resistance": 15.0, "blend": 0.01, "settle": 5.0}
-WAITING = {"patience": 5.0, "travel": 0.5}
+WAITING = {"into": None, "patience": 5.0, "travel": 0.5}
 PRESSING = {
     "stiffness": 0.0,
     "force": 10.0,

@@ -31,7 +31,7 @@ class CompliantArmDriver:
     """One arm, stepped every control period; implements `ArmDriver` and the functions that a cell needs.
 
     `fault` says why the driver stopped by itself, until it is taken; `broken` why the arm could not be controlled at
-    some time, and `violation` which safety limit it exceeded last, until `recover`.
+    some time, and `violation` which safety limit it exceeded first, until `recover`.
     """
 
     def __init__(self, setup: ArmSetup) -> None:
@@ -156,7 +156,9 @@ class CompliantArmDriver:
         if events & TOOL_MOVED:
             self._task.restart_tool(state)
         if events & BEYOND_LIMIT:
-            self.violation = self._safety.describe(state) or "a limit of the arm was exceeded"
+            # What an arm feels while it stops is not why it has stopped.
+            if self.violation is None:
+                self.violation = self._safety.describe(state) or "a limit of the arm was exceeded"
             self.hold_still(self.violation)
 
     def take_fault(self) -> str | None:
