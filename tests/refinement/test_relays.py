@@ -27,7 +27,8 @@ NEAR_ONE, NEAR_OTHER = (-0.35, 0.2), (0.4, -0.2)
 
 
 def ask(command: str, scene: Path, goal: str, *options: str) -> dict:
-    asked = [command, "--library", "sorting", "--scene", str(scene), "--goal", goal, "--json", *options]
+    limits = ("--deadline", "120") if command == "plan" else ()
+    asked = [command, "--library", "sorting", "--scene", str(scene), "--goal", goal, "--json", *limits, *options]
     return json.loads(CliRunner().invoke(skillc, asked).stdout)
 
 

@@ -85,9 +85,12 @@ lab:Roof a skillc:Furniture ; skiros:SizeX 0.2 ; skiros:SizeY 0.2 ; skiros:SizeZ
     skiros:PositionX 0.45 ; skiros:PositionY -0.35 ; skiros:PositionZ 0.72 .
 lab:Cell skiros:contain lab:Roof .
 """
-    answer = plan(tmp_path, (PART_A, PART_A + roof))
-    assert answer["status"] != "solved"
-    assert "lab:Part-A" in answer["failure"]
+    beside = PART_B.replace("atX 0.0 ; skillc:atY -0.2", "atX 0.01 ; skillc:atY -0.35")
+    for around in (PART_B, beside):
+        answer = plan(tmp_path, (PART_A, PART_A + roof), (PART_B, around))
+        assert answer["status"] != "solved"
+        assert "lab:Part-A" in answer["failure"] and "lab:Roof" in answer["failure"]
+        assert "lab:Part-B" not in answer["failure"], "the roof is there also without what stands beside the part"
 
 
 @pytest.mark.slow

@@ -50,7 +50,8 @@ class PlanLook(msgspec.Struct, frozen=True, kw_only=True):
         named = ", ".join(state.vocabulary.short(each) for each in self.failed.arguments.values())
         tried = "the arms can carry out none, for the grasps, postures and places that were tried"
         tried = tried if ended is None else f"{ended} before one was found that the arms can carry out; of the last one"
-        return GaveUp(f"{tried}: {self.failed.skill}({named}) does not go: {self.claim.failure}", needed=needed)
+        why = self.found[0].why if self.found else self.claim.failure
+        return GaveUp(f"{tried}: {self.failed.skill}({named}) does not go: {why}", needed=needed)
 
 
 def look_at_plans(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 
 from msgspec.structs import replace
@@ -43,12 +43,16 @@ def find_excluded(library: SkillLibrary, begin: WorldState, before: Situation, s
 
     The step is looked at again without the things that skills can move, and with as few of them as keep it from going:
     while these are where they are, it does not go. If it does not go without all of them, it does not while the things
-    that it names, and no hand holds, have not been moved, or not again: whatever is known of another place.
+    that it names, and no hand holds, have not been moved, or not again: whatever is known of another place. Then it is
+    said why it does not go without them: nothing that can be moved helps.
     """
-    condition = And(_find_blocking(library, before, step))
-    if condition.parts:
-        return StepWhile(step, condition, why)
-    return _limit_to_places(begin, before.state, StepWhile(step, condition, why))
+    placed = _place_movable(before.state, step)
+    if 0 < len(placed) <= MOST_THINGS:
+        alone = _find_problem(library, before, step, placed)
+        if alone is None:
+            return StepWhile(step, And(_find_blocking(library, before, step, placed)), why)
+        why = alone or why
+    return _limit_to_places(begin, before.state, StepWhile(step, And(()), why))
 
 
 def _limit_to_places(begin: WorldState, now: WorldState, excluded: StepWhile) -> StepWhile:
@@ -67,17 +71,22 @@ def _find_place(state: WorldState, thing: str) -> PoseKey | None:
         return None
 
 
-def _find_blocking(library: SkillLibrary, before: Situation, step: Step) -> tuple[Holds, ...]:
-    """Return where the things are that keep a step from going; none if it does not go without them either."""
-    state = before.state
+def _place_movable(state: WorldState, step: Step) -> dict[str, str]:
+    """Return the things that can be moved and are not named by a step, each with the place that it is in or at."""
     named = set(step.arguments.values())
     moving = state.instances(MANIPULATABLE) | state.instances(MOBILE_ROBOT)
     things = [each for each in sorted(moving - named) if not _bears(state, each, named)]
-    placed = {each: at for each in things for at in (*state.subjects(CONTAIN, each), *state.objects(each, AT))}
-    if not placed or len(placed) > MOST_THINGS or not _goes(library, before, step, placed):
-        return ()
+    return {each: at for each in things for at in (*state.subjects(CONTAIN, each), *state.objects(each, AT))}
+
+
+def _find_blocking(
+    library: SkillLibrary, before: Situation, step: Step, placed: Mapping[str, str]
+) -> tuple[Holds, ...]:
+    """Return where the things are, of some that are placed, that keep a step from going, which goes without them."""
+    state = before.state
     blocking = find_blocking(
-        sorted(placed, reverse=True), lambda there: not _goes(library, before, step, placed.keys() - set(there))
+        sorted(placed, reverse=True),
+        lambda there: _find_problem(library, before, step, placed.keys() - set(there)) is not None,
     )
     rests = not find_terms_of_skills(library).isdisjoint(FORESEEN)
     return tuple(_where(state, each, placed[each], rests) for each in sorted(blocking))
@@ -123,8 +132,8 @@ def _bears(state: WorldState, thing: str, named: Iterable[str]) -> bool:
     return False
 
 
-def _goes(library: SkillLibrary, before: Situation, step: Step, away: Iterable[str]) -> bool:
-    """Whether a step goes in a situation if some things are away."""
+def _find_problem(library: SkillLibrary, before: Situation, step: Step, away: Iterable[str]) -> str | None:
+    """Return why a step does not go in a situation if some things are away, "" if nobody can say; None if it goes."""
     changes: list[Change] = []
     for each in sorted(away):
         supports = before.state.facts[ON].forward.get(each) if ON in before.state.facts else ()
@@ -133,5 +142,8 @@ def _goes(library: SkillLibrary, before: Situation, step: Step, away: Iterable[s
     try:
         there = before.with_changes(changes)
     except WorldError:
-        return False
-    return next(Walk(library).go(call_of(step, library), there, Scope({})), None) is not None
+        return ""
+    walk = Walk(library)
+    if next(walk.go(call_of(step, library), there, Scope({})), None) is not None:
+        return None
+    return walk.furthest.message if walk.furthest is not None and walk.furthest.is_in_space else ""
