@@ -169,7 +169,7 @@ def measurements(count: int) -> list[list[float]]:
             noise[None], np.zeros(1), np.zeros(2),
             GeometryErrors(
                 chance.uniform(-1e-3, 1e-3, (2, 6)), np.array([[1, 0], [2, 1]]), chance.uniform(-1e-3, 1e-3, 7),
-                chance.uniform(-1, 1, (3, 3)), chance.uniform(-1, 1, (3, 9)), 1.0,
+                chance.uniform(-1, 1, (3, 3)), chance.uniform(-1, 1, (3, 9)), 1.0, np.zeros((5, 3)),
             ),
         )  # fmt: skip
         measure(sensing, 0.0)

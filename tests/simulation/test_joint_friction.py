@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skillc_runtime.backends.simulation.arms.geometry_errors import WAVES
+from skillc_runtime.backends.simulation.arms.geometry_errors import WAVES, find_wave
 from skillc_runtime.backends.simulation.arms.joint_friction import BENDING_RAD, STICKING, VISCOUS, Friction, rub
 
 STEP_S, SLOW_N_M, INERTIA = 0.001, 5.0, 0.5
@@ -47,9 +47,17 @@ def test_a_motor_exerts_no_more_than_it_really_can(control: float, more: float) 
     assert exert(control, 0.0, (100.0, 1.0)) == pytest.approx(np.clip(100.0 * control, -9.0, 9.0))
 
 
+@given(st.floats(-3.0, 3.0))
+def test_a_wave_is_about_a_sine_and_has_its_slope(q: float) -> None:
+    (here, slope), step = find_wave(q), 1e-7
+    ahead, behind = find_wave(q + step)[0], find_wave(q - step)[0]
+    assert abs(here - np.sin(WAVES * q)) < 0.06
+    assert (ahead - behind) / (2 * step) == pytest.approx(slope, abs=0.05 * WAVES)
+
+
 @given(st.floats(-3.0, 3.0), st.floats(1e-5, 3e-4))
 def test_a_servo_holds_the_angle_that_its_encoder_measures(q: float, wave: float) -> None:
-    measured = q + wave * np.sin(WAVES * q)
+    measured = q + wave * find_wave(q)[0]
     assert exert(measured, 0.0, (100.0, 1.0), q, wave) == pytest.approx(0.0, abs=1e-9)
 
 

@@ -12,7 +12,7 @@ Fundamentals of Manipulator Calibration, Wiley, 1991, chapter 3.
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import floor, pi
 from typing import Any, Final
 
 import msgspec
@@ -21,7 +21,7 @@ import numpy as np
 from skillc_runtime.devices.reality import Sizes
 from skillc_runtime.motion.arrays import Integers, Matrix, OutMatrix, OutVector, Vector
 from skillc_runtime.motion.numerics.compiled import inlined
-from skillc_runtime.motion.numerics.linear import cross, times, transposed_times
+from skillc_runtime.motion.numerics.linear import times, transposed_times
 from skillc_runtime.motion.pose import Array, Pose, exp, quaternion_from_rotation
 
 WAVES: Final = 200.0
@@ -35,7 +35,7 @@ class GeometryErrors(msgspec.Struct, frozen=True):
     links (n, 6): m and rad, o and t above, of each link that is not where it should be, `bodies` (n, 2) being its
     number and that of the link before; wave (nv,): rad, the amplitude of the errors of transmissions. position
     (nbody, 3) m, rotation (nbody, 9): of all bodies, in the world; they change with the simulation. exist: 1 if
-    there are any.
+    there are any. scratch (5, 3): for what is computed on the way.
     """
 
     links: Matrix
@@ -44,6 +44,7 @@ class GeometryErrors(msgspec.Struct, frozen=True):
     position: Matrix
     rotation: Matrix
     exist: float
+    scratch: OutMatrix
 
 
 def draw_links(sizes: Sizes, joints: int) -> Array:
@@ -75,7 +76,19 @@ def make_geometry_errors(sizes: Sizes, joints: list[int], model: Any, data: Any)
     bodies = [int(model.jnt_bodyid[joints[each]]) for each in off]
     pairs = np.array([(each, model.body_parentid[each]) for each in bodies], dtype=np.int64).reshape(-1, 2)
     wave = np.array(np.broadcast_to(sizes.get("transmissionError", 0.0), len(joints)), dtype=np.float64)
-    return GeometryErrors(links[off], pairs, wave, data.xpos, data.xmat, float(off.size > 0 or wave.any()))
+    return GeometryErrors(
+        links[off], pairs, wave, data.xpos, data.xmat, float(off.size > 0 or wave.any()), np.zeros((5, 3))
+    )
+
+
+@inlined
+def find_wave(q: float) -> tuple[float, float]:
+    """Return sin(w q), up to 0.06, and the slope of that, in 1/rad, of a joint at q rad: two parabolas a period."""
+    turns = q * WAVES / (2.0 * pi)
+    share = 2.0 * (turns - floor(turns)) - 1.0
+    away = 1.0 - abs(share)
+    slope = 4.0 * (1.0 - 2.0 * abs(share)) * (-WAVES / pi)
+    return -4.0 * share * away, slope
 
 
 @inlined
@@ -84,7 +97,8 @@ def measure_joint(errors: GeometryErrors, joint: int, q: float, dq: float) -> tu
     wave = errors.wave[joint]
     if wave == 0.0:
         return q, dq
-    return q + wave * sin(WAVES * q), dq * (1.0 + wave * WAVES * cos(WAVES * q))
+    value, slope = find_wave(q)
+    return q + wave * value, dq * (1.0 + wave * slope)
 
 
 @inlined
@@ -97,42 +111,53 @@ def misjudge_tool(
     """
     if errors.exist == 0.0:
         return
-    away, turn, here, axis, lever, moved = np.zeros(3), np.zeros(3), np.empty(3), np.empty(3), np.empty(3), np.empty(3)
+    scratch = errors.scratch
+    here, away, turn, moved, turned = scratch[0], scratch[1], scratch[2], scratch[3], scratch[4]
     times(base.rotation, position, here)
-    for row in range(errors.links.shape[0]):
-        link, before = errors.bodies[row, 0], errors.bodies[row, 1]
-        frame = errors.rotation[before]
-        for i in range(3):
-            axis[i] = 0.0
-            for k in range(3):
-                away[i] += frame[3 * i + k] * errors.links[row, k]
-                axis[i] += frame[3 * i + k] * errors.links[row, 3 + k]
-            turn[i] += axis[i]
-            lever[i] = here[i] + base.position[i] - errors.position[link, i]
-        cross(axis, lever, moved)
-        for i in range(3):
-            away[i] += moved[i]
-    transposed_times(base.rotation, away, lever)
-    transposed_times(base.rotation, turn, axis)
     for i in range(3):
-        position[i] -= lever[i]
-        axis[i] = -axis[i]
+        here[i] += base.position[i]
+        away[i] = turn[i] = 0.0
+    for row in range(errors.links.shape[0]):
+        _add_link(errors, row, here, away, turn)
+    transposed_times(base.rotation, away, moved)
+    transposed_times(base.rotation, turn, turned)
+    for i in range(3):
+        further, more = -moved[i], -turned[i]
         for j in range(waves.size):
-            position[i] += J[i, j] * waves[j]
-            axis[i] += J[3 + i, j] * waves[j]
-    _turn(rotation, axis)
+            further += J[i, j] * waves[j]
+            more += J[3 + i, j] * waves[j]
+        position[i] += further
+        turned[i] = more
+    _turn(rotation, turned)
+
+
+@inlined
+def _add_link(errors: GeometryErrors, row: int, here: Vector, away: OutVector, turn: OutVector) -> None:
+    """Add by how far the tool, at `here` (3,) m, is away (3,) m and turned (3,) rad by the error of one link."""
+    links, link, before = errors.links, errors.bodies[row, 0], errors.bodies[row, 1]
+    frame, at = errors.rotation[before], errors.position[link]
+    a, b, c = links[row, 3], links[row, 4], links[row, 5]
+    x, y, z = here[0] - at[0], here[1] - at[1], here[2] - at[2]
+    u = frame[0] * a + frame[1] * b + frame[2] * c
+    v = frame[3] * a + frame[4] * b + frame[5] * c
+    w = frame[6] * a + frame[7] * b + frame[8] * c
+    a, b, c = links[row, 0], links[row, 1], links[row, 2]
+    away[0] += frame[0] * a + frame[1] * b + frame[2] * c + v * z - w * y
+    away[1] += frame[3] * a + frame[4] * b + frame[5] * c + w * x - u * z
+    away[2] += frame[6] * a + frame[7] * b + frame[8] * c + u * y - v * x
+    turn[0] += u
+    turn[1] += v
+    turn[2] += w
 
 
 @inlined
 def _turn(rotation: OutMatrix, axis: Vector) -> None:
     """Turn a rotation (3, 3) by a small rotation vector (3,) in rad, to second order."""
-    before, square = np.empty((3, 3)), axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]
-    for i in range(3):
-        for j in range(3):
-            before[i, j] = rotation[i, j]
+    a, b, c = axis[0], axis[1], axis[2]
+    kept = 1.0 - 0.5 * (a * a + b * b + c * c)
     for j in range(3):
-        along = axis[0] * before[0, j] + axis[1] * before[1, j] + axis[2] * before[2, j]
-        for i in range(3):
-            k, m = (i + 1) % 3, (i + 2) % 3
-            turned = axis[k] * before[m, j] - axis[m] * before[k, j]
-            rotation[i, j] = before[i, j] * (1.0 - 0.5 * square) + turned + 0.5 * axis[i] * along
+        x, y, z = rotation[0, j], rotation[1, j], rotation[2, j]
+        along = 0.5 * (a * x + b * y + c * z)
+        rotation[0, j] = kept * x + b * z - c * y + along * a
+        rotation[1, j] = kept * y + c * x - a * z + along * b
+        rotation[2, j] = kept * z + a * y - b * x + along * c

@@ -14,13 +14,13 @@ Torque Measurement, IROS 2008.
 
 from __future__ import annotations
 
-from math import exp, inf, sin
+from math import exp, inf
 from typing import Final
 
 import msgspec
 import numpy as np
 
-from skillc_runtime.backends.simulation.arms.geometry_errors import WAVES
+from skillc_runtime.backends.simulation.arms.geometry_errors import find_wave
 from skillc_runtime.backends.simulation.arms.motors import Motors, Servos
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.backends.simulation.steps import OnMemory
@@ -112,7 +112,7 @@ def rub(friction: Friction, now: float) -> int:
         friction.bent[j] = bent
         torque = stiffness * (bent + DAMPING_S * (bent - before) / friction.step_s) + VISCOUS * slow * v
         ripple, wave = friction.ripple[j], friction.wave[j]
-        here = sin(WAVES * friction.q[j]) if ripple != 0.0 or wave != 0.0 else 0.0
+        here = find_wave(friction.q[j])[0] if ripple != 0.0 or wave != 0.0 else 0.0
         torque += ripple * here
         more = _limit(friction, j, friction.observed[j], wave * here)
         friction.applied[j] = friction.added * friction.applied[j] - torque + more
