@@ -20,6 +20,7 @@ from skillc_rdf.vocabulary.conditions import Holds as Holds
 from skillc_rdf.vocabulary.conditions import Individual as Individual
 from skillc_rdf.vocabulary.conditions import Invoke as Invoke
 from skillc_rdf.vocabulary.conditions import IsA as IsA
+from skillc_rdf.vocabulary.conditions import ListValue as ListValue
 from skillc_rdf.vocabulary.conditions import Literal as Literal
 from skillc_rdf.vocabulary.conditions import Not as Not
 from skillc_rdf.vocabulary.conditions import Operator as Operator

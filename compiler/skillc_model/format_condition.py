@@ -21,6 +21,7 @@ from skillc_model.conditions import (
     Individual,
     Invoke,
     IsA,
+    ListValue,
     Literal,
     Not,
     Or,
@@ -124,6 +125,8 @@ def format_expression(expression: Expression, vocabulary: Vocabulary) -> str:
             return f"{format_expression(of, vocabulary)}.{local_name(iri)}"
         case Arithmetic(operator=operator, left=left, right=right):
             return f"{_operand(left, vocabulary)} {operator} {_operand(right, vocabulary)}"
+        case ListValue(items=items):
+            return f"[{', '.join(format_expression(each, vocabulary) for each in items)}]"
         case Invoke(function=function, arguments=arguments):
             return f"{function}({', '.join(format_expression(each, vocabulary) for each in arguments)})"
         case _:

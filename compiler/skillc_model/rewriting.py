@@ -28,6 +28,7 @@ from skillc_model.conditions import (
     Individual,
     Invoke,
     IsA,
+    ListValue,
     Literal,
     Not,
     Or,
@@ -160,7 +161,7 @@ def constant_number(expression: Expression | None) -> float | None:
         case Arithmetic(operator=operator, left=left, right=right):
             a, b = constant_number(left), constant_number(right)
             return None if a is None or b is None else _applied(operator, a, b)
-        case Variable() | Individual() | PropertyOf() | Invoke() | None:
+        case Variable() | Individual() | PropertyOf() | Invoke() | ListValue() | None:
             return None
         case _:
             assert_never(expression)

@@ -1,4 +1,4 @@
-"""Numbers of rounds that are computed: what runs, what is proved of it, and what is told of wrong ones."""
+"""Numbers of rounds that are computed, and lists: what runs, what is proved of it, and what is told of wrong ones."""
 
 from __future__ import annotations
 
@@ -35,6 +35,7 @@ SCENE = """\
 @prefix own: <https://w3id.org/skillc/library/own#> .
 @prefix lab: <http://example.org/lab#> .
 lab:Lamp a own:Lamp1 .
+lab:Other a own:Lamp1 .
 """
 
 
@@ -58,6 +59,9 @@ def run(folder: Path, text: str, *command: str) -> Result:
         "do timeout 3.5 s { Stay(often: 1 + 2) }",
         'do timeout 2.5 s { Stay(often: 3) }  expect failure "2.5 s"',
         'do Stay(often: 0)  expect failure "`repeat` needs a whole number of rounds from 1 to a million, not 0"',
+        "do for lamp in [lab:Lamp, lab:Other] { Light(lamp) }  expect forall l: Lamp1 (l.lit == true)",
+        "do for often in [1, 1 + 1] { timeout 2.5 s { Stay(often) } }",
+        'do for often in [1, 3] { timeout 2.5 s { Stay(often) } }  expect failure "2.5 s"',
         'do timeout 3.5 s { retry 2 + 1 { seq { wait 1 s  fail "no" } } }  expect failure "no"',
         'do timeout 2.5 s { retry 2 + 1 { seq { wait 1 s  fail "no" } } }  expect failure "2.5 s"',
     ],
@@ -77,6 +81,10 @@ def test_it_runs_as_often_as_computed(folder: Path, lines: str) -> None:
         ("Int = 2  range 0 .. 5", "try { repeat n { Light(lamp) } }", ["post-not-established"]),
         ("Int = 2", "seq { retry n { check(lamp.lit == false) } Light(lamp) }", []),
         ("Int = 2  range 1 .. 3", "repeat n { try { Light(lamp) } }", ["post-not-established"]),
+        ("Int = 2", "seq { for m in [n, 3] { Light(lamp) } }", []),
+        ("Int = 2", "for m in [n, 3, 4] { try { Light(lamp) } }", ["post-not-established"]),
+        ("Int = 2", "for m in [lamp, n] { Light(lamp) }", ["wrong-type"]),
+        ("[Int] = [1, 2]", "for m in n { Light(lamp) }", ["post-not-established"]),
         ("Int = 0  range -3 .. 0", "repeat n { Light(lamp) }", ["bad-count"]),
         ("Number = 2", "repeat n { Light(lamp) }", ["wrong-type"]),
         ("Time = 2 s", "retry n { Light(lamp) }", ["wrong-type"]),

@@ -23,7 +23,7 @@ from skillc_compiler.logic.intervals import interval_of, parameter_intervals
 from skillc_compiler.logic.rounds import count_rounds
 from skillc_compiler.program.typed import TypedNode
 from skillc_dsl import syntax as s
-from skillc_model.conditions import Literal
+from skillc_model.conditions import ListValue, Literal
 from skillc_model.tree import MOST_ROUNDS
 
 MAX_ROUNDS = 6
@@ -112,9 +112,16 @@ def _explore_while(
 def _explore_for(
     run: Exploration, node: TypedNode, written: s.For, states: StatePaths, context: EvalContext
 ) -> EndStates:
-    """Explore a `for`: any number of rounds, each with its own item."""
+    """Explore a `for`: any number of rounds, each with its own item; those of a list that is written are known."""
     ends, name = EndStates(success=dict(states)), written.variable.text
     run.types.classes.pop(name, None)
+    items = node.values[0].meaning
+    if isinstance(items, ListValue) and len(items.items) <= MAX_ROUNDS:
+        for _ in items.items:
+            one = explore_sequence(run, node.children, widen(ends.success), context)
+            ends.success = _without_item(one.success, name)
+            ends.add_failures(one)
+        return ends
     for _ in range(MAX_ROUNDS):
         new = {state: path for state, path in states.items() if state not in ends.success or state in states}
         one = explore_sequence(run, node.children, widen(new), context)

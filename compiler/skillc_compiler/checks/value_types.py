@@ -34,7 +34,7 @@ from skillc_dsl.descriptions.rows import SlotKind
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
 from skillc_dsl.units import NUMBER, TIME, UNITS, Dimension
-from skillc_model.conditions import Individual, Invoke, Literal, Variable
+from skillc_model.conditions import Individual, Invoke, ListValue, Literal, Variable
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
 NAMES = ("wrong-type", "wrong-dimension", "missing-unit")
@@ -180,6 +180,8 @@ def type_constraints(program: Program) -> Iterator[TypeConstraint]:
     for value in all_values(program):
         if isinstance(value.meaning, Invoke):
             yield from _function_constraints(program, value, value.meaning)
+        if isinstance(value.meaning, ListValue) and isinstance(value.type, ListOf):
+            yield from (TypeConstraint(item, value.type.element, "in this list") for item in value.parts)
 
 
 def _node_constraints(node: TypedNode) -> Iterator[TypeConstraint]:

@@ -78,6 +78,8 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
                     yield Occurrence(name.span, FunctionSymbol(name.text))
                 for argument in arguments:
                     yield from self.value(known, argument)
+            case s.ListValue(items=items):
+                yield from (each for item in items for each in self.value(known, item))
             case s.Arithmetic(left=left, right=right):
                 yield from self.value(known, left)
                 yield from self.value(known, right)

@@ -7,7 +7,7 @@ from math import isnan
 from typing import TypeAlias, assert_never
 
 from skillc_compiler.program.typed import Let, Parameter
-from skillc_model.conditions import Arithmetic, Expression, Individual, Invoke, Literal, PropertyOf, Variable
+from skillc_model.conditions import Arithmetic, Expression, Individual, Invoke, ListValue, Literal, PropertyOf, Variable
 from skillc_model.rewriting import constant_number
 
 Interval: TypeAlias = tuple[float, float]
@@ -40,7 +40,7 @@ def interval_of(expression: Expression, known: Mapping[str, Interval]) -> Interv
         case Arithmetic(operator=operator, left=left, right=right):
             one, other = interval_of(left, known), interval_of(right, known)
             return _combine(operator, one, other) if one is not None and other is not None else None
-        case Individual() | PropertyOf() | Invoke():
+        case Individual() | PropertyOf() | Invoke() | ListValue():
             return None
         case _:
             assert_never(expression)

@@ -19,6 +19,7 @@ from skillc_model.conditions import (
     Holds,
     Individual,
     Invoke,
+    ListValue,
     Not,
     PropertyOf,
     Term,
@@ -90,6 +91,8 @@ def _replace(value: TypedExpression, link: TypedExpression, thing: TypedExpressi
             meaning = Arithmetic(operator, *inner)
         case Invoke(function=name):
             meaning = Invoke(name, tuple(inner))
+        case ListValue():
+            meaning = ListValue(tuple(inner))
         case _:
             meaning = value.meaning
     return replace(value, meaning=meaning, parts=parts)

@@ -16,6 +16,7 @@ from skillc_compiler.program.types import (
     TEXT,
     UNKNOWN,
     Direction,
+    ListOf,
     Measure,
     Thing,
     Type,
@@ -30,7 +31,7 @@ from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.units import NUMBER, TEMPERATURE, dimension_of, sum_dimension, to_si
-from skillc_model.conditions import Arithmetic, Individual, Invoke, Literal, PropertyOf, Variable
+from skillc_model.conditions import Arithmetic, Individual, Invoke, ListValue, Literal, PropertyOf, Variable
 from skillc_model.tree import FAILURE_PARTS
 from skillc_rdf.vocabulary.types import local_name, value_name
 
@@ -69,8 +70,20 @@ def resolve_value(
             return _resolve_apply(context, scope, written)
         case s.Arithmetic():
             return _resolve_arithmetic(context, scope, written)
+        case s.ListValue():
+            return _resolve_list(context, scope, written, wanted)
         case _:
             assert_never(written)
+
+
+def _resolve_list(context: FileContext, scope: Scope, written: s.ListValue, wanted: ExpectedType) -> TypedExpression:
+    """Resolve a list; its type is that of the first item to which all others fit, or else that of the first one."""
+    element = ExpectedType(wanted.type.element) if isinstance(wanted.type, ListOf) else ANYTHING
+    items = tuple(resolve_value(context, scope, item, element) for item in written.items)
+    kinds = [item.type for item in items]
+    common = (kind for kind in kinds if all(fits(context.vocabulary, other, kind) for other in kinds))
+    meaning = ListValue(tuple(item.meaning for item in items))
+    return TypedExpression(meaning, ListOf(next(common, kinds[0])), written.span, items)
 
 
 def _resolve_reference(

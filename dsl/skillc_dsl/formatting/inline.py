@@ -42,7 +42,7 @@ class InlineFormatter:
             return self.tight(children)
         if branch.data in _CALLS:
             return self._call(children)
-        if branch.data == "parentheses":
+        if branch.data in ("parentheses", "list_value"):
             return self.bracketed(children)
         if branch.data == "quantified":
             return d.concatenate(self.spaced(children[:3]), d.Gap(), self.bracketed(children[3:]))

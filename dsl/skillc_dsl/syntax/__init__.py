@@ -74,6 +74,7 @@ from skillc_dsl.syntax.values import Arithmetic as Arithmetic
 from skillc_dsl.syntax.values import Boolean as Boolean
 from skillc_dsl.syntax.values import Invoke as Invoke
 from skillc_dsl.syntax.values import ListOf as ListOf
+from skillc_dsl.syntax.values import ListValue as ListValue
 from skillc_dsl.syntax.values import Member as Member
 from skillc_dsl.syntax.values import Message as Message
 from skillc_dsl.syntax.values import Name as Name

@@ -109,4 +109,11 @@ class Arithmetic(msgspec.Struct, frozen=True):
     span: Span
 
 
-Value: TypeAlias = Quantity | Number | Text | Boolean | NameReference | Member | Invoke | Arithmetic
+class ListValue(msgspec.Struct, frozen=True):
+    """`[item, ..]`"""
+
+    items: tuple[Value, ...]
+    span: Span
+
+
+Value: TypeAlias = Quantity | Number | Text | Boolean | NameReference | Member | Invoke | Arithmetic | ListValue

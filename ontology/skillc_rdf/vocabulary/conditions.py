@@ -48,7 +48,13 @@ class Invoke(msgspec.Struct, frozen=True, tag="invoke"):
     arguments: tuple[Expression, ...]
 
 
-Expression: TypeAlias = Literal | Variable | Individual | PropertyOf | Arithmetic | Invoke
+class ListValue(msgspec.Struct, frozen=True, tag="list"):
+    """A list of these values."""
+
+    items: tuple[Expression, ...]
+
+
+Expression: TypeAlias = Literal | Variable | Individual | PropertyOf | Arithmetic | Invoke | ListValue
 
 
 class Anything(msgspec.Struct, frozen=True, tag="anything"):

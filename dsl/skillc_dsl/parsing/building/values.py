@@ -134,6 +134,11 @@ class ValueBuilder(TreeBuilder):
         inner = children[1]
         return structs.replace(inner, span=self.over(children))  # type: ignore[type-var]
 
+    def list_value(self, children: list[Child]) -> s.ListValue:
+        """`[item, ..]`"""
+        items = tuple(self.value(child) for child in children if not isinstance(child, Token))
+        return s.ListValue(items, self.over(children))
+
     def as_name(self, child: Child) -> s.Name:
         """Return a child that the grammar guarantees to be a name."""
         if not isinstance(child, s.Name):

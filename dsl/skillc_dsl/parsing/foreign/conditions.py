@@ -73,7 +73,7 @@ FORMS = (
     inner(rf"\b(?:delete|remove)\s+(?P<a>{_NAME}\s+{_NAME}\s+{_NAME})", r"not \g<a>"),
     inner(r":=", "==", where="EQUALS"),
     inner(r"\*", "_", where="UNDERSCORE"),
-    inner(r"[\[{]\s*(?P<a>[^\]}]*?)\s*[\]}]", r"\g<a>", where="NOT"),
+    inner(r"\{\s*(?P<a>[^}]*?)\s*\}", r"\g<a>", where="NOT"),
     inner(r"\s*[,;]\s*(?=\S)", " and ", where="AND"),
     inner(r"\s*->\s*", " implies ", where="IMPLIES"),
 )

@@ -24,7 +24,6 @@ FORMS = (
     leading(
         r"for\s+\w+\s+in\s+range\(\s*(?:0\s*,\s*)?(?P<a>\d+)\s*\)\s*:?", r"repeat \g<a>", r"write `repeat \g<a> { .. }`"
     ),
-    leading(r"for\s+\w+\s+in\s+\[.*", None, "a list is a parameter of the type `[T]`, or what a function returns"),
     leading(r"if\b[^{]*\b[A-Z]\w*\(.*\breturn\b.*", None, _SEQ_FAILS),
     leading(r"if\b.*\breturn\b.*", None, "put the steps after it into `if not (C) { .. }`"),
     leading(r"do\s*\{", None, "write `while C max 10 { .. }`", "RBRACE"),

@@ -20,6 +20,7 @@ from skillc_model.conditions import (
     Individual,
     Invoke,
     IsA,
+    ListValue,
     Literal,
     Not,
     Or,
@@ -195,7 +196,7 @@ class _Explainer:
                 return name
             case Invoke(function, _):
                 return f"{function}(..)"
-            case Literal() | Individual() | Arithmetic():
+            case Literal() | Individual() | Arithmetic() | ListValue():
                 return ""
             case _:
                 assert_never(expression)

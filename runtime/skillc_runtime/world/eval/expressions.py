@@ -12,6 +12,7 @@ from skillc_model.conditions import (
     Expression,
     Individual,
     Invoke,
+    ListValue,
     Literal,
     PropertyOf,
     Term,
@@ -66,7 +67,7 @@ def find_missing_value(expression: Expression, state: WorldState, bindings: Bind
         case Arithmetic(_, left, right):
             lacking = left if compile_expression(left)(state, bindings) is None else right
             return find_missing_value(lacking, state, bindings)
-        case Invoke(_, arguments):
+        case Invoke(_, arguments) | ListValue(arguments):
             lost = (each for each in arguments if compile_expression(each)(state, bindings) is None)
             first = next(lost, None)
             return expression if first is None else find_missing_value(first, state, bindings)
@@ -86,7 +87,7 @@ def type_of(expression: Expression, vocabulary: Vocabulary) -> ValueType | None:
             return vocabulary.functions[function].result if function in vocabulary.functions else None
         case Arithmetic("+" | "-" as sign, left, right):
             return _type_of_sum(sign, type_of(left, vocabulary), type_of(right, vocabulary))
-        case Arithmetic() | Literal() | Variable() | Individual():
+        case Arithmetic() | Literal() | Variable() | Individual() | ListValue():
             return None
         case _:
             assert_never(expression)
@@ -117,6 +118,8 @@ def compile_expression(expression: Expression) -> ExpressionFunction:
             return _property(compile_expression(of), property_)
         case Arithmetic(sign, left, right):
             return _arithmetic(sign, compile_expression(left), compile_expression(right))
+        case ListValue(items):
+            return _list(tuple(compile_expression(item) for item in items))
         case Invoke(function, arguments):
             return _invocation(function, tuple(compile_expression(argument) for argument in arguments))
         case _:
@@ -180,6 +183,14 @@ def _arithmetic(sign: str, left: ExpressionFunction, right: ExpressionFunction) 
         if sign == "/" and not np.all(other):
             raise EvaluationError(f"division of {one!r} by zero")
         return apply(one, other)
+
+    return compute
+
+
+def _list(items: tuple[ExpressionFunction, ...]) -> ExpressionFunction:
+    def compute(state: WorldState, bindings: Bindings) -> Value | None:
+        values = [value for item in items if (value := item(state, bindings)) is not None]
+        return tuple(values) if len(values) == len(items) else None
 
     return compute
 
