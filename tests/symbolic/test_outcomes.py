@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import msgspec
 import pytest
 from click.testing import CliRunner, Result
 
 from docs.pages import ROOT, blocks
 from skillc.cli.main import skillc
+from skillc.contract.plan import PlanPreview
 from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import find_library
 from skillc_runtime.execution.tree.stand_ins import choose_outcome
@@ -57,6 +59,8 @@ def test_a_policy_is_printed_as_json(sorting: Path) -> None:
         ("good", "lab:Rack"),
         ("scrap", "lab:Bin"),
     ]
+    preview = msgspec.convert({**planned, "sequence": 0, "text": ""}, PlanPreview)
+    assert [each.plan and each.plan[0].skill for each in preview.branches] == ["Bring", "Bring"]
     assert call("plan", "sort", "--minimise", "makespan").stdout.count("Bring") == 2
 
 

@@ -50,6 +50,19 @@ class PreviewedStep(msgspec.Struct, frozen=True):
     duration_s: float | None = None
 
 
+class PreviewedBranch(msgspec.Struct, frozen=True, kw_only=True):
+    """How a policy goes on after an outcome of its last step, and how likely that is, from 0 to 1.
+
+    `plan` is None if it is planned when the outcome comes. `duration_s` is the expected duration of the branch, in s.
+    """
+
+    outcome: str
+    likely: float
+    plan: tuple[PreviewedStep, ...] | None = None
+    duration_s: float | None = None
+    branches: tuple[PreviewedBranch, ...] = ()
+
+
 class OmittedPart(msgspec.Struct, frozen=True):
     """Things without which a plan was made, and why; `harmless` if that is proved to make no difference."""
 
@@ -64,7 +77,8 @@ class PlanPreview(msgspec.Struct, frozen=True, kw_only=True):
 
     `failure` and `causes` say why there is no plan. `optimal` is what is proved of a plan, `at_least_s` the lower bound
     of what was minimised. `duration_s` is the work of all steps, `makespan_s` the time until the last one ends. `space`
-    is what is known of the plan in space, None if nobody has looked.
+    is what is known of the plan in space, None if nobody has looked. A policy goes on with one of its `branches`, and
+    takes `worst_s` if always the longest comes.
     """
 
     status: Literal["solved", "unsolvable", "gave-up"]
@@ -86,3 +100,5 @@ class PlanPreview(msgspec.Struct, frozen=True, kw_only=True):
     causes: tuple[str, ...] = ()
     searched: bool | None = None
     space: SpaceClaim | None = None
+    branches: tuple[PreviewedBranch, ...] = ()
+    worst_s: float | None = None

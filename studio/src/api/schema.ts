@@ -3037,7 +3037,8 @@ export interface components {
          *
          *         `failure` and `causes` say why there is no plan. `optimal` is what is proved of a plan, `at_least_s` the lower bound
          *         of what was minimised. `duration_s` is the work of all steps, `makespan_s` the time until the last one ends. `space`
-         *         is what is known of the plan in space, None if nobody has looked.
+         *         is what is known of the plan in space, None if nobody has looked. A policy goes on with one of its `branches`, and
+         *         takes `worst_s` if always the longest comes.
          */
         PlanPreview: {
             /** @enum {unknown} */
@@ -3076,6 +3077,26 @@ export interface components {
             searched?: boolean | null;
             /** @default null */
             space?: components["schemas"]["SpaceClaim"] | null;
+            /** @default [] */
+            branches?: components["schemas"]["PreviewedBranch"][];
+            /** @default null */
+            worst_s?: number | null;
+        };
+        /**
+         * PreviewedBranch
+         * @description How a policy goes on after an outcome of its last step, and how likely that is, from 0 to 1.
+         *
+         *         `plan` is None if it is planned when the outcome comes. `duration_s` is the expected duration of the branch, in s.
+         */
+        PreviewedBranch: {
+            outcome: string;
+            likely: number;
+            /** @default null */
+            plan?: components["schemas"]["PreviewedStep"][] | null;
+            /** @default null */
+            duration_s?: number | null;
+            /** @default [] */
+            branches?: components["schemas"]["PreviewedBranch"][];
         };
         /**
          * PreviewedStep

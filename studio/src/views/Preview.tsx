@@ -1,6 +1,7 @@
 // A plan before it runs: its steps, what is proved of it, and what was left out; or why there is none.
 import type { PlanPreview } from "../api/types";
 import { posturesOf, shownStep } from "../state/plan_step";
+import { previewRows, type PreviewRow } from "../state/policy";
 import { describePlan, formatTime } from "../state/text";
 import { PlaceLink } from "./links";
 import { NothingToDo } from "./NothingToDo";
@@ -15,15 +16,8 @@ export function Preview({ preview }: { preview: PlanPreview }) {
       </h3>
       {preview.plan.length === 0 && <NothingToDo />}
       <ol class="preview">
-        {preview.plan.map((each, index) => (
-          <li key={index} class="preview-step">
-            <StepNumber preview={preview} step={index + 1} />
-            <span>{each.skill}</span>
-            <Source text={each.source} />
-            <span class="plan-arguments muted small truncate" title={argumentsOf(each.arguments)}>
-              {argumentsOf(each.arguments)}
-            </span>
-          </li>
+        {previewRows(preview).map((row, index) => (
+          <Row key={index} preview={preview} row={row} />
         ))}
       </ol>
       {preview.assumptions.map((each) => (
@@ -38,9 +32,34 @@ export function Preview({ preview }: { preview: PlanPreview }) {
   );
 }
 
+/** A step, or what may come of the step before it: what lies in a branch is indented. */
+function Row({ preview, row }: { preview: PlanPreview; row: PreviewRow }) {
+  const indent = { marginLeft: `${row.depth * INDENT_PX}px` };
+  if (row.kind !== "step")
+    return (
+      <li class={row.kind === "outcome" ? "small" : "small muted"} style={indent}>
+        {row.text}
+      </li>
+    );
+  const { arguments: given, skill, source } = row.step;
+  return (
+    <li class="preview-step" style={indent}>
+      <StepNumber preview={preview} step={row.number} depth={row.depth} />
+      <span>{skill}</span>
+      <Source text={source} />
+      <span class="plan-arguments muted small truncate" title={argumentsOf(given)}>
+        {argumentsOf(given)}
+      </span>
+    </li>
+  );
+}
+
+const INDENT_PX = 16;
+
 /** The number of a step; one whose postures are known shows them in the 3-D view, and hides them again. */
-function StepNumber({ preview, step }: { preview: PlanPreview; step: number }) {
-  if (posturesOf(preview.space, step).length === 0) return <span class="muted small mono">{step}</span>;
+function StepNumber({ preview, step, depth }: { preview: PlanPreview; step: number; depth: number }) {
+  if (depth > 0 || posturesOf(preview.space, step).length === 0)
+    return <span class="muted small mono">{step}</span>;
   const isShown = shownStep.value === step;
   const name = `${isShown ? "Hide" : "Show"} the postures of step ${step}`;
   return (
