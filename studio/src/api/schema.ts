@@ -3083,22 +3083,6 @@ export interface components {
             worst_s?: number | null;
         };
         /**
-         * PreviewedBranch
-         * @description How a policy goes on after an outcome of its last step, and how likely that is, from 0 to 1.
-         *
-         *         `plan` is None if it is planned when the outcome comes. `duration_s` is the expected duration of the branch, in s.
-         */
-        PreviewedBranch: {
-            outcome: string;
-            likely: number;
-            /** @default null */
-            plan?: components["schemas"]["PreviewedStep"][] | null;
-            /** @default null */
-            duration_s?: number | null;
-            /** @default [] */
-            branches?: components["schemas"]["PreviewedBranch"][];
-        };
-        /**
          * PreviewedStep
          * @description A step of a plan: its skill, its arguments in short names, where the skill is defined, and when it runs, in s.
          *
@@ -3124,6 +3108,22 @@ export interface components {
             what: string[];
             why: string;
             harmless: boolean;
+        };
+        /**
+         * PreviewedBranch
+         * @description How a policy goes on after an outcome of its last step, and how likely that is, from 0 to 1.
+         *
+         *         `plan` is None if it is planned when the outcome comes. `duration_s` is the expected duration of the branch, in s.
+         */
+        PreviewedBranch: {
+            outcome: string;
+            likely: number;
+            /** @default null */
+            plan?: components["schemas"]["PreviewedStep"][] | null;
+            /** @default null */
+            duration_s?: number | null;
+            /** @default [] */
+            branches?: components["schemas"]["PreviewedBranch"][];
         };
         /**
          * RunResult
