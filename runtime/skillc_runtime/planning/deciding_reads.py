@@ -1,15 +1,16 @@
 """What a step reads of the facts that others write: as few as are enough to keep its conditions as they are.
 
 Of an `exists` that holds, one individual is enough, of an `or`, one part; a `forall` that holds reads of each
-individual what keeps the body. As long as these facts stay, the condition does, whatever else changes.
+individual what keeps the body; of a transitive relation that holds, one chain is enough. As long as these facts stay,
+the condition does, whatever else changes.
 """
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import defaultdict, deque
 from collections.abc import Collection, Iterable, Sequence
 
-from skillc_model.conditions import And, Condition, Exists, Forall, Not, Or
+from skillc_model.conditions import And, Condition, Exists, Forall, Holds, Individual, Not, Or, Term, Variable
 from skillc_model.read_write import FactPattern, facts_read
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import Bindings
@@ -57,6 +58,10 @@ class DecidingReads:
                     return self._read_in(condition, state, bindings)
                 each = [(body, {**bindings, variable: individual}) for individual in sorted(members)]
                 return self._combine(each, isinstance(condition, Exists), state)
+            case Holds(relation=relation) if relation in state.axioms.transitive:
+                if (chain := _find_chain(condition, state, bindings)) is None:
+                    return self._read_in(condition, state, bindings)
+                return frozenset(filter(self._is_written, chain))
             case _:
                 return self._read_in(condition, state, bindings)
 
@@ -87,6 +92,38 @@ class DecidingReads:
             return bool(self._written)
         found: Collection[FactPattern] = (*self._written.get(pattern.term, ()), *self._written.get(None, ()))
         return any(pattern.meets(each) for each in found)
+
+
+def _find_chain(condition: Holds, state: WorldState, bindings: Bindings) -> Reads | None:
+    """Return the stated facts of a chain from which a transitive relation of two individuals follows, if it does."""
+    start, end = (_individual(each, bindings) for each in (condition.subject, condition.object))
+    if start is None or end is None:
+        return None
+    links = [(each, state.asserted.get(each.relation)) for each in state.axioms.sources[condition.relation]]
+    came: dict[str, Reads] = {start: frozenset()}
+    waiting = deque([start])
+    while waiting:
+        here = waiting.popleft()
+        for source, index in links:
+            if index is None:
+                continue
+            for other in (index.backward if source.flipped else index.forward).get(here):
+                if other not in came:
+                    came[other] = came[here] | {FactPattern(source.relation, *source.ends(here, other))}
+                    waiting.append(other)
+                if other == end:
+                    return came[here] | {FactPattern(source.relation, *source.ends(here, other))}
+    return None
+
+
+def _individual(term: Term, bindings: Bindings) -> str | None:
+    match term:
+        case Individual(iri):
+            return iri
+        case Variable(name) if isinstance(bindings.get(name), str):
+            return str(bindings[name])
+        case _:
+            return None
 
 
 def _in(part: tuple[Condition, Bindings], state: WorldState) -> tuple[Condition, WorldState, Bindings]:

@@ -155,7 +155,7 @@ class NearestChanges:
     ) -> tuple[Way, ...]:
         """Return what ways to make a formula true lack, those that lack the least first; none if it has no way."""
         self._limit.check()
-        if self._grounding.is_possible(self._grounding.reduce(formula, values)):
+        if self._grounding.can_hold(formula, values):
             return NOTHING
         match formula:
             case Atom():

@@ -90,7 +90,7 @@ class PartialBindings:
         return self._members[type_]
 
     def _is_possible(self, part: Formula, values: Values) -> bool:
-        return self._grounding.is_possible(self._grounding.reduce(part, values))
+        return self._grounding.can_hold(part, values)
 
     def _choose(
         self, open_: Mapping[str, str], read: Sequence[tuple[Formula, frozenset[str]]], values: Values

@@ -6,12 +6,13 @@ The reachable atoms are computed with deletions ignored.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import product
 from typing import TypeAlias, assert_never
 
 import msgspec
+from msgspec.structs import replace
 
 from skillc_model.pddl.domain import Action, ComputedCost, FixedCost
 from skillc_model.pddl.formulas import (
@@ -76,16 +77,26 @@ class Grounding:
 
     @cached_property
     def actions(self) -> tuple[GroundAction, ...]:
-        """All ground actions that may apply; computing them completes `reachable`."""
+        """All ground actions that may apply; computing them completes `reachable`.
+
+        What can never be true is left out of their preconditions: nested quantifiers would have very many parts.
+        """
         found: dict[tuple[str, ...], GroundAction] = {}
+        bound: dict[tuple[str, ...], tuple[Action, Values]] = {}
         grown = True
         while grown:
             grown = False
             for action in self._problem.domain.actions:
-                for ground in tuple(self._ground(action, found)):
+                for ground, values in tuple(self._ground(action, found)):
                     found[ground.words] = ground
+                    bound[ground.words] = action, values
                     grown |= self._add_reachable(ground)
-        return tuple(found[words] for words in sorted(found))
+        return tuple(self._complete(found[words], *bound[words]) for words in sorted(found))
+
+    def _complete(self, ground: GroundAction, action: Action, values: Values) -> GroundAction:
+        """Return a ground action with its precondition; all that is reachable is known."""
+        condition = conjunction((action.precondition, action.hold))
+        return replace(ground, precondition=self.reduce(condition, values, self.reachable))
 
     def explore(self) -> None:
         """Compute `reachable` with the effects of all actions."""
@@ -95,28 +106,50 @@ class Grounding:
         """Return the goal with its static atoms evaluated; FALSE if it can never hold."""
         return self.reduce(self._problem.goal, {})
 
-    def reduce(self, formula: Formula, values: Values) -> Formula:
-        """Return a formula with its variables bound, quantifiers expanded and static atoms evaluated."""
+    def reduce(self, formula: Formula, values: Values, within: Collection[Atom] | None = None) -> Formula:
+        """Return a formula with its variables bound, quantifiers expanded and static atoms evaluated.
+
+        Of the others, those that are not `within` these, if given, are never true.
+        """
         match formula:
             case Atom(predicate, terms):
                 atom = Atom(predicate, tuple(values.get(term, term) for term in terms))
-                return self._reduce_atom(atom)
+                return self._reduce_atom(atom, within)
             case Equal(left, right):
                 return TRUE if values.get(left, left) == values.get(right, right) else FALSE
             case Negation(body):
-                return _negate(self.reduce(body, values))
+                return _negate(self.reduce(body, values, within))
             case Conjunction(parts):
-                return conjunction(self.reduce(part, values) for part in parts)
+                return conjunction(self.reduce(part, values, within) for part in parts)
             case Disjunction(parts):
-                return disjunction(self.reduce(part, values) for part in parts)
+                return disjunction(self.reduce(part, values, within) for part in parts)
             case Existential(variable, body):
                 self._cancel.check()
                 names = self._members[variable.type]
-                return disjunction(self.reduce(body, {**values, variable.name: name}) for name in names)
+                return disjunction(self.reduce(body, {**values, variable.name: name}, within) for name in names)
             case Universal(variable, body):
                 self._cancel.check()
                 names = self._members[variable.type]
-                return conjunction(self.reduce(body, {**values, variable.name: name}) for name in names)
+                return conjunction(self.reduce(body, {**values, variable.name: name}, within) for name in names)
+            case _:
+                assert_never(formula)
+
+    def can_hold(self, formula: Formula, values: Values) -> bool:
+        """Whether a formula, its variables bound, can be true with the reachable atoms, deletions ignored."""
+        match formula:
+            case Atom(predicate, terms):
+                atom = Atom(predicate, tuple(values.get(term, term) for term in terms))
+                return atom in (self.reachable if predicate in self._changing else self._static)
+            case Equal() | Negation():
+                return self.is_possible(self.reduce(formula, values))
+            case Conjunction(parts):
+                return all(self.can_hold(part, values) for part in parts)
+            case Disjunction(parts):
+                return any(self.can_hold(part, values) for part in parts)
+            case Existential(variable, body) | Universal(variable, body):
+                self._cancel.check()
+                each = (self.can_hold(body, {**values, variable.name: name}) for name in self._members[variable.type])
+                return any(each) if isinstance(formula, Existential) else all(each)
             case _:
                 assert_never(formula)
 
@@ -124,7 +157,7 @@ class Grounding:
         """Yield the bindings of an action's parameters that extend `start` and make the conditions reachable."""
         whole = conjunction(conditions)
         bindings = self._bindings(action, conjuncts(whole), start)
-        yield from (values for values in bindings if self.is_possible(self.reduce(whole, values)))
+        yield from (values for values in bindings if self.can_hold(whole, values))
 
     def find_partners(self, atom: Atom, variable: str, values: Values) -> Iterator[str]:
         """Yield the values of a variable with which an atom is reachable, whose other variables have `values`."""
@@ -171,23 +204,24 @@ class Grounding:
     def _member_sets(self) -> dict[str, frozenset[str]]:
         return {type_: frozenset(names) for type_, names in self._members.items()}
 
-    def _reduce_atom(self, atom: Atom) -> Formula:
+    def _reduce_atom(self, atom: Atom, within: Collection[Atom] | None) -> Formula:
         if atom.predicate not in self._changing:
             return TRUE if atom in self._static else FALSE
-        return atom
+        return atom if within is None or atom in within else FALSE
 
-    def _ground(self, action: Action, known: Mapping[tuple[str, ...], GroundAction]) -> Iterator[GroundAction]:
+    def _ground(
+        self, action: Action, known: Mapping[tuple[str, ...], GroundAction]
+    ) -> Iterator[tuple[GroundAction, Values]]:
+        """Yield the actions that may apply with the atoms that are reachable so far, still without preconditions."""
         condition = conjunction((action.precondition, action.hold))
         for values in self._bindings(action, conjuncts(condition), {}):
             self._cancel.check()
             words = (action.name, *(values[each.name] for each in action.parameters))
             if words in known:
-                yield known[words]
-                continue
-            precondition = self.reduce(condition, values)
-            if self.is_possible(precondition):
+                yield known[words], values
+            elif self.can_hold(condition, values):
                 effects = tuple(each for change in action.effects for each in self._ground_effects(change, values))
-                yield GroundAction(words, precondition, effects, self._units(action, values))
+                yield GroundAction(words, TRUE, effects, self._units(action, values)), values
 
     def is_possible(self, formula: Formula) -> bool:
         """Whether a reduced formula can be true with the reachable atoms, deletions ignored."""
