@@ -42,6 +42,7 @@ def iterate_on_rack() -> Iterator[FreePlace]:
     return list_free_places(held(*shelf_on_table(0.45, 2)), lab("Panda-1"), lab("Hand-1"), PART, lab("Rack"))
 
 
+@pytest.mark.slow
 def test_places_begin_where_things_are_put_without_a_choice_and_are_spread_over_the_supports() -> None:
     found = list(iterate_on_rack())
     top = [each.hand for each in found if each.support.board == 0]
