@@ -9,8 +9,10 @@ import numpy as np
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.compliance import Push, yield_along
 from skillc_runtime.primitives.primitive import SkillFailure, Status
+from skillc_runtime.primitives.touch_guard import find_corners, find_nearest
 from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 from skillc_runtime.world.state.labels.labelling import label
+from skillc_runtime.world.state.terms import DEPTH
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
@@ -24,7 +26,10 @@ SUPPORT_N, SUPPORT_M = 4.0, 0.03
 """With which force it is felt whether something carries a held thing, and how far it is lowered for that."""
 
 NOTHING_N: Final = SUPPORT_N / 2
-"""Less than this that pulls does not spoil how gently it presses."""
+"""Less than this that is felt of nothing does not spoil how gently it presses."""
+
+CLEAR_M: Final = 0.005
+"""What is believed to be further away than this does not touch a held thing."""
 
 SINKING_M_S: Final = 0.005
 """A thing that sinks faster than this while it is pressed down is not carried."""
@@ -76,13 +81,13 @@ class PressOnSupport(Push):
 class SupportCheck:
     """Feels whether something carries a held `object` at `to`: the arm yields, lowers it gently and presses on it.
 
-    An arm that believes to be heavier than it is would lift the object. As nothing that carries it pulls it down, it is
-    tared before if it feels that; what it feels else may be a contact with what carries the object already.
+    An arm that does not know its weight exactly would lift the object, or press too hard. So it is tared before if it
+    feels something though nothing is believed to be near; else that may be what carries the object already.
     """
 
     def __init__(self, cell: Cell, arm: str, object: str, to: str) -> None:
         self._press = PressOnSupport(cell, arm=arm, along=UP, object=object, to=to, force=SUPPORT_N, travel=SUPPORT_M)
-        self._cell, self._arm, self._object = cell, cell.arm(arm), object
+        self._cell, self._arm, self._object, self._to = cell, cell.arm(arm), object, to
         self._runs, self._tares, self._height_m = False, False, 0.0
 
     def start(self) -> None:
@@ -90,7 +95,7 @@ class SupportCheck:
         raise_fault(self._arm)
         self._runs = False
         felt = self._arm.measured.felt
-        self._tares = felt is not None and float(felt[2]) < -NOTHING_N
+        self._tares = felt is not None and abs(float(felt[2])) > NOTHING_N and self._is_clear()
         self._try_to_yield()
 
     def is_carried(self) -> bool:
@@ -110,6 +115,14 @@ class SupportCheck:
                 object=label(self._object, self._cell.world.snapshot().vocabulary),
             )
         return carried
+
+    def _is_clear(self) -> bool:
+        """Whether nothing is believed to be so near to the object that it touches that: no walls of a hole either."""
+        state = self._cell.world.snapshot()
+        if state.value(self._to, DEPTH) is not None:
+            return False
+        _, far_m = find_nearest(state, find_corners(state, self._object, self._arm.measured.pose))
+        return far_m > CLEAR_M
 
     def _try_to_yield(self) -> None:
         """Begin to lower it, once the arm is tared where it is to be; SkillFailure if it cannot yield upwards."""

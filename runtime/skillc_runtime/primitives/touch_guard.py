@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from skillc_runtime.motion.pose import Array
+from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.primitives.primitive import SkillFailure, SpaceLacking
 from skillc_runtime.primitives.touched_obstacles import note_obstacle
@@ -24,6 +24,7 @@ from skillc_runtime.world.state.terms import HAS_GRIPPER, TOUCHED_OBSTACLE
 
 if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
+    from skillc_runtime.world.state.world_state import WorldState
 
 RESISTANCE_N: Final = 15.0
 """The greatest force against a motion unless it is stated: more than arms feel by mistake, from noise or a wrong weight
@@ -86,11 +87,11 @@ class TouchGuard:
         state = self._cell.world.snapshot()
         words = state.vocabulary
         thing = next(filter(None, (self._cell.gripper(each).holding for each in self._grippers)), None)
-        points = self._tips if thing is None else self._corners_of(thing)
+        points = self._tips if thing is None else find_corners(state, thing, self._arm.measured.pose)
         ahead = points @ self._way
         height_m = float(points[ahead > ahead.max() - KNOWN_M / 10][:, 2].mean())
         named: dict[str, LabelledValue] = {}
-        nearest, far_m = self._find_nearest(points)
+        nearest, far_m = find_nearest(state, points)
         if far_m > KNOWN_M:
             there = "nothing is known to be there"
         else:
@@ -126,23 +127,23 @@ class TouchGuard:
                 points += [tool.apply(np.array([0.0, side * half_m, tip_m])) for side in (-1.0, 1.0)]
         return np.array(points)
 
-    def _corners_of(self, thing: str) -> Array:
-        """Return the corners (8, 3) in m in the world of the box of what is held; the tool's point without a size."""
-        tool, state = self._arm.measured.pose, self._cell.world.snapshot()
-        try:
-            extent = size(state, thing)
-        except FrameError:
-            return tool.position[None, :]
-        held = tool @ working_face(extent).inverse()
-        corners: Array = CORNERS * extent / 2 @ held.rotation.T + held.position
-        return corners
 
-    def _find_nearest(self, points: Array) -> tuple[str, float]:
-        """Return what is believed to be nearest to one of points (n, 3) in m, and how far it is from there in m."""
-        found = [
-            (box.distance(points), each.individual)
-            for each in read_occupants(self._cell.world.snapshot())
-            for box in each.boxes
-        ]
-        far_m, nearest = min(found, default=(np.inf, ""))
-        return nearest, float(far_m)
+def find_corners(state: WorldState, thing: str, tool: Pose) -> Array:
+    """Return the corners (8, 3) in m in the world of the box of what is held; the tool's point without a size.
+
+    tool: the tool centre point in the world.
+    """
+    try:
+        extent = size(state, thing)
+    except FrameError:
+        return tool.position[None, :]
+    held = tool @ working_face(extent).inverse()
+    corners: Array = CORNERS * extent / 2 @ held.rotation.T + held.position
+    return corners
+
+
+def find_nearest(state: WorldState, points: Array) -> tuple[str, float]:
+    """Return what is believed to be nearest to one of points (n, 3) in m in the world, and how far it is, in m."""
+    found = [(box.distance(points), each.individual) for each in read_occupants(state) for box in each.boxes]
+    far_m, nearest = min(found, default=(np.inf, ""))
+    return nearest, float(far_m)
