@@ -10,7 +10,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from skillc_compiler.program.types import Type
+from skillc_compiler.program.types import Thing, Type
 from skillc_compiler.program.unknown import LostNames, UnknownName
 from skillc_dsl import syntax as s
 from skillc_dsl.editions import NEWEST
@@ -26,7 +26,7 @@ from skillc_model.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_rdf.vocabulary.types import ClassType, ValueType, Vocabulary
+from skillc_rdf.vocabulary.types import ValueType, Vocabulary
 
 
 class TypedExpression(msgspec.Struct, frozen=True):
@@ -46,7 +46,7 @@ class TypedExpression(msgspec.Struct, frozen=True):
         """The condition that a property of a thing has a value, or a functional relation leads somewhere; else None."""
         match self.meaning:
             case PropertyOf(of=Variable() | Individual() as of, property=iri):
-                return Holds(of, iri, Anything()) if isinstance(self.type, ClassType) else HasProperty(of, iri)
+                return Holds(of, iri, Anything()) if isinstance(self.type, Thing) else HasProperty(of, iri)
             case _:
                 return None
 
