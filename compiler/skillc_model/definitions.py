@@ -15,9 +15,11 @@ from skillc_model.conditions import (
     And,
     Anything,
     Condition,
+    Effect,
     Exists,
     Expression,
     Forall,
+    ForEach,
     Holds,
     IsA,
     Not,
@@ -55,6 +57,11 @@ class Expansion(NamedTuple):
         negated, the relation is left as it is, and planners refuse it.
         """
         return self._expand(condition, {}, negated=False)
+
+    def exactly(self, condition: Condition) -> Condition:
+        """Return an equivalent condition; a definition that is not written out often enough is left as it is."""
+        known = {iri: each for iri, each in self.definitions.items() if not each.group or iri in self.exact}
+        return self._replace(definitions=known).of(condition)
 
     def _expand(self, condition: Condition, used: Mapping[tuple[str, ...], int], *, negated: bool) -> Condition:
         match condition:
@@ -146,4 +153,8 @@ def _expanded(one: DescribedT, expansion: Expansion) -> DescribedT:
     def changed(requirements: tuple[Requirement, ...]) -> tuple[Requirement, ...]:
         return tuple(structs.replace(each, condition=expansion.of(each.condition)) for each in requirements)
 
-    return structs.replace(one, pre=changed(one.pre), hold=changed(one.hold))
+    def decided(effect: Effect) -> Effect:
+        return structs.replace(effect, when=expansion.exactly(effect.when)) if isinstance(effect, ForEach) else effect
+
+    post = tuple(structs.replace(each, effects=tuple(map(decided, each.effects))) for each in one.post)
+    return structs.replace(one, pre=changed(one.pre), hold=changed(one.hold), post=post)

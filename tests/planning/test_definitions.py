@@ -14,7 +14,7 @@ from skillc_compiler.pipeline import compile as compile_sources
 from skillc_dsl.source import Source
 from skillc_model.conditions import And, Condition, Holds, Individual, Not
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable
+from skillc_runtime.planning.plan import GaveUp, Solved, Step, Unsolvable
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import apply_step
@@ -55,6 +55,14 @@ skill Close {
     post tray.isOpen == false
     duration 1 s
 }
+## Close all that stands in `place`.
+skill CloseAll {
+    in   place: Place
+    pre  exists w: Ware (w standsIn place)
+    post forall t: Tray (t.isOpen == false when t standsIn place)
+    duration 3 s
+}
+impl close of CloseAll { run python "skillc.primitives:StandIn" }
 impl move of Move { run python "skillc.primitives:StandIn" }
 impl close of Close { run python "skillc.primitives:StandIn" }
 """
@@ -235,6 +243,20 @@ def test_where_longer_chains_are_possible_than_are_planned_with_nothing_is_prove
     answer = solve(LIBRARY, world(LIBRARY, lies, frozenset()), as_goal([("inside", "W1", "P2", True)]), (AStar(),))
     assert isinstance(answer, Solved) and len(answer.plan.steps) == 1
     assert [each.what for each in answer.left_out if each.kind == "chains"] == [("longer chains",)]
+
+
+@pytest.mark.slow
+def test_an_effect_on_many_may_ask_for_it() -> None:
+    state = world(LIBRARY, {"W1": "P1", "T1": "P1", "T2": "T1", "T3": "P2"}, frozenset({"T1", "T2", "T3"}))
+    closed = And(tuple(as_goal([("isSafe", each, "P1", True)]) for each in ("T2", "W1")))
+    answer = solve(LIBRARY, state, closed, (AStar(),))
+    assert isinstance(answer, Solved), answer
+    after = state
+    for step in answer.plan.steps:
+        after = apply_step(step, LIBRARY, after)
+    assert evaluate(closed, after, {})
+    all_closed = apply_step(Step("CloseAll", {"place": NS + "P1"}), LIBRARY, state)
+    assert [all_closed.value(NS + each, NS + "isOpen") for each in ("T1", "T2", "T3")] == [False, False, True]
 
 
 def test_a_relation_that_does_not_hold_says_what_is_missing() -> None:

@@ -23,7 +23,7 @@ from skillc_model.pddl.formulas import (
     rename_terms,
 )
 from skillc_model.pddl.names import make_unique, make_variable
-from skillc_model.pddl.translate import BoundVariable, NeedsNumbers, Scope, Translator
+from skillc_model.pddl.translate import BoundVariable, NeedsNumbers, Scope, Translator, Untranslatable
 from skillc_model.read_write import UniqueSide, unique_sides
 from skillc_model.rewriting import substitute
 from skillc_rdf.vocabulary.closure import Directed
@@ -45,8 +45,9 @@ def bind_each(each: ForEach, translator: Translator, scope: Scope) -> BoundEach:
     inner, named = {**scope, name: place}, {each.variable: Variable(name)}
     try:
         when = translator.formula(substitute(each.when, named), inner)
-    except NeedsNumbers as reason:
-        raise NeedsNumbers(f"has an effect whose condition {reason}") from reason
+    except Untranslatable as reason:
+        error = NeedsNumbers if isinstance(reason, NeedsNumbers) else Untranslatable
+        raise error(f"its effect on each `{each.variable}` depends on a condition that {reason}") from reason
     condition = conjunction((translator.membership(each.cls, place), when))
     return BoundEach(place, condition, inner, substitute(each.effect, named))
 
