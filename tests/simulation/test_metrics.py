@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfiltfilt
 
-from skillc_runtime.backends.simulation.truth.recorder import COLUMNS
+from skillc_runtime.backends.simulation.truth.recorder import COLUMNS, ToolRecorder, put_reference, record
 from skillc_runtime.devices.ground_truth import Recording
 from skillc_runtime.evaluation.metrics.wiping import WipingSetup, filter_high_pass, measure_wiping
 from skillc_runtime.motion.coverage import CoverageMap
@@ -133,3 +133,20 @@ def test_of_strokes_with_lifts_between_them_only_what_is_wiped_counts() -> None:
     assert parted.first_impact_n == 25.0
     assert parted.duration_s == 2.0
     assert parted.coverage == pytest.approx((0.05 / 0.30) * 0.75, abs=0.001)
+
+
+def test_a_recording_keeps_all_steps_and_references_when_its_room_is_doubled() -> None:
+    truth, reference, count = np.zeros(11), np.full((8, 3), 2.0), np.zeros(1)
+    recorder = ToolRecorder(truth, expected_steps=2)
+    steps, sampled = recorder.make_memory(), recorder.make_references(reference, reference, SURFACE, count, count)
+    for number in range(9):
+        truth[:] = number
+        if not record(steps, float(number)):
+            steps = recorder.make_memory()
+            sampled = recorder.make_references(reference, reference, SURFACE, count, count)
+            assert record(steps, float(number))
+        put_reference(sampled, float(number))
+    made = recorder.recording()
+    assert made.time.tolist() == made.force.tolist() == [*range(9)]
+    assert made.position[:, 2].tolist() == [*range(9)]
+    assert made.reference == pytest.approx(np.tile(SURFACE.apply(np.full(3, 2.0)), (9, 1)))

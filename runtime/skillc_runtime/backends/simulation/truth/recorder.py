@@ -86,8 +86,8 @@ class ToolRecorder:
     def make_memory(self) -> RecordedSteps:
         """Return what `record` works on, with room for further steps."""
         if self._steps == len(self._rows):
-            self._rows = np.concatenate([self._rows, np.empty_like(self._rows)])
-            self._asked = np.concatenate([self._asked, np.empty_like(self._asked)])
+            self._rows = _double(self._rows, self._steps)
+            self._asked = _double(self._asked, int(self._asked_count[0]))
         return RecordedSteps(self._rows, self._count, self._truth)
 
     def make_references(self, rows: Array, path: Array, base: Pose, greatest: Array, steps: Array) -> SampledReference:
@@ -119,3 +119,10 @@ class ToolRecorder:
         rows.flags.writeable = False
         self._made = Recording(rows)
         return self._made
+
+
+def _double(rows: Array, filled: int) -> Array:
+    """Return twice as many rows (n, m), of which the first ones are as here; the others are no memory yet."""
+    more = np.empty((2 * len(rows), rows.shape[1]))
+    more[:filled] = rows[:filled]
+    return more
