@@ -1,12 +1,14 @@
 """What a step of the physics costs, in calibration steps: a weld holds the tool, or it is a part of the hand.
 
 Both start from the same instants of one task: on the way, and sliding in contact. Beside the steps of a cell, which
-show their state in its data, stand bare steps of the model with which they are computed.
+show their state in its data, stand bare steps of the model with which they are computed, and of one that is less than
+a wipe needs: without sensors, and with no contacts but those of working faces.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import copy
 from time import process_time
 from typing import Any
 
@@ -16,6 +18,7 @@ from _calibration import calibration_step_us
 from _whole_task import run_recorded
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.simulation.model.contact_bits import CARRIES, WORKS
 
 TASKS = {"clean_table": (10.0, 30.0), "clean_whiteboard": (28.0, 50.0)}
 """When the tool is on its way and when it slides, in s."""
@@ -29,7 +32,7 @@ class MeasuredCell(SimulatedCell):
 
     tightens: bool
     times: list[float]
-    costs: list[tuple[float, float]]
+    costs: list[tuple[float, float, float]]
 
     def _prepare(self) -> None:
         self.physics.tightens = self.tightens
@@ -42,14 +45,19 @@ class MeasuredCell(SimulatedCell):
             self.times.pop(0)
             self.costs.append(self._measure())
 
-    def _measure(self) -> tuple[float, float]:
-        """Return what a step of the cell costs, and a bare one, in us: the median of bursts."""
+    def _measure(self) -> tuple[float, float, float]:
+        """Return what a step of the cell costs, a bare one, and one of a lesser model, in us: medians of bursts."""
         model, data = self.physics.contacts.model, self.physics.contacts.data
+        least = _reduce(model)
         states = [(each, other, _read(each, other)) for each, other in ((self.model, self.data), (model, data))]
 
         def bare() -> None:
             mujoco.mj_step2(model, data)
             mujoco.mj_step1(model, data)
+
+        def reduced() -> None:
+            mujoco.mj_step2(least, data)
+            mujoco.mj_step1(least, data)
 
         def whole() -> None:
             self.physics.move()
@@ -60,9 +68,22 @@ class MeasuredCell(SimulatedCell):
                 mujoco.mj_setState(each, other, state, STATE)
             self.physics.renew()
 
-        found = _cost_us(whole, back), _cost_us(bare, back)
+        found = _cost_us(whole, back), _cost_us(bare, back), _cost_us(reduced, back)
         back()
         return found
+
+
+def _reduce(model: Any) -> Any:
+    """Return a model without sensors, in which only working faces and what they work on collide."""
+    least = copy(model)
+    least.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_SENSOR
+    others = ~np.isin(least.geom_contype, (CARRIES, WORKS))
+    for bits in (least.geom_contype, least.geom_conaffinity):
+        bits[others] = 0
+    for bits, of_geoms in ((least.body_contype, least.geom_contype), (least.body_conaffinity, least.geom_conaffinity)):
+        bits[:] = 0
+        np.bitwise_or.at(bits, least.geom_bodyid, of_geoms)
+    return least
 
 
 def _read(model: Any, data: Any) -> Any:
@@ -82,11 +103,11 @@ def _cost_us(step: Callable[[], None], back: Callable[[], None]) -> float:
     return 1e6 * float(np.median(bursts))
 
 
-def measure(task: str, tightens: bool) -> list[tuple[float, float]]:
+def measure(task: str, tightens: bool) -> list[tuple[float, float, float]]:
     """Return the costs at the instants of a task."""
     kind = type("Measured", (MeasuredCell,), {"tightens": tightens, "times": [*TASKS[task]], "costs": []})
     run_recorded("wiping", task, kind)
-    found: list[tuple[float, float]] = kind.costs  # type: ignore[attr-defined]
+    found: list[tuple[float, float, float]] = kind.costs  # type: ignore[attr-defined]
     return found
 
 
@@ -95,6 +116,6 @@ if __name__ == "__main__":
         unit = calibration_step_us()
         pairs = zip(("on the way", "sliding"), measure(task, False), measure(task, True), strict=True)
         for phase, *costs in pairs:
-            (weld, bare_weld), (part, bare_part) = ((step / unit, bare / unit) for step, bare in costs)
-            hand = f"part of the hand {part:.2f} (bare {bare_part:.2f})"
+            (weld, bare_weld, _), (part, bare_part, least) = ([each / unit for each in steps] for steps in costs)
+            hand = f"part of the hand {part:.2f} (bare {bare_part:.2f}, of less than a wipe needs {least:.2f})"
             print(f"{task}, {phase}: weld {weld:.2f} (bare {bare_weld:.2f}), {hand} calibration steps")
