@@ -12,7 +12,8 @@ from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.tasks.loading import LoadedTask, load_task
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import Plan, Solved
-from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
+from skillc_runtime.planning.problem.chains import UnrolledProblem, unroll_chains
+from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.recording.run_spec import RunSpec
@@ -35,10 +36,15 @@ def loaded(task: str) -> LoadedTask:
 
 
 @cache
-def posed(task: str) -> PosedProblem:
+def unrolled(task: str) -> UnrolledProblem:
     aim = loaded(task).assignment.objective
     assert isinstance(aim, AchieveGoal)
-    return pose_problem(loaded(task).library, loaded(task).assignment.state, aim.goal)
+    return unroll_chains(loaded(task).library, loaded(task).assignment.state, aim.goal)
+
+
+@cache
+def posed(task: str) -> PosedProblem:
+    return unrolled(task).pose()
 
 
 @cache
@@ -78,6 +84,6 @@ def test_a_plan_without_one_of_its_steps_is_none(unified: ModuleType, task: str)
 
 @pytest.mark.parametrize("task", TASKS)
 def test_every_step_has_the_effects_that_it_has_in_the_world(unified: ModuleType, task: str) -> None:
-    wrong, tried = unified.disagreements(posed(task), loaded(task).assignment.state)
+    wrong, tried = unified.disagreements(posed(task), unrolled(task).state)
     assert wrong == []
     assert tried
