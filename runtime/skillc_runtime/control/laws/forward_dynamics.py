@@ -25,6 +25,7 @@ from skillc_runtime.control.gains import ForwardDynamicsGains, Gains
 from skillc_runtime.control.laws.task_error import (
     ACCELERATION,
     ERROR,
+    HELD,
     MEASURED,
     TWIST,
     TaskError,
@@ -192,7 +193,7 @@ def move_virtual_arm(
     for i in range(6):
         push[i] = rows[MEASURED, i] + compliance.wrench[i] - compliance.stiffness[i] * rows[ERROR, i]
     share = _watch_energy(memory, virtual, push, speeds, period)
-    if pushed < 0:
+    if pushed < 0 or rows[HELD, pushed] == 1.0:  # an axis that has become stiff again is held, and yields to nothing
         fill_tank(memory.tank)
         share = 1.0
     for i in range(6):
