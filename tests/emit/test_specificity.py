@@ -133,8 +133,8 @@ def test_subsumption_is_specificity(number: int) -> None:
         for one, other in permutations(ways, 2):
             if alike(one, other):
                 continue
-            same = [found[each.name] for each in ways if each is one or alike(each, one)]
-            below = any(found[other.name] in each.ancestors() for each in same)
+            ones, others = ([found[each.name] for each in ways if alike(each, way)] for way in (one, other))
+            below = any(wide in each.ancestors() for each in ones for wide in others)
             assert below == narrower(library, one, other), (skill.name, one.name, other.name)
             seen += 1
     assert seen
