@@ -115,7 +115,7 @@ def narrower(library: SkillLibrary, one: Implementation, other: Implementation) 
 
 
 def alike(one: Implementation, other: Implementation) -> bool:
-    """Whether two take the same arguments; owlready2 forgets which classes the reasoner found to be the same."""
+    """Whether two take the same arguments; owlready2 forgets what the reasoner found of classes that are the same."""
     return [each.type for each in one.parameters] == [each.type for each in other.parameters]
 
 
@@ -131,10 +131,9 @@ def test_subsumption_is_specificity(number: int) -> None:
         ways = library.implementations_of(skill.name)
         found = {each.name: world(number)[f"{library.namespace}{skill.name}.{each.name}"] for each in ways}
         for one, other in permutations(ways, 2):
-            if alike(one, other):
+            if alike(one, other) or all(sum(alike(each, way) for each in ways) > 1 for way in (one, other)):
                 continue
-            ones, others = ([found[each.name] for each in ways if alike(each, way)] for way in (one, other))
-            below = any(wide in each.ancestors() for each in ones for wide in others)
+            below = found[other.name] in found[one.name].ancestors()
             assert below == narrower(library, one, other), (skill.name, one.name, other.name)
             seen += 1
     assert seen
