@@ -53,7 +53,6 @@ def test_the_tool_stops_where_it_is_pushed_too_hard(scene: str) -> None:
     assert arm.fault is not None
     assert "N on the tool is beyond the 80 N" in arm.fault
     assert not arm.compliance.commanded_wrench.any()
-    there.advance(0.3)  # it comes to rest
     told = there.secure()
     assert len(told) == 2
     assert "had stopped: a force" in told[0]
