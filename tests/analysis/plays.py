@@ -16,7 +16,7 @@ relation follows(Item, Item)  transitive
 relation holds(Spot, Item)  inverse at
 property on(Item): Bool
 property level(Item): Number
-function items() -> [Item] = python "proof.actors:items"
+function items() -> [Item] = python "analysis.actors:items"
 """
 PLAIN = "    in a: Item\n    in b: Item\n    in s: Spot\n    in t: Spot\n"
 PRIMITIVES, COMPOUNDS = 5, 3
@@ -32,13 +32,13 @@ class Writer:
         """Return the text."""
         text = TERMS + "".join(self.primitive(f"P{n}") for n in range(PRIMITIVES))
         text += "skill Sense {\n" + PLAIN + "    post sensed seen: a.on == true\n    noplan\n}\n"
-        text += 'impl one of Sense { run python "proof.actors:Sensor" }\n'
+        text += 'impl one of Sense { run python "analysis.actors:Sensor" }\n'
         text += "skill Find {\n    in a: Item\n    infer any s: Spot\n    pre a touches s\n"
         text += f"    post {self.literal('a', 'a', 's', 's')}\n    noplan\n}}\n"
-        text += 'impl one of Find { run python "proof.actors:Actor" }\n'
+        text += 'impl one of Find { run python "analysis.actors:Actor" }\n'
         text += "skill Any {\n    infer any a: Item\n    in s: Spot\n    pre a.on == true\n    pre not a at s\n"
         text += f"    post {self.literal('a', 'a', 's', 's')}\n    noplan\n}}\n"
-        text += 'impl one of Any { run python "proof.actors:Actor" }\n'
+        text += 'impl one of Any { run python "analysis.actors:Actor" }\n'
         text += self.primitive("Setup", "    scoped\n")
         return text + "".join(self.compound(n) for n in range(COMPOUNDS))
 
@@ -48,7 +48,7 @@ class Writer:
         head = f"skill {name} {{\n{PLAIN}{self.needs()}{more}" + "".join(f"    post {post}\n" for post in sorted(posts))
         fallback = "    fallback\n" if self.random.random() < 0.2 else ""
         impls = "".join(
-            f'impl way{n} of {name} {{ prefer {n} run python "proof.actors:Actor" }}\n'
+            f'impl way{n} of {name} {{ prefer {n} run python "analysis.actors:Actor" }}\n'
             for n in range(self.random.randint(1, 2))
         )
         return f"{head}{fallback}    noplan\n}}\n{impls}"

@@ -37,7 +37,7 @@ from skillc_dsl.position import Position
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 from skillc_model import tree
-from skillc_model.conditions import Condition, Holds, Individual, Variable
+from skillc_model.conditions import Condition, Given, Holds, Individual, Variable
 from skillc_model.skills import SkillLibrary
 from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -218,7 +218,7 @@ def agrees(state: State, now: WorldState | None, bindings: dict[str, str]) -> bo
 def facts(state: State, bindings: dict[str, str]) -> Iterator[tuple[Condition, bool]]:
     """Yield what a state says of the parameters."""
     for fact, true in state.facts.items():
-        if free_variables(fact) <= bindings.keys():
+        if free_variables(fact) <= bindings.keys() and not isinstance(fact, Given):
             yield fact, true
     for (relation, thing, is_subject), others in state.possible.items():
         names = {thing, *others}

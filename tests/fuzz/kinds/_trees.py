@@ -65,11 +65,11 @@ property size(Item): Length
 property count(Item): Int
 property on(Item): Bool
 property word(Item): Text
-function items() -> [Item] = python "proof.actors:items"
-function levels() -> [Number] = python "proof.actors:items"
-function counts() -> [Int] = python "proof.actors:items"
-function words() -> [Text] = python "proof.actors:items"
-function spot(a: Item) -> Pose = python "proof.actors:items"
+function items() -> [Item] = python "analysis.actors:items"
+function levels() -> [Number] = python "analysis.actors:items"
+function counts() -> [Int] = python "analysis.actors:items"
+function words() -> [Text] = python "analysis.actors:items"
+function spot(a: Item) -> Pose = python "analysis.actors:items"
 """
 Parameters = list[tuple[str, str, str]]
 """Direction, name and type."""
