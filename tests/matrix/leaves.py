@@ -94,7 +94,9 @@ class LibraryLeaves(Leaves):
 
     def _value(self, path: Path, bindings: Bindings) -> Blackboard:
         expression = self._expression(path)
-        value = value_of(expression, self.stage.world.snapshot(), bindings)
+        # Ports of numbers that a call writes have text.
+        read = {name: int(value) if str(value).isdecimal() else value for name, value in bindings.items()}
+        value = value_of(expression, self.stage.world.snapshot(), read)
         return {"value": value, "value_": value}
 
     def _applied(self, implementation: Implementation, label: str, bindings: Bindings) -> Blackboard:

@@ -16,6 +16,7 @@ T = "http://example.org/t#"
 HEAD = f"""@prefix t: <{T}> . @prefix owl: <http://www.w3.org/2002/07/owl#> .
 @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> . @prefix xsd: <http://www.w3.org/2001/XMLSchema#> .
 @prefix skiros: <http://rvmi.aau.dk/ontologies/skiros.owl#> .
+@prefix skillc: <https://w3id.org/skillc/core#> .
 @prefix sumo: <http://www.inf.ufrgs.br/phi-group/ontologies/sumo.owl#> .
 """
 
