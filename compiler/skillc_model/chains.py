@@ -48,6 +48,11 @@ Depth = Callable[["Chains", str], int]
 """How many facts that skills change a chain may have to (or from, if `at_start`) something of a class."""
 
 
+def read_relation(relation: str) -> str:
+    """Return the relation that a relation for chains, or any other, stands for; both are IRIs."""
+    return relation.removesuffix(FIXED)
+
+
 class Chains(NamedTuple):
     """A transitive relation and the steps of its chains that skills change, directed as the relation.
 

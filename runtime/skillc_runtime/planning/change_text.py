@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence, Set
 from typing import assert_never
 
-from skillc_model.conditions import Individual, Not, PropertyOf
+from skillc_model.chains import read_relation
+from skillc_model.conditions import Holds, Individual, Not, PropertyOf
+from skillc_model.format_condition import format_relation
 from skillc_model.pddl.domain import (
     ClassMeaning,
     ExclusionMeaning,
@@ -19,10 +21,14 @@ from skillc_model.pddl.problem import Problem
 from skillc_model.read_write import terms_read, terms_written
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.formula_text import FormulaFormatter
-from skillc_runtime.planning.lacks import AtomReader, Lack, NearestChange
-from skillc_runtime.planning.nearest_changes import find_stated
+from skillc_runtime.planning.lacks import AtomReader, Lack, NearestChange, find_stated
 from skillc_runtime.world.eval.explain import explain
-from skillc_runtime.world.eval.obstacles import RelationObstacle, find_missing_property, find_obstacle
+from skillc_runtime.world.eval.obstacles import (
+    RelationObstacle,
+    find_missing_facts,
+    find_missing_property,
+    find_obstacle,
+)
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.quantities import placeholder
 from skillc_runtime.world.state.world_state import WorldState
@@ -61,7 +67,7 @@ class ChangeText:
             return
         match meaning:
             case GuardMeaning():
-                yield self._describe_guard(meaning, lack)
+                yield from self._describe_guard(meaning, lack, skill)
                 yield from self._describe_unused(terms_read(meaning.condition))
             case RelationMeaning(relation):
                 yield self._describe_relation(relation, lack, reader, choices)
@@ -86,6 +92,10 @@ class ChangeText:
         if classes:
             return f"{skill} needs `{shown}`, and nothing in the scene fulfils that"
         subject, object_ = (self._problem.names[each] for each in lack.atom.terms)
+        return self._describe_missing(shown, skill, subject, relation, object_)
+
+    def _describe_missing(self, shown: str, skill: str | None, subject: str, relation: str, object_: str) -> str:
+        """Return that a relation is missing, which is `shown` as text, and what to state so that it holds."""
         stated = find_stated(self._state, relation, subject, object_)
         fact = f"{self._short(subject)} {self._short(stated)} {self._short(object_)}" if stated else ""
         return f"{skill} needs `{shown}`, which does not hold" + (f": state `{fact}` if it is so" if fact else "")
@@ -103,7 +113,7 @@ class ChangeText:
             if type_ is not None and len({each[side] for each in alike}) > 1
         }
 
-    def _describe_guard(self, meaning: GuardMeaning, lack: Lack) -> str:
+    def _describe_guard(self, meaning: GuardMeaning, lack: Lack, skill: str | None) -> Iterator[str]:
         bindings = {
             variable: self._problem.names[term]
             for variable, term in zip(meaning.variables, lack.atom.terms, strict=True)
@@ -113,12 +123,24 @@ class ChangeText:
             obstacle = find_obstacle(condition, self._state, bindings)
             if obstacle is not None:
                 self.obstacles.append(obstacle)
-                return str(obstacle)
+                yield str(obstacle)
+                return
+            facts = find_missing_facts(condition, self._state, bindings)
+            for each in facts:
+                yield self._describe_missing_fact(each, skill)
+            if facts:
+                return
             missing = find_missing_property(condition, self._state, bindings)
             cure = "" if missing is None else self._describe_statement(missing)
-            return explain(condition, self._state, bindings, self._state.vocabulary) + cure
+            yield explain(condition, self._state, bindings, self._state.vocabulary) + cure
         except EvaluationError as reason:
-            return str(reason)
+            yield str(reason)
+
+    def _describe_missing_fact(self, fact: Holds, skill: str | None) -> str:
+        assert isinstance(fact.subject, Individual) and isinstance(fact.object, Individual)
+        subject, relation, object_ = fact.subject.iri, read_relation(fact.relation), fact.object.iri
+        shown = format_relation(self._short(subject), relation, self._short(object_))
+        return self._describe_missing(shown, skill, subject, relation, object_)
 
     def _describe_statement(self, missing: PropertyOf) -> str:
         """Return what to state of a property that an individual lacks; empty if it is computed."""

@@ -1,9 +1,9 @@
-"""What a planning problem lacks so that a formula can hold, and the ways to make it hold, by what they lack."""
+"""What a planning problem lacks so that a formula can hold, the ways to make it hold, and what to state for that."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import product
 from typing import TypeAlias
 
@@ -11,6 +11,7 @@ import msgspec
 
 from skillc_model.pddl.domain import Action
 from skillc_model.pddl.formulas import Atom
+from skillc_runtime.world.state.world_state import WorldState
 
 MAX_WAYS = 40
 """How many ways to make one formula true are considered, those that lack the least first."""
@@ -85,3 +86,37 @@ def sum_costs(way: Way) -> int:
 def to_order(lack: Lack) -> Order:
     """Return what lacks are sorted by."""
     return lack.atom.predicate, lack.atom.terms, lack.holds
+
+
+def is_expected(state: WorldState, relation: str, subject: str, object_: str) -> bool:
+    """Whether one of two individuals has no such relation, and at least half of the others of its classes have one."""
+
+    def lacks(individual: str, having: Callable[[str], frozenset[str]]) -> bool:
+        peers = {each for cls in state.types(individual) for each in state.instances(cls)} - {individual}
+        return not having(individual) and 2 * sum(bool(having(each)) for each in peers) >= len(peers)
+
+    return lacks(subject, lambda each: frozenset(state.objects(each, relation))) or lacks(
+        object_, lambda each: frozenset(state.subjects(relation, each))
+    )
+
+
+def find_stated(state: WorldState, relation: str, subject: str, object_: str) -> str | None:
+    """Return the relation to state so that this one holds: the narrowest that takes both; None unless there is one.
+
+    Of relations of which none is below another, that is the one whose classes are below those of the others.
+    """
+    known, above, is_a = state.vocabulary.relations, state.vocabulary.super_relations, state.vocabulary.is_a
+    sides = {
+        iri: [each for each in term.signatures if state.is_a(subject, each.domain) and state.is_a(object_, each.range)]
+        for iri, term in known.items()
+        if relation in above[iri] and not state.vocabulary.is_computed(iri)
+    }
+    fitting = [each for each in sides if sides[each]]
+    lowest = [each for each in fitting if not any(each in above[other] for other in fitting if other != each)]
+
+    def is_within(one: str, other: str) -> bool:
+        pairs = product(sides[one], sides[other])
+        return any(is_a(each.domain, wide.domain) and is_a(each.range, wide.range) for each, wide in pairs)
+
+    narrowest = [each for each in lowest if all(is_within(each, other) for other in lowest)]
+    return narrowest[0] if len(narrowest) == 1 else None

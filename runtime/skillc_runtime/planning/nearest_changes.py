@@ -6,7 +6,7 @@ What is lacking is tried: it counts if the goal can be reached, deletions ignore
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias, assert_never
 
 from msgspec.structs import replace
@@ -37,6 +37,8 @@ from skillc_runtime.planning.lacks import (
     Order,
     Way,
     combine_ways,
+    find_stated,
+    is_expected,
     keep_cheapest,
     sum_costs,
     to_order,
@@ -71,6 +73,8 @@ class NearestChanges:
         self._partial = PartialBindings(problem, grounding, limit)
         self._guards = _group_guards(problem)
         self._readers: dict[Lack, AtomReader] = {}
+        self._stated: dict[Way, Way] = {}
+        """Each change without what follows from it, as far as that was asked for."""
         self._wanted = frozenset(atoms(problem.goal))
         self._made: dict[_Literal, tuple[Way, ...]] = {}
         """What actions lack that make an atom true or false, as far as it was found where that was first needed."""
@@ -118,16 +122,25 @@ class NearestChanges:
 
     def _distance(self, way: Way) -> tuple[int, int, list[Order]]:
         """Return how far a change is: what it costs, then how near to the goal, where only consequences show."""
-        depth = max(self._readers[each].depth for each in way)
-        return sum_costs(way), -depth, sorted(map(to_order, way))
+        left = self._without_consequences(way)
+        return sum_costs(left), -max(self._readers[each].depth for each in left), sorted(map(to_order, way))
 
     def _with_readers(self, way: Way) -> NearestChange:
+        ordered = sorted(self._without_consequences(way), key=lambda each: (self._is_guard(each), to_order(each)))
+        return NearestChange(tuple((each, self._readers[each]) for each in ordered))
+
+    def _without_consequences(self, way: Way) -> Way:
         """Return a change without conditions that hold once the facts are stated that are needed with them."""
-        plain = [each for each in way if not isinstance(self._meaning(each), GuardMeaning)]
-        guards = sorted(way.difference(plain), key=to_order)
-        state = self._state.with_changes([each for lack in plain for each in self._state_fact(lack)])
-        left = [each for each in guards if not (plain and self._holds(each, state))]
-        return NearestChange(tuple((each, self._readers[each]) for each in (*sorted(plain, key=to_order), *left)))
+        if way not in self._stated:
+            guards = frozenset(filter(self._is_guard, way))
+            facts = [each for lack in way - guards for each in self._state_fact(lack)]
+            state = self._state.with_changes(facts) if guards and facts else None
+            left = guards if state is None else {each for each in guards if not self._holds(each, state)}
+            self._stated[way] = (way - guards) | left
+        return self._stated[way]
+
+    def _is_guard(self, lack: Lack) -> bool:
+        return isinstance(self._meaning(lack), GuardMeaning)
 
     def _state_fact(self, lack: Lack) -> Iterator[AddRelation]:
         meaning = self._meaning(lack)
@@ -232,35 +245,6 @@ class NearestChanges:
             cost += 2 * (relation.functional and bool(self._state.objects(subject, relation.iri)))
             cost += 2 * (relation.inverse_functional and bool(self._state.subjects(relation.iri, object_)))
         return cost
-
-
-def is_expected(state: WorldState, relation: str, subject: str, object_: str) -> bool:
-    """Whether one of two individuals has no such relation, and at least half of the others of its classes have one."""
-
-    def lacks(individual: str, having: Callable[[str], frozenset[str]]) -> bool:
-        peers = {each for cls in state.types(individual) for each in state.instances(cls)} - {individual}
-        return not having(individual) and 2 * sum(bool(having(each)) for each in peers) >= len(peers)
-
-    return lacks(subject, lambda each: frozenset(state.objects(each, relation))) or lacks(
-        object_, lambda each: frozenset(state.subjects(relation, each))
-    )
-
-
-def find_stated(state: WorldState, relation: str, subject: str, object_: str) -> str | None:
-    """Return the relation to state so that this one holds: the narrowest that takes both; None unless there is one."""
-    known = state.vocabulary.relations
-
-    def is_below(iri: str, above: str) -> bool:
-        return iri == above or any(is_below(each, above) for each in known[iri].parents if each in known)
-
-    def takes(iri: str) -> bool:
-        sides = known[iri].signatures
-        return any(state.is_a(subject, each.domain) and state.is_a(object_, each.range) for each in sides)
-
-    fitting = [each for each in known if is_below(each, relation) and not state.vocabulary.is_computed(each)]
-    fitting = [each for each in fitting if takes(each)]
-    lowest = [each for each in fitting if not any(is_below(other, each) for other in fitting if other != each)]
-    return lowest[0] if len(lowest) == 1 else None
 
 
 def _apply(problem: Problem, way: Way, guards: Mapping[str, Sequence[str]]) -> Problem:
