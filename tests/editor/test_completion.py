@@ -31,7 +31,8 @@ EXACT = [
     (
         "infer at",
         "    |",
-        f"duration hold in infer opt out outcome pause post pre range senses shares uses {' '.join(each.keyword for each in FLAGS)}",
+        "duration hold in infer opt out outcome pause post pre range senses shares uses "
+        + " ".join(each.keyword for each in FLAGS),
     ),
     ("do seq {", "        par |", "all any lead race"),
     ("do seq {", "        Move(arm, |", "target: speed:"),
