@@ -37,9 +37,11 @@ PHASES: Final = {
 """When signals become wrong: so many s after a primitive has been started for the n-th time; ends of names count."""
 
 LIMIT_N: Final = 80.0
+TOUCH_N: Final = 1.0
 PATIENCE_S: Final = 10.0
 REST_S: Final = 0.5
-"""Limit of the contact force; for how long a task goes on with a fault; when an arm that has stopped shall rest."""
+"""Limit of the contact force; the least of a touch; for how long a task goes on with a fault; when an arm that has
+stopped shall rest."""
 
 
 @dataclass(slots=True)
@@ -88,7 +90,8 @@ class Outcome:
 
     force_n: N, the greatest force of a body of the arm, its hand and its tool on anything, and `body` which one;
     noticed_s: after how many s the arm stopped, None if it did not, and why; half a second after that, speed_rad_s: of
-    the fastest joint, and left_n: N, with which the hand and what it holds press.
+    the fastest joint, and left_n: N, with which the hand and what it holds press; touched_s: after how many s a tool
+    pressed on something at all, None if none did.
     """
 
     force_n: float
@@ -97,6 +100,7 @@ class Outcome:
     reason: str
     speed_rad_s: float
     left_n: float
+    touched_s: float | None
 
     @property
     def is_safe(self) -> bool:
@@ -136,6 +140,11 @@ def judge(trial: Trial) -> Outcome:
     worst = max(touches, key=lambda each: each.peak_force_n or 0.0, default=None)
     links = 0.0 if worst is None else worst.peak_force_n or 0.0
     hands = [truth.contact_force(each.gripper.individual) for each in cell.scene.arms if each.gripper is not None]
+    pressed = [
+        float(each.time[now][0]) - trial.starts_s
+        for each in (truth.recording(tool.individual) for tool in cell.scene.tools)
+        if (now := (each.time >= trial.starts_s) & (each.force > TOUCH_N)).any()
+    ]
     return Outcome(
         force_n=max(tools, links),
         body=f"{worst.part} on {worst.other}" if worst is not None and links > tools else "tool",
@@ -143,4 +152,5 @@ def judge(trial: Trial) -> Outcome:
         reason=trial.reason,
         speed_rad_s=float(np.abs(cell.arms[trial.arm].motors.joints.dq).max()),
         left_n=max(0.0 if each is None else float(np.linalg.norm(each)) for each in hands),
+        touched_s=min(pressed, default=None),
     )
