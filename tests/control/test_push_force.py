@@ -59,7 +59,7 @@ def test_too_few_samples_have_no_mean(approach_s: float, press_s: float) -> None
         (0.0, 8.41, "the arm measured 8.41 N for 8 N"),
         (1.0, 8.0, "the arm measured 1.00 N when it touched nothing; less this error it pressed with 7.00 N for 8 N"),
         (-1.0, 7.0, "the arm measured -1.00 N when it touched nothing; less this error it pressed with 8.00 N for 8 N"),
-        (None, 8.0, "did not move far enough before contact"),
+        (None, 8.0, "did not approach steadily for long enough"),
         (0.0, None, "nothing that measures its force, or pressed too briefly"),
     ],
 )

@@ -32,8 +32,8 @@ def find_doubt(wanted_n: float, measured: MeasuredForce, tolerance: float) -> st
         return "the arm has nothing that measures its force, or pressed too briefly"
     if measured.free_n is None:
         return (
-            f"the arm measured {measured.pressed_n:.2f} N for {wanted_n:g} N, but did not move far enough before "
-            "contact to check that it measures 0 N when it touches nothing"
+            f"the arm measured {measured.pressed_n:.2f} N for {wanted_n:g} N, but did not approach steadily for "
+            "long enough to check that it measures 0 N when it touches nothing"
         )
     exerted_n, band_n = measured.pressed_n - measured.free_n, tolerance * wanted_n
     if abs(measured.free_n) > band_n:
