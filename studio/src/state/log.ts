@@ -76,7 +76,9 @@ function describePlanning(event: Of<"plan-arrived" | "plan-made" | "replanned">)
       return [`plan: ${steps || "nothing to do"} (about ${event.cost.toFixed(0)} s${quality})`, "info", 0];
     }
     case "replanned":
-      return event.sensed ? [`goes on: ${event.reason}`, "info", 0] : [`planning again: ${event.reason}`, "bad", 0];
+      return event.sensed
+        ? [`goes on: ${event.reason}`, "info", 0]
+        : [`planning again: ${event.reason}`, "bad", 0];
   }
 }
 
