@@ -65,7 +65,7 @@ def time_steps(env: SearchEnv) -> None:
         if terminated or truncated:
             break
     took_s = (process_time() - began) / done
-    cell = env._episodes._running[0].backend  # type: ignore[index]
+    cell = env._episodes.cell
     assert isinstance(cell, SimulatedCell)
     model, data = cell.model, cell.data
     bare = round(PERIOD_S / model.opt.timestep)

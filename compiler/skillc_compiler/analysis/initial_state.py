@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from skillc_compiler.analysis.binding import class_of
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
 from skillc_compiler.analysis.knowledge.assume import assume
+from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
 from skillc_compiler.analysis.knowledge.havoc import havoc
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
 from skillc_compiler.analysis.knowledge.writes import Write
@@ -63,17 +64,22 @@ def _kept_open(types: AliasTypes, implementation: Implementation, writes: frozen
 
     If one led there, it and the link would lead back to where they begin, so that the post could never hold.
     """
-    axioms = types.axioms
     for post in requirements_of(implementation, "post"):
-        for fact in conjuncts(post.condition.meaning):
-            if isinstance(fact, Holds) and isinstance(fact.subject, Variable) and isinstance(fact.object, Variable):
-                relation, turned = axioms.canonical.get(fact.relation, (fact.relation, False))
-                start, end = (fact.object, fact.subject) if turned else (fact.subject, fact.object)
-                for above, flipped in axioms.implied.get(relation, ()):
-                    back = Holds(start, above, end) if flipped else Holds(end, above, start)
-                    if above in axioms.acyclic & axioms.transitive:
-                        kept = havoc(types, State(facts={back: True}), writes)
-                        yield from [Not(back)] if back in kept.facts else []
+        for back in _chains_back(types.axioms, conjuncts(post.condition.meaning)):
+            if back in havoc(types, State(facts={back: True}), writes).facts:
+                yield Not(back)
+
+
+def _chains_back(axioms: CanonicalAxioms, facts: Iterable[Condition]) -> Iterator[Condition]:
+    """Yield the chains with which links between two names would lead back to where they begin."""
+    for fact in facts:
+        match fact:
+            case Holds(Variable() as left, named, Variable() as right):
+                relation, turned = axioms.canonical.get(named, (named, False))
+                start, end = (right, left) if turned else (left, right)
+                ways = [each for each in axioms.implied.get(relation, ()) if each[0] in axioms.acyclic]
+                chains = (each for each in ways if each[0] in axioms.transitive)
+                yield from (Holds(start, above, end) if back else Holds(end, above, start) for above, back in chains)
 
 
 def _is_irreflexive(types: AliasTypes, relation: str) -> bool:

@@ -61,12 +61,12 @@ def _find_broken_hold(
 ) -> Requirement | None:
     """Return a hold of a call that another call makes false, as far as both name the same individuals."""
     types, values = AliasTypes(program.vocabulary, axioms), _passed_terms(holding)
+    ended = [apply_write(types, State(), write) for write in summaries.writes_of_call(breaking)]
     for hold in call_requirements(program, holding, "hold"):
         condition = substitute(hold.condition.meaning, values)
-        if free_variables(hold.condition.meaning) <= values.keys():
-            for write in summaries.writes_of_call(breaking):
-                if evaluate(types, apply_write(types, State(), write), condition) is False:
-                    return hold
+        is_named = free_variables(hold.condition.meaning) <= values.keys()
+        if is_named and any(evaluate(types, state, condition) is False for state in ended):
+            return hold
     return None
 
 

@@ -51,7 +51,7 @@ def make_tank() -> Array:
 
 @inlined
 def fill_tank(tank: OutVector) -> None:
-    """Begin anew with a tank (4,) in N m and shares, see `LEVEL`: nothing is pushed, in any frame."""
+    """Fill a tank (4,) in N m and shares, see `LEVEL`, of an arm that pushes nothing, in any frame."""
     tank[LEVEL], tank[SHARE], tank[MOST], tank[FALLS] = CAPACITY_J, 1.0, 1.0, 0.0
 
 

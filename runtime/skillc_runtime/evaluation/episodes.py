@@ -7,6 +7,7 @@ from typing import Literal, TypeAlias
 from msgspec import structs
 
 from skillc_model.skills import Primitive, SkillLibrary
+from skillc_runtime.devices.backend import Backend
 from skillc_runtime.evaluation.trials.experiment import TrialRunner
 from skillc_runtime.execution.attempt import TICK_S
 from skillc_runtime.execution.cell_loop import CellLoop
@@ -50,10 +51,15 @@ class Episodes:
         return None if self.outcome else self._steering.active
 
     @property
+    def cell(self) -> Backend:
+        """The back end of the cell of the episode."""
+        assert self._running is not None, "an episode"
+        return self._running[0].backend
+
+    @property
     def now(self) -> float:
         """The time of the cell in s."""
-        assert self._running is not None, "an episode"
-        return self._running[0].backend.clock.now
+        return self.cell.clock.now
 
     def begin(self, seed: int) -> SteeredSearch:
         """Run the trial of a seed to where its search begins; NotSteered if it ends before.
