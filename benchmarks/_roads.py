@@ -73,7 +73,8 @@ PREFIXES = """@prefix lab: <http://example.org/lab#> .
 @prefix cora: <http://www.inf.ufrgs.br/phi-group/ontologies/cora.owl#> .
 @prefix rparts: <http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#> .
 lab:Scene-1 a skiros:Scene .
-lab:Robot a cora:Robot ; skiros:at lab:place-0 ; skiros:hasA lab:Gripper .
+"""
+ONE_ROBOT = """lab:Robot a cora:Robot ; skiros:at lab:place-0 ; skiros:hasA lab:Gripper .
 lab:Gripper a rparts:GripperEffector .
 """
 
@@ -81,7 +82,7 @@ lab:Gripper a rparts:GripperEffector .
 def draw_scene(places: int, parts: int, seed: int) -> str:
     """Return a robot, places on a random tree of roads, and parts at random places, in Turtle."""
     draw = random.Random(f"{places} {parts} {seed}")
-    lines = [PREFIXES, "lab:place-0 a skiros:Location ."]
+    lines = [PREFIXES, ONE_ROBOT, "lab:place-0 a skiros:Location ."]
     lines += (
         f"lab:place-{number} a skiros:Location ; own:road lab:place-{draw.randrange(number)} ."
         for number in range(1, places)
@@ -89,6 +90,24 @@ def draw_scene(places: int, parts: int, seed: int) -> str:
     for number in range(parts):
         place = draw.randrange(places)
         lines += (f"lab:part-{number} a skiros:Product .", f"lab:place-{place} skiros:contain lab:part-{number} .")
+    return "\n".join((*lines, ""))
+
+
+def draw_fleet(robots: int, width: int, parts: int, seed: int) -> str:
+    """Return robots and parts at random places of a square grid of roads, `width` places wide, in Turtle."""
+    draw, places = random.Random(f"fleet {robots} {width} {parts} {seed}"), width * width
+    lines = [PREFIXES]
+    for n in range(places):
+        lines.append(f"lab:place-{n} a skiros:Location .")
+        lines += [f"lab:place-{n} own:road lab:place-{n + 1} ."] if (n + 1) % width else []
+        lines += [f"lab:place-{n} own:road lab:place-{n + width} ."] if n + width < places else []
+    for n in range(robots):
+        lines.append(f"lab:robot-{n} a cora:Robot ; skiros:at lab:place-{draw.randrange(places)} .")
+        lines.append(f"lab:robot-{n} skiros:hasA lab:gripper-{n} . lab:gripper-{n} a rparts:GripperEffector .")
+    for n in range(parts):
+        lines.append(
+            f"lab:part-{n} a skiros:Product . lab:place-{draw.randrange(places)} skiros:contain lab:part-{n} ."
+        )
     return "\n".join((*lines, ""))
 
 

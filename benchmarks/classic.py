@@ -1,7 +1,8 @@
 """Classic planning problems beside Fast Downward alone, on hand-written PDDL: CPU and wall-clock time, cold.
 
 Run it as `python benchmarks/classic.py [PROBLEMS]`, with the number of random problems of each size, 5 by default.
-Deliveries on a tree of roads among a thousand objects follow, for which there is no PDDL by hand.
+Deliveries on a tree of roads among a thousand objects follow, and by a fleet among ten thousand, for which there is no
+PDDL by hand.
 `ours` is the whole command `skillc plan`, from the files to the validated plan that is proved optimal; `start` is that
 command for a goal that already holds, and `alone` is Fast Downward's driver with `astar(lmcut())`.
 """
@@ -51,6 +52,7 @@ def main() -> None:
         holds = "holds" if ratios[-1] <= BOUND else "BROKEN"
         print(f"{size:>6}{times}{median(ratios):12.2f}{ratios[-1]:10.2f}{proved:>6}/{count}  {holds}", flush=True)
     _measure_roads()
+    _measure_fleet()
 
 
 def _measure_roads() -> None:
@@ -62,6 +64,19 @@ def _measure_roads() -> None:
         (folder / "cell.ttl").write_text(_roads.draw_scene(50, 945, 0), "utf-8")
         took = _take((*PLAN, "--goal", _roads.draw_goal(50, 3, 0)), folder)
     print(f"roads: {took.cpu_s:.2f} s of CPU, {took.wall_s:.2f} s; {took.output.strip().splitlines()[-1]}")
+
+
+def _measure_fleet() -> None:
+    """Print what 20 deliveries by 50 robots on a grid of 484 places take, with 10,000 parts, by deadline."""
+    with tempfile.TemporaryDirectory() as made:
+        folder = Path(made, "roads")
+        folder.mkdir()
+        (folder / "roads.skill").write_text(_roads.LIBRARY, "utf-8")
+        (folder / "cell.ttl").write_text(_roads.draw_fleet(50, 22, 10_000, 0), "utf-8")
+        for deadline in ("3", "30"):
+            took = _take((*PLAN, "--goal", _roads.draw_goal(484, 20, 0), "--deadline", deadline), folder)
+            found = next(each for each in took.output.splitlines() if " expected, " in each)
+            print(f"fleet, within {deadline} s: {took.cpu_s:.2f} s of CPU, {took.wall_s:.2f} s; {found}", flush=True)
 
 
 def _measured(problem: Blocks) -> tuple[Took, Took, Took]:

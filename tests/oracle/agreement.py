@@ -13,7 +13,8 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.plan_text import read_step
 from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
-from skillc_runtime.planning.search.grounding import GroundAction, Grounding
+from skillc_runtime.planning.search.ground_actions import GroundAction
+from skillc_runtime.planning.search.grounding import Grounding
 from skillc_runtime.world.state.world_state import WorldState
 
 

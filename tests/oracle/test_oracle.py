@@ -24,6 +24,7 @@ from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.reachability import explain_unreachable
 from skillc_runtime.planning.search.astar import AStar
+from skillc_runtime.planning.search.greedy import GreedySearch
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -66,6 +67,13 @@ def test_the_built_in_planner_finds_the_cheapest_plan(seed: int) -> None:
     assert cost_of(solve(skills, state, goal, (AStar(),), CancelToken(LONG_S))) == pytest.approx(
         least(skills, state, goal)
     )
+
+
+@pytest.mark.parametrize("seed", range(EXAMPLES or 8))
+def test_the_greedy_search_finds_a_plan_where_there_is_one(seed: int) -> None:
+    skills, state, goal = drawn(Dice(seed))
+    found = solve(skills, state, goal, (GreedySearch(),), CancelToken(LONG_S))
+    assert isinstance(found, Solved if least(skills, state, goal) < float("inf") else Unsolvable)
 
 
 @pytest.mark.parametrize("seed", range(EXAMPLES or 2))

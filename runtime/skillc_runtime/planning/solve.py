@@ -12,7 +12,9 @@ from msgspec.structs import replace
 from skillc_model.conditions import Condition
 from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
+from skillc_model.traversal import conjuncts
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
+from skillc_runtime.planning.abstraction.goal_by_goal import plan_goal_by_goal
 from skillc_runtime.planning.abstraction.stages import PlanningStages, plan_in_stages
 from skillc_runtime.planning.foresight import explain_unsupported, foresee
 from skillc_runtime.planning.plan import (
@@ -28,11 +30,14 @@ from skillc_runtime.planning.plan import (
 from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.policy import make_policy
 from skillc_runtime.planning.problem.chains import UnrolledProblem, unroll_chains
-from skillc_runtime.planning.problem.neighbourhood import NARROW, AbstractionSize
+from skillc_runtime.planning.problem.initial_state import TooManyValues
+from skillc_runtime.planning.problem.neighbourhood import NARROW, NARROWEST, AbstractionSize
 from skillc_runtime.planning.problem.pose import GoalError, PosedProblem, already_holds
 from skillc_runtime.planning.progress import PlanningProgress, ReportProgress, ignore_progress
+from skillc_runtime.planning.search.greedy import GreedySearch
 from skillc_runtime.planning.unsolvability import UnsolvabilityReason, explain_unsolvable, pose_to_explain
-from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
+from skillc_runtime.planning.validation import PlanError, compute_work_s, follow_plan, validate
+from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
 
 DEADLINE_S = 30.0
@@ -91,7 +96,7 @@ def _solve_for_what_suits(
             task = _Task(unroll_chains(library, state, goal), state, goal, tuple(without), size, chosen, report)
         with cancelling(cancel):
             stages = PlanningStages(
-                partial(task.unrolled.pose, without), task.answer, task.search, task.explain, cancel
+                partial(task.unrolled.pose, without), task.answer, task.search, task.explain, task.sketch, cancel
             )
             return plan_in_stages(stages, task.unrolled.state, size)
     except GoalError as reason:
@@ -123,11 +128,47 @@ class _Task(msgspec.Struct, frozen=True):
         """Return what the first planner finds, which nothing validates."""
         return self.planners[0].plan(problem, part, ignore_progress)
 
+    def sketch(self, posed: PosedProblem, part: CancelToken) -> Solved | None:
+        """Return some plan, found goal by goal, validated; None if none was found in this way."""
+        try:
+            with cancelling(part):
+                found = _validate(_plan_goal_by_goal(self, part), posed, self)
+        except (PlanError, GoalError, EvaluationError, TooManyValues, Cancelled):
+            return None
+        if not isinstance(found, Solved):
+            return None
+        self.report(PlanningProgress(planner=found.planner, best_s=found.plan.duration_s))
+        return found
+
     def explain(self, posed: PosedProblem) -> UnsolvabilityReason:
         """Return why a problem has no plan."""
         state, goal = self.unrolled.state, self.unrolled.goal
         whole = posed if posed.narrowed else pose_to_explain(posed, state, goal, self.without, self.size)
         return explain_unsolvable(whole, goal, state)
+
+
+def _plan_goal_by_goal(task: _Task, cancel: CancelToken) -> PlanResult:
+    """Return a plan that reaches one part of the goal after another; PlanError, GoalError, EvaluationError."""
+    planner, library = GreedySearch(), task.unrolled.whole
+
+    def solve_part(world: WorldState, part: Condition) -> PlanResult:
+        unrolled = unroll_chains(library, world, part)
+        for size in (NARROWEST, NARROW):
+            posed = unrolled.pose(task.without, size, keep_unneeded=True)
+            result = planner.plan(posed.problem, cancel)
+            if isinstance(result, Solved):
+                break
+        return result
+
+    def follow(plan: Plan, world: WorldState) -> WorldState:
+        return follow_plan(plan, library, world)[-1]
+
+    parts = tuple(conjuncts(task.goal))
+    steps = plan_goal_by_goal(parts, task.state, solve_part, follow)
+    if steps is None:
+        return GaveUp("no plan was found goal by goal")
+    work_s = compute_work_s(Plan(steps, 0.0), library, task.state)
+    return Solved(Plan(steps, work_s), "best found", planner.name)
 
 
 def _plan_and_validate(task: _Task, posed: PosedProblem, cancel: CancelToken, report: ReportProgress) -> PlanResult:

@@ -26,6 +26,13 @@ from skillc_runtime.world.state.world_state import WorldState
 STAGE_SHARE = 0.5
 """The share of the remaining time for a narrowed problem, so that a larger one can still be tried."""
 
+SKETCH_SHARE = 0.5
+"""The same for a first plan, goal by goal."""
+
+LARGE = 2
+"""How many times as many individuals as asked for a part has for which planners need long: it is the whole scene, or
+the goal names that many."""
+
 BOUND_S = 2.0
 """The time limit for proving that a plan for a part of the scene is optimal for the whole scene."""
 
@@ -33,10 +40,13 @@ Pose: TypeAlias = Callable[[AbstractionSize | None], PosedProblem]
 AskPlanner: TypeAlias = Callable[[PosedProblem, CancelToken], PlanResult]
 Search: TypeAlias = Callable[[Problem, CancelToken], PlanResult]
 Explain: TypeAlias = Callable[[PosedProblem], UnsolvabilityReason]
+Sketch: TypeAlias = Callable[[PosedProblem, CancelToken], Solved | None]
 
 
 class PlanningStages(msgspec.Struct, frozen=True):
     """Functions that pose a problem, answer it with a validated plan, search without validation, and explain failure.
+
+    `sketch` returns some validated plan, goal by goal.
 
     `cancel` ends all of them together.
     """
@@ -45,6 +55,7 @@ class PlanningStages(msgspec.Struct, frozen=True):
     answer: AskPlanner
     search: Search
     explain: Explain
+    sketch: Sketch
     cancel: CancelToken
 
 
@@ -60,13 +71,15 @@ def plan_in_stages(stages: PlanningStages, state: WorldState, size: AbstractionS
             posed = stages.pose(size)
         except (TooManyValues, Cancelled) as reason:
             return best or GaveUp(str(reason))
+        if best is None and size is not None and len(posed.problem.objects) > LARGE * size.objects:
+            best = _sketch(posed, stages)
         if size is None or not posed.narrowed:
             return _plan_whole_scene(best, posed, stages)
         answer = stages.answer(posed, stages.cancel.share(STAGE_SHARE))
         match answer:
             case Solved():
                 rated = _rate(answer, posed, stages, state)
-                best = _limit_claims(rated, posed)
+                best = _choose_shorter(best, _limit_claims(rated, posed))
                 if rated.optimal == "proven" or not (size.proves or posed.candidate_count <= size.whole):
                     return best
             case Unsolvable():
@@ -78,7 +91,21 @@ def plan_in_stages(stages: PlanningStages, state: WorldState, size: AbstractionS
                     return best or answer
             case _:
                 assert_never(answer)
+        best = best or _sketch(posed, stages)
         size = size.wider()
+
+
+def _sketch(posed: PosedProblem, stages: PlanningStages) -> Solved | None:
+    """Return some plan, of which nothing is claimed."""
+    found = stages.sketch(posed, stages.cancel.share(SKETCH_SHARE))
+    return None if found is None else _limit_claims(replace(found, left_out=posed.left_out), posed)
+
+
+def _choose_shorter(known: Solved | None, found: Solved) -> Solved:
+    """Return the shorter plan, the second if both are equally short, which more is known of."""
+    if known is None or known.plan.duration_s >= found.plan.duration_s:
+        return found
+    return replace(known, at_least_s=found.at_least_s)
 
 
 def _plan_whole_scene(best: Solved | None, posed: PosedProblem, stages: PlanningStages) -> PlanResult:
@@ -86,7 +113,7 @@ def _plan_whole_scene(best: Solved | None, posed: PosedProblem, stages: Planning
     answer = stages.answer(posed, stages.cancel)
     match answer:
         case Solved():
-            return _limit_claims(replace(answer, left_out=posed.left_out), posed)
+            return _choose_shorter(best, _limit_claims(replace(answer, left_out=posed.left_out), posed))
         case Unsolvable():
             return _no_plan(stages.explain(posed), posed)
         case GaveUp():

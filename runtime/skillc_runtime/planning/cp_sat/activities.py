@@ -34,7 +34,8 @@ from skillc_runtime.planning.cp_sat.task import (
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.plan_text import read_step
 from skillc_runtime.planning.schedule import Schedule, TimedStep
-from skillc_runtime.planning.search.grounding import GroundAction, Grounding
+from skillc_runtime.planning.search.ground_actions import GroundAction
+from skillc_runtime.planning.search.grounding import Grounding
 
 
 def find_groups(

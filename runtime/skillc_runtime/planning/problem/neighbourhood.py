@@ -1,27 +1,26 @@
 """Selects the objects of a scene that a plan probably needs: those near the individuals of the goal.
 
 These are the individuals that the goal refers to, all objects of types with few objects (robots, arms, grippers,
-tools), step by step the objects that are related to these unless they have many partners in the relation (the location
-of an object, the arm of a robot), and for each parameter of a skill some objects of its type. A plan for the selection
-is a plan for the scene, unless a `forall` ranges over an object that was left out; validation detects this. It need
-not be the cheapest, and if there is none, the scene may still have one: see `abstraction.lower_bound`.
+tools), those on shortest paths of facts between these (the places along the roads from a part to where it shall be),
+step by step the objects that are related to them unless they have many partners in the relation (the location of an
+object, the arm of a robot), and for each parameter of a skill some objects of its type, the nearest. A plan for the
+selection is a plan for the scene, unless a `forall` ranges over an object that was left out; validation detects this.
+It need not be the cheapest, and if there is none, the scene may still have one: see `abstraction.lower_bound`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from heapq import nsmallest
 
 import msgspec
 from msgspec.structs import replace
 
 from skillc_model.pddl.domain import GuardMeaning, PlanningDomain, RelationMeaning
+from skillc_runtime.planning.problem.shortest_paths import Links, ShortestPaths
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
-
-MAX_PARTNERS = 4
-"""The partners of an object in a relation are near it if it has at most this many."""
 
 MAX_RANKED = 500
 """How many objects of a type are ranked, the first by IRI."""
@@ -46,6 +45,9 @@ class AbstractionSize(msgspec.Struct, frozen=True):
 
 NARROW = AbstractionSize(40, 8, 100)
 
+NARROWEST = AbstractionSize(20, 4)
+"""For a first plan of one part of a goal."""
+
 PROVING = replace(NARROW, proves=True)
 """For plans that are to be proven optimal, however large the scene is."""
 
@@ -69,7 +71,7 @@ class _NearbyObjects:
         self, domain: PlanningDomain, state: WorldState, by_type: Mapping[str, Sequence[str]], size: AbstractionSize
     ) -> None:
         self._state, self._size = state, size
-        self._relations = sorted(
+        relations = sorted(
             {each.meaning.relation for each in domain.predicates if isinstance(each.meaning, RelationMeaning)}
         )
         self._guards = [
@@ -79,42 +81,45 @@ class _NearbyObjects:
         ]
         wanted = sorted({each.type for action in domain.actions for each in action.parameters})
         self._members = [tuple(by_type[type_] for type_ in by_type if domain.is_a(type_, each)) for each in wanted]
-        self._known = frozenset().union(*by_type.values())
+        self._links = Links(state, relations, frozenset().union(*by_type.values()))
 
     def select(self, named: Iterable[str]) -> frozenset[str]:
         few = self._size.few
         start = set(named).union(*(each for types in self._members if sum(map(len, types)) <= few for each in types))
-        kept = self._grow(start, self._size.objects)
+        paths = ShortestPaths(self._links, start)
+        ways = paths.join()
+        kept = self._grow(start | ways, self._size.objects + len(ways))
         spare: set[str] = set()
         for types in self._members:
             missing = few // 2 - sum(len(kept.intersection(each)) for each in types)
-            missed = (iri for each in types for iri in each if iri not in kept)
-            others = nsmallest(MAX_RANKED, missed) if missing > 0 else []
-            spare.update(sorted(others, key=lambda iri: (-self._rank(iri), iri))[:missing])
-        return frozenset(self._grow(kept | spare, self._size.objects + len(spare)))
+            if missing > 0:
+                spare.update(self._find_nearest(types, kept, paths, missing))
+        spare = spare.union(*map(paths.trace, spare)) - kept
+        return frozenset(self._grow(kept | spare, self._size.objects + len(ways) + len(spare)))
+
+    def _find_nearest(
+        self, types: Sequence[Sequence[str]], kept: set[str], paths: ShortestPaths, count: int
+    ) -> Iterable[str]:
+        """Return the individuals of some types that are nearest to what is kept, or satisfy most; the first by IRI."""
+        near = paths.find_nearest(frozenset().union(*types) - kept, count)
+        if len(near) == count:
+            return near
+        missed = (iri for each in types for iri in each if iri not in kept and iri not in near)
+        ranked = sorted(nsmallest(MAX_RANKED, missed), key=lambda iri: (-self._rank(iri), iri))
+        return (*near, *ranked[: count - len(near)])
 
     def _grow(self, start: set[str], limit: int) -> set[str]:
         """Return the start and its nearest neighbours, up to `limit` individuals."""
         kept, ring = set(start), sorted(start)
         while ring and len(kept) < limit:
-            new = {partner for each in ring for partner in self._partners(each)} - kept
+            new = {other for each in ring for other, far in self._links.of(each) if far <= 1.0} - kept
             ring = sorted(new)[: limit - len(kept)]
             kept.update(ring)
         return kept
 
-    def _partners(self, individual: str) -> Iterator[str]:
-        for relation in self._relations:
-            for partners in (self._state.objects(individual, relation), self._state.subjects(relation, individual)):
-                if len(partners) <= MAX_PARTNERS:
-                    yield from (each for each in partners if each in self._known)
-
     def _rank(self, individual: str) -> int:
         """Return how many relations and conditions of one variable the individual satisfies."""
-        linked = sum(
-            bool(self._state.objects(individual, each)) + bool(self._state.subjects(each, individual))
-            for each in self._relations
-        )
-        return linked + sum(self._satisfies(guard, individual) for guard in self._guards)
+        return self._links.count(individual) + sum(self._satisfies(guard, individual) for guard in self._guards)
 
     def _satisfies(self, guard: GuardMeaning, individual: str) -> bool:
         try:

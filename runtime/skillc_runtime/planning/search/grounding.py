@@ -5,13 +5,11 @@ The reachable atoms are computed with deletions ignored.
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import product
 from typing import TypeAlias, assert_never
 
-import msgspec
 from msgspec.structs import replace
 
 from skillc_model.pddl.domain import Action, ComputedCost, FixedCost
@@ -33,26 +31,14 @@ from skillc_model.pddl.formulas import (
 )
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.planning.search.bindings import Bindings
+from skillc_runtime.planning.search.fact_index import FactIndex
+from skillc_runtime.planning.search.ground_actions import GroundAction, GroundEffect, Schema
 from skillc_runtime.planning.typed_variables import list_typed_variables
 
 Values: TypeAlias = Mapping[str, str]
-
-
-class GroundEffect(msgspec.Struct, frozen=True):
-    """The atom becomes true (`positive`) or false if the condition held before."""
-
-    atom: Atom
-    positive: bool
-    condition: Formula
-
-
-class GroundAction(msgspec.Struct, frozen=True):
-    """An action with its objects, as `words`; its formulas have neither variables nor static atoms. Costs `units`."""
-
-    words: tuple[str, ...]
-    precondition: Formula
-    effects: tuple[GroundEffect, ...]
-    units: int
+_PartKey: TypeAlias = tuple[int, tuple[str, ...]]
+"""Which part of the condition of an action, and the objects that it reads."""
 
 
 class Grounding:
@@ -71,9 +57,10 @@ class Grounding:
         self.init = frozenset(each for each in problem.init if each.predicate in self._changing)
         self.reachable: set[Atom] = set(self.init)
         self._deletable: set[Atom] = set()
-        self._facts: dict[str, list[tuple[str, ...]]] = defaultdict(list)
-        for atom in problem.init:
-            self._facts[atom.predicate].append(atom.terms)
+        self._facts = FactIndex(problem.init)
+        self._bindings = Bindings(self._facts, self._members)
+        self._possible: set[_PartKey] = set()
+        self._reduced: dict[_PartKey, Formula] = {}
 
     @cached_property
     def actions(self) -> tuple[GroundAction, ...]:
@@ -82,21 +69,73 @@ class Grounding:
         What can never be true is left out of their preconditions: nested quantifiers would have very many parts.
         """
         found: dict[tuple[str, ...], GroundAction] = {}
-        bound: dict[tuple[str, ...], tuple[Action, Values]] = {}
-        grown = True
-        while grown:
-            grown = False
-            for action in self._problem.domain.actions:
-                for ground, values in tuple(self._ground(action, found)):
-                    found[ground.words] = ground
-                    bound[ground.words] = action, values
-                    grown |= self._add_reachable(ground)
-        return tuple(self._complete(found[words], *bound[words]) for words in sorted(found))
+        bound: dict[tuple[str, ...], Values] = {}
+        waiting = {words: values for action in self._schemas.values() for words, values in self._bind_all(action)}
+        while True:
+            known, size = self._facts.count, (len(self.reachable), len(self._deletable))
+            for words, values in tuple(waiting.items()):
+                self._cancel.check()
+                schema = self._schemas[words[0]]
+                if self._can_start(schema, values):
+                    bound[words] = waiting.pop(words)
+                    effects = (
+                        each for change in schema.action.effects for each in self._ground_effects(change, values)
+                    )
+                    units = self._units(schema.action, values)
+                    found[words] = GroundAction(words, TRUE, tuple(effects), units)
+                    self._add_reachable(found[words])
+            for ground in found.values():
+                if any(each.condition != TRUE for each in ground.effects):
+                    self._add_reachable(ground)
+            if size == (len(self.reachable), len(self._deletable)):
+                break
+            waiting.update((words, values) for words, values in self._bind_new(known) if words not in found)
+        return tuple(self._complete(found[words], bound[words]) for words in sorted(found))
 
-    def _complete(self, ground: GroundAction, action: Action, values: Values) -> GroundAction:
+    @cached_property
+    def _schemas(self) -> dict[str, Schema]:
+        return {each.name: Schema.of(each) for each in self._problem.domain.actions}
+
+    def _bind_all(self, schema: Schema) -> Iterator[tuple[tuple[str, ...], Values]]:
+        for values in self._bindings.extend(schema.action, list(schema.atoms), {}):
+            self._cancel.check()
+            yield schema.words(values), values
+
+    def _bind_new(self, known: int) -> Iterator[tuple[tuple[str, ...], Values]]:
+        """Yield the bindings in which an atom is one of the facts that are new after the first `known` ones."""
+        for predicate, terms in self._facts.since(known):
+            for schema in self._schemas.values():
+                for number, atom in enumerate(schema.atoms):
+                    if atom.predicate != predicate:
+                        continue
+                    self._cancel.check()
+                    matched = self._bindings.match(atom, terms, {}, schema.types)
+                    rest = [*schema.atoms[:number], *schema.atoms[number + 1 :]]
+                    for values in () if matched is None else self._bindings.extend(schema.action, rest, matched):
+                        yield schema.words(values), values
+
+    def _can_start(self, schema: Schema, values: Values) -> bool:
+        """Whether the condition of an action can be true; what was once possible remains so."""
+        if not all(self.can_hold(each, values) for each in schema.atoms):
+            return False
+        for part, read in schema.others:
+            key = id(part), tuple(values[each] for each in read)
+            if key not in self._possible:
+                if not self.can_hold(part, values):
+                    return False
+                self._possible.add(key)
+        return True
+
+    def _complete(self, ground: GroundAction, values: Values) -> GroundAction:
         """Return a ground action with its precondition; all that is reachable is known."""
-        condition = conjunction((action.precondition, action.hold))
-        return replace(ground, precondition=self.reduce(condition, values, self.reachable))
+        schema = self._schemas[ground.words[0]]
+        parts = [self.reduce(each, values, self.reachable) for each in schema.atoms]
+        for part, read in schema.others:
+            key = id(part), tuple(values[each] for each in read)
+            if key not in self._reduced:
+                self._reduced[key] = self.reduce(part, values, self.reachable)
+            parts.append(self._reduced[key])
+        return replace(ground, precondition=conjunction(parts))
 
     def explore(self) -> None:
         """Compute `reachable` with the effects of all actions."""
@@ -140,8 +179,10 @@ class Grounding:
             case Atom(predicate, terms):
                 atom = Atom(predicate, tuple(values.get(term, term) for term in terms))
                 return atom in (self.reachable if predicate in self._changing else self._static)
-            case Equal() | Negation():
-                return self.is_possible(self.reduce(formula, values))
+            case Equal(left, right):
+                return values.get(left, left) == values.get(right, right)
+            case Negation(body):
+                return self._can_fail(body, values)
             case Conjunction(parts):
                 return all(self.can_hold(part, values) for part in parts)
             case Disjunction(parts):
@@ -153,75 +194,46 @@ class Grounding:
             case _:
                 assert_never(formula)
 
+    def _can_fail(self, formula: Formula, values: Values) -> bool:
+        """Whether a formula, its variables bound, can be false with the reachable atoms, each by itself."""
+        match formula:
+            case Atom(predicate, terms):
+                atom = Atom(predicate, tuple(values.get(term, term) for term in terms))
+                return atom not in self._static and (atom not in self.init or atom in self._deletable)
+            case Equal(left, right):
+                return values.get(left, left) != values.get(right, right)
+            case Negation(body):
+                return self.can_hold(body, values)
+            case Conjunction(parts):
+                return any(self._can_fail(part, values) for part in parts)
+            case Disjunction(parts):
+                return all(self._can_fail(part, values) for part in parts)
+            case Existential(variable, body) | Universal(variable, body):
+                self._cancel.check()
+                each = (self._can_fail(body, {**values, variable.name: name}) for name in self._members[variable.type])
+                return all(each) if isinstance(formula, Existential) else any(each)
+            case _:
+                assert_never(formula)
+
     def find_bindings(self, action: Action, conditions: Sequence[Formula], start: Values) -> Iterator[dict[str, str]]:
         """Yield the bindings of an action's parameters that extend `start` and make the conditions reachable."""
         whole = conjunction(conditions)
-        bindings = self._bindings(action, conjuncts(whole), start)
+        atoms = [each for each in conjuncts(whole) if isinstance(each, Atom)]
+        bindings = self._bindings.extend(action, atoms, dict(start))
         yield from (values for values in bindings if self.can_hold(whole, values))
 
     def find_partners(self, atom: Atom, variable: str, values: Values) -> Iterator[str]:
         """Yield the values of a variable with which an atom is reachable, whose other variables have `values`."""
-        for terms in self._facts[atom.predicate]:
+        for terms in self._facts.of(atom.predicate):
             pairs = [(values.get(term, term), name) for term, name in zip(atom.terms, terms, strict=True)]
             fitting = {name for term, name in pairs if term == variable}
             if len(fitting) == 1 and all(term in (name, variable) for term, name in pairs):
                 yield from fitting
 
-    def _bindings(self, action: Action, conditions: Iterable[Formula], start: Values) -> Iterator[dict[str, str]]:
-        """Yield the bindings of an action's parameters that make the positive atoms among the conditions reachable."""
-        yield from self._bind(action, [each for each in conditions if isinstance(each, Atom)], dict(start))
-
-    def _bind(self, action: Action, atoms: list[Atom], values: dict[str, str]) -> Iterator[dict[str, str]]:
-        """Bind parameters by the atom with the most bound terms first, the remaining ones by type."""
-        open_ = [each for each in action.parameters if each.name not in values]
-        linked = [atom for atom in atoms if any(each.name in atom.terms for each in open_)]
-        if not linked:
-            for names in product(*(self._members[each.type] for each in open_)):
-                yield {**values, **dict(zip((each.name for each in open_), names, strict=True))}
-            return
-        atom = max(linked, key=lambda each: sum(not term.startswith("?") or term in values for term in each.terms))
-        rest = [each for each in atoms if each is not atom]
-        types = {each.name: each.type for each in action.parameters}
-        for terms in tuple(self._facts[atom.predicate]):
-            matched = self._match(atom, terms, values, types)
-            if matched is not None:
-                yield from self._bind(action, rest, matched)
-
-    def _match(
-        self, atom: Atom, terms: tuple[str, ...], values: dict[str, str], types: dict[str, str]
-    ) -> dict[str, str] | None:
-        matched = dict(values)
-        for term, name in zip(atom.terms, terms, strict=True):
-            if term in types and term not in matched:
-                if name not in self._member_sets[types[term]]:
-                    return None
-                matched[term] = name
-            elif matched.get(term, term) != name:
-                return None
-        return matched
-
-    @cached_property
-    def _member_sets(self) -> dict[str, frozenset[str]]:
-        return {type_: frozenset(names) for type_, names in self._members.items()}
-
     def _reduce_atom(self, atom: Atom, within: Collection[Atom] | None) -> Formula:
         if atom.predicate not in self._changing:
             return TRUE if atom in self._static else FALSE
         return atom if within is None or atom in within else FALSE
-
-    def _ground(
-        self, action: Action, known: Mapping[tuple[str, ...], GroundAction]
-    ) -> Iterator[tuple[GroundAction, Values]]:
-        """Yield the actions that may apply with the atoms that are reachable so far, still without preconditions."""
-        condition = conjunction((action.precondition, action.hold))
-        for values in self._bindings(action, conjuncts(condition), {}):
-            self._cancel.check()
-            words = (action.name, *(values[each.name] for each in action.parameters))
-            if words in known:
-                yield known[words], values
-            elif self.can_hold(condition, values):
-                effects = tuple(each for change in action.effects for each in self._ground_effects(change, values))
-                yield GroundAction(words, TRUE, effects, self._units(action, values)), values
 
     def is_possible(self, formula: Formula) -> bool:
         """Whether a reduced formula can be true with the reachable atoms, deletions ignored."""
@@ -247,16 +259,15 @@ class Grounding:
             if condition != FALSE:
                 yield GroundEffect(atom, change.positive, condition)
 
-    def _add_reachable(self, ground: GroundAction) -> bool:
-        """Add the atoms that an action makes true, and those that it makes false; return whether one was new."""
+    def _add_reachable(self, ground: GroundAction) -> None:
+        """Add the atoms that an action makes true, and those that it makes false."""
         possible = [each for each in ground.effects if self.is_possible(each.condition)]
         new = {each.atom for each in possible if each.positive} - self.reachable
         gone = {each.atom for each in possible if not each.positive} - self._deletable
         self.reachable |= new
         self._deletable |= gone
         for atom in sorted(new, key=lambda each: each.terms):
-            self._facts[atom.predicate].append(atom.terms)
-        return bool(new or gone)
+            self._facts.add(atom)
 
     def _units(self, action: Action, values: Values) -> int:
         match action.cost:

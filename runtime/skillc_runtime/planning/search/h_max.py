@@ -17,18 +17,20 @@ import msgspec
 from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Formula, Negation
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import Cancelled, CancelToken
-from skillc_runtime.planning.search.grounding import GroundAction, Grounding
+from skillc_runtime.planning.search.ground_actions import GroundAction
+from skillc_runtime.planning.search.grounding import Grounding
 
 MAX_CASES = 64
 Literals = frozenset[int]
 
 
 class RelaxedRule(msgspec.Struct, frozen=True):
-    """If all conditions hold, the results can be made true at a cost in units."""
+    """If all conditions hold, an action, by its index, can make the results true at a cost in units."""
 
     conditions: Literals
     results: tuple[int, ...]
     units: int
+    action: int
 
 
 class HMax:
@@ -37,7 +39,7 @@ class HMax:
     def __init__(self, actions: Iterable[GroundAction], goal: Formula, numbers: Mapping[Atom, int]) -> None:
         self._atoms = len(numbers)
         self._goal_cases = list_cases(goal, numbers)
-        self._rules = [rule for action in actions for rule in _list_rules(action, numbers)]
+        self._rules = list_rules(actions, numbers)
         self._rules_by_condition: dict[int, list[int]] = defaultdict(list)
         for index, rule in enumerate(self._rules):
             for literal in rule.conditions:
@@ -107,14 +109,18 @@ def _product_size(sets: list[tuple[Literals, ...]]) -> int:
     return count
 
 
-def _list_rules(action: GroundAction, numbers: Mapping[Atom, int]) -> Iterable[RelaxedRule]:
-    by_condition: dict[Formula, list[int]] = defaultdict(list)
-    for effect in action.effects:
-        if effect.atom in numbers:
-            by_condition[effect.condition].append(2 * numbers[effect.atom] + (not effect.positive))
-    for condition, results in by_condition.items():
-        for conditions in list_cases(Conjunction((action.precondition, condition)), numbers):
-            yield RelaxedRule(conditions, tuple(results), action.units)
+def list_rules(actions: Iterable[GroundAction], numbers: Mapping[Atom, int]) -> list[RelaxedRule]:
+    """Return what actions can make true, and false, in states whose atoms have these numbers."""
+    found: list[RelaxedRule] = []
+    for index, action in enumerate(actions):
+        by_condition: dict[Formula, list[int]] = defaultdict(list)
+        for effect in action.effects:
+            if effect.atom in numbers:
+                by_condition[effect.condition].append(2 * numbers[effect.atom] + (not effect.positive))
+        for condition, results in by_condition.items():
+            cases = list_cases(Conjunction((action.precondition, condition)), numbers)
+            found += (RelaxedRule(each, tuple(results), action.units, index) for each in cases)
+    return found
 
 
 def critical_path_s(problem: Problem, cancel: CancelToken) -> float:
