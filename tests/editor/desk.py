@@ -10,6 +10,8 @@ from pathlib import Path
 from lsprotocol import types
 from pytest_lsp import LanguageClient
 
+from skillc_dsl.editions import NEWEST
+
 PATIENCE_S = 5.0
 
 
@@ -57,6 +59,10 @@ class Desk:
         """Write files to the disk."""
         for name, text in files.items():
             (self.folder / f"{name}.skill").write_text(text, "utf-8")
+
+    def project(self, edition: int = NEWEST) -> None:
+        """Make the folder a project whose library is of an edition."""
+        (self.folder / "skillc.toml").write_text(f'name = "own"\nedition = {edition}\n', "utf-8")
 
     async def completions(self, name: str, text: str) -> list[str]:
         """Return what is offered at the cursor."""

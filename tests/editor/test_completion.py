@@ -103,12 +103,14 @@ AMONG = [
 @pytest.mark.parametrize(("after", "line", "offered"), EXACT, ids=[line.strip() for _, line, _ in EXACT])
 async def test_just_what_fits_is_offered(desk: Desk, after: str, line: str, offered: str) -> None:
     desk.library(motion=MOTION)
+    desk.project()
     assert sorted(await desk.completions("press.skill", with_line(PRESS, after, line))) == sorted(offered.split())
 
 
 @pytest.mark.parametrize(("after", "line", "offered", "absent"), AMONG, ids=[line.strip() for _, line, _, _ in AMONG])
 async def test_what_fits_is_among_the_offers(desk: Desk, after: str, line: str, offered: str, absent: str) -> None:
     desk.library(motion=MOTION)
+    desk.project()
     found = set(await desk.completions("press.skill", with_line(PRESS, after, line)))
     assert set(offered.split()) <= found
     assert not found & set(absent.split())

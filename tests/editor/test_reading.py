@@ -79,7 +79,7 @@ async def test_the_inverse_of_a_relation_is_told(desk: Desk) -> None:
     assert "inverse of `containedIn`" in hover.contents.value
 
 
-@pytest.mark.parametrize("text", ["|use skiros", "# no|thing\n", "", "|", "skill {|"])
+@pytest.mark.parametrize("text", ["use skiros\n|", "# no|thing\n", "", "|", "skill {|"])
 async def test_nothing_is_told_where_there_is_nothing(desk: Desk, text: str) -> None:
     at = desk.at("empty.skill", text)
     assert await desk.client.text_document_hover_async(types.HoverParams(*at)) is None

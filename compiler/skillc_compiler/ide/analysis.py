@@ -18,10 +18,14 @@ from skillc_compiler.resolve.files import NO_NAMESPACES, Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.editions import NEWEST
 from skillc_dsl.garbage import gc_disabled
+from skillc_dsl.parsing.lexer import tokenize
 from skillc_dsl.parsing.parser import parse
+from skillc_dsl.parsing.table_types import WORD
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source, Span
+from skillc_dsl.token_table import list_later_words
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -98,6 +102,19 @@ class Analysis:
     def types(self) -> Mapping[Span, Type]:
         """The type of every resolved value, by its place."""
         return {value.span: value.type for value in all_values(self.program)}
+
+    def edition(self, path: str) -> int:
+        """Return the edition that a file is written in."""
+        return self.library.sources[path].edition if path in self.library.sources else NEWEST
+
+    def words_as_names(self, path: str) -> frozenset[tuple[int, int]]:
+        """Return the lines and columns, from 1, of words that are names in a file: they came after its edition."""
+        later = list_later_words(self.edition(path))
+        if not later:
+            return frozenset()
+        tokens = tokenize(self.library.sources[path]).value
+        tokens = tuple(each for each in tokens if each.type == WORD and each.value in later)
+        return frozenset((each.line or 0, each.column or 0) for each in tokens)
 
     def line(self, path: str, number: int) -> str:
         """Return a line of a file, counted from 1, or an empty string if it does not exist."""

@@ -12,6 +12,7 @@ from skillc_compiler.ide.descriptions import format_parameter
 from skillc_compiler.ide.term_pages import format_bare_type, format_function_head
 from skillc_compiler.program.typed import Skill
 from skillc_dsl.parsing.tokens import Token
+from skillc_dsl.source import Source
 
 _CLOSING = {")": "(", "]": "[", "}": "{"}
 
@@ -54,7 +55,8 @@ def find_open_call(tokens: Sequence[Token]) -> OpenCall | None:
 
 def find_signature(analysis: Analysis, path: str, line: int, column: int) -> CallSignature | None:
     """Return the signature of the call around a place, or None outside of calls and for an unknown callee."""
-    cursor = locate_cursor(analysis.texts.get(path, ""), path, line, column)
+    source = Source(path, analysis.texts.get(path, ""), edition=analysis.edition(path))
+    cursor = locate_cursor(source, line, column)
     call = find_open_call(cursor.before) if isinstance(cursor, InCode) else None
     if call is None:
         return None

@@ -19,12 +19,16 @@ from skillc_compiler.ide.term_pages import format_bare_type
 from skillc_compiler.program.types import Measure, Thing
 from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl.descriptions.constructs import CONSTRUCTS
+from skillc_dsl.editions import NEWEST
 from skillc_dsl.parsing.grammar import END, fixed_texts, list_fitting_terminals, shift
 from skillc_dsl.parsing.tokens import Token
-from skillc_dsl.source import Span
+from skillc_dsl.source import Source, Span
+from skillc_dsl.token_table import SINCE, list_later_words
 from skillc_dsl.units import UNITS
 
 _BEGINNING = frozenset(each.words[0].text for each in CONSTRUCTS if each.group in ("declaration", "member", "flag"))
+_DECLARATIONS = frozenset(each.words[0].text for each in CONSTRUCTS if each.group == "declaration")
+_LATER = tuple((word.upper(),) for word in sorted(_DECLARATIONS & SINCE.keys()))
 _VALUES = frozenset(("true", "false"))
 _CLASS_LISTS = {"CLASS": ("LESS", "DISJOINT", "COMMA"), "RELATION": ("LPAR", "COMMA", "LABEL"), "PROPERTY": ("LPAR",)}
 
@@ -42,7 +46,8 @@ def complete(
     """Return the completion at a place.
 
     `scenes` are the names of the available scenes, `warnings` those of the diagnostics that can be allowed."""
-    cursor = locate_cursor(analysis.texts.get(path, ""), path, line, column)
+    source = Source(path, analysis.texts.get(path, ""), edition=analysis.edition(path))
+    cursor = locate_cursor(source, line, column)
     found = tuple(_offers(analysis, path, cursor, scenes, warnings))
     ranked = sorted(dict.fromkeys(found), key=lambda offer: (offer.rank, offer.text))
     return Completion(cursor.word, tuple(ranked))
@@ -75,11 +80,15 @@ def _in_code(analysis: Analysis, around: CursorContext, cursor: InCode) -> Itera
         yield from (Offer(name, "unit", u.dimension.name) for name, u in UNITS.items() if u.dimension in fits_here)
         return
     yield from _names(analysis, around, cursor)
-    yield from offer_keywords(cursor)
+    yield from offer_keywords(cursor, analysis.edition(cursor.word.path))
 
 
-def offer_keywords(cursor: InCode) -> Iterator[Offer]:
-    """Offer the keywords that the grammar accepts, except as names; members only at the beginning of a line."""
+def offer_keywords(cursor: InCode, edition: int = NEWEST) -> Iterator[Offer]:
+    """Offer the keywords that the grammar accepts, except as names; members only at the beginning of a line.
+
+    Of those that came after the `edition` only what a later declaration begins with, or has in it.
+    """
+    later = list_later_words(edition) - _DECLARATIONS if cursor.types[:1] not in _LATER else frozenset()
     as_name = shift(cursor.states, "NAME")
     after_name = list_fitting_terminals(as_name) if as_name else frozenset()
     here = list_fitting_terminals(cursor.states)
@@ -88,7 +97,7 @@ def offer_keywords(cursor: InCode) -> Iterator[Offer]:
         if terminal == "OF" and here != {"OF"} and cursor.before[-1].value != "Vector":
             continue
         text = fixed_texts().get(terminal, "")
-        after = shift(cursor.states, terminal) if text.isalpha() and text not in beginning | _VALUES else None
+        after = shift(cursor.states, terminal) if text.isalpha() and text not in beginning | _VALUES | later else None
         if after is not None and (as_name is None or list_fitting_terminals(after) != after_name):
             yield Offer(text, "keyword", documentation=describe_keyword(text), rank=5)
 
@@ -110,6 +119,8 @@ def _names(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterato
             yield from _types(around)
         case ("PROPERTY" | "FUNCTION",), ("OF",):
             yield from offers.offer_dimensions()
+        case ("TASK",), ("LABEL",) if "LBRACE" not in types:
+            yield from _types(around)
         case ("SKILL" | "IMPL" | "TASK" | "TEST",), _:
             yield from _in_members(analysis, around, cursor)
 
@@ -135,11 +146,33 @@ def _in_members(analysis: Analysis, around: CursorContext, cursor: InCode) -> It
         case (*_, "GIVEN"):
             optional = (p for p in (around.skill.parameters if around.skill else ()) if p.direction == "opt")
             yield from offers.offer_parameters(analysis, optional)
+        case (*_, "DOT") if _is_failure(before):
+            yield from offers.offer_parts_of_failure()
         case (*_, ("DOT" | "HAS")):
             yield from offers.offer_properties(around, around.type_of(before[:-1]))
+        case _:
+            yield from _in_lines(analysis, around, cursor)
+
+
+def _in_lines(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:
+    """Offer what fits in lines of tests, in `verify` and `senses`, and where values stand."""
+    match cursor.types:
+        case ("TEST", *_, "START"):
+            yield from offers.offer_uncertain_skills(analysis, around)
+            yield from _in_values(analysis, around, cursor)
+        case ("TEST", *_, "EXPECT", "NO" | "FAILURE"):
+            return
+        case (*_, "VERIFY" | "NEVER" | "AFTER" | "OUTSIDE" | "BEFORE" | "EVENTUALLY"):
+            yield from offers.offer_skills(analysis, around)
+            yield from _in_values(analysis, around, cursor)
+        case ("TEST", *_, "START", _, "ARROW"):
+            yield from offers.offer_outcomes(analysis, cursor.before[-2].value)
         case (*_, "ARROW"):
             outputs = (p for p in (around.skill.parameters if around.skill else ()) if p.direction == "out")
             yield from offers.offer_parameters(analysis, outputs)
+        case (*_, "SENSES"):
+            things = (p for p in (around.skill.parameters if around.skill else ()) if isinstance(p.type, Thing))
+            yield from offers.offer_parameters(analysis, things)
         case _:
             yield from _in_values(analysis, around, cursor)
 
@@ -149,7 +182,7 @@ def _in_values(analysis: Analysis, around: CursorContext, cursor: InCode) -> Ite
     call = find_open_call(before)
     if _applies(types):
         return _labels(around)
-    if types[-1:] == ("LSQB",) and len(before) > 1:
+    if types[-2:] == ("NAME", "LSQB"):
         ways = analysis.program.implementations_of.get(before[-2].value, ())
         return (Offer(way.name, "implementation", documentation=way.doc) for way in ways)
     if call and types[-1] in ("LPAR", "COMMA") and call.name in analysis.program.skills:
@@ -160,6 +193,8 @@ def _in_values(analysis: Analysis, around: CursorContext, cursor: InCode) -> Ite
         return _in_range(around, before)
     if cursor.fits("NAME", "LSQB"):
         return _called(analysis, around, cursor)
+    if types[0] == "SKILL" and types[-1] in ("EQUAL", "RANGE", "DOTS"):
+        return offers.offer_constants(around, find_expected_type(around, analysis.program.skills, before))
     if cursor.fits("NAME", "DOT"):
         return offers.offer_values(around, find_expected_type(around, analysis.program.skills, before))
     return iter(())
@@ -199,6 +234,12 @@ def _refinable(analysis: Analysis, around: CursorContext, before: Sequence[Token
     left = [p for p in (around.skill.parameters if around.skill else ()) if p.name not in taken]
     for offer in offers.offer_parameters(analysis, left):
         yield Offer(f"{offer.text}:", offer.kind, offer.detail, offer.documentation, f"{offer.text}: ")
+
+
+def _is_failure(before: Sequence[Token]) -> bool:
+    """Whether a `.` stands behind the name of the failure that is handled around it."""
+    named = (name.value for word, name in pairwise(before) if word.type == "AS")
+    return len(before) > 1 and before[-2].value in named
 
 
 def _applies(types: Sequence[str]) -> bool:

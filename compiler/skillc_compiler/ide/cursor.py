@@ -14,7 +14,9 @@ from skillc_dsl.parsing.tables import load_tables
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Source, Span
 
-_HEAD = re.compile(r"\s*(class|relation|property|function|skill|impl|task|test(?=\s+\w+\s*\{))\b|(use|prefix|import)\b")
+_HEAD = re.compile(
+    r"\s*(class|relation|property|function|skill|impl|task|(?:test|enum)(?=\s+\w+\s*\{))\b|(use|prefix|import)\b"
+)
 _NUMBER = re.compile(r"(?<!\w)(?<!\w-)(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)(?:[ \t]+|(?=[^\W\d]))([^\W\d][\w/]*)?$")
 _WORD = re.compile(r"(?:[^\W\d]\w*:)?[^\W\d][\w-]*$|[^\W\d]\w*:$|[^\W\d]\w*$")
 _BARE = re.compile(r"[^\W\d]\w*$")
@@ -63,9 +65,9 @@ class InCode(msgspec.Struct, frozen=True):
 Cursor: TypeAlias = InComment | InText | InCode
 
 
-def locate_cursor(text: str, path: str, line: int, column: int) -> Cursor:
+def locate_cursor(source: Source, line: int, column: int) -> Cursor:
     """Return the kind of position at `line` and `column`, both counted from 1."""
-    lines = text.split("\n")
+    path, lines = source.path, source.text.split("\n")
     left = (lines[line - 1] if line <= len(lines) else "")[: column - 1]
     near = max(len(left) - LONGEST_WORD, 0)
     opened = _opened(left)
@@ -79,7 +81,7 @@ def locate_cursor(text: str, path: str, line: int, column: int) -> Cursor:
     word = (_BARE if number and not number[2] else _WORD).search(left, near)
     start = number.start(2) if number and number[2] else word.start() if word else len(left)
     first = _first_line(lines, line)
-    before = _tokens([*lines[first - 1 : line - 1], left[:start]], path)
+    before = _tokens(source._replace(text="\n".join((*lines[first - 1 : line - 1], left[:start]))))
     return InCode(
         before,
         parser_states_after(before),
@@ -128,9 +130,8 @@ def _first_line(lines: Sequence[str], line: int) -> int:
     return next((number for number in range(min(line, len(lines)), 0, -1) if _HEAD.match(lines[number - 1])), line)
 
 
-def _tokens(lines: Sequence[str], path: str) -> tuple[Token, ...]:
-    found = tokenize(Source(path, "\n".join(lines))).value
-    return tuple(token for token in found if token.type != END)
+def _tokens(source: Source) -> tuple[Token, ...]:
+    return tuple(token for token in tokenize(source).value if token.type != END)
 
 
 def _span(path: str, line: int, start: int, end: int) -> Span:

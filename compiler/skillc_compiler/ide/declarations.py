@@ -24,6 +24,7 @@ from skillc_compiler.ide.symbols import (
 from skillc_compiler.ide.values import Locals
 from skillc_compiler.program.typed import ParsedFile
 from skillc_dsl import syntax as s
+from skillc_rdf.vocabulary.types import value_iri
 
 
 class FileOccurrences(BodyOccurrences, frozen=True):
@@ -52,7 +53,9 @@ class FileOccurrences(BodyOccurrences, frozen=True):
         match written:
             case s.ClassDeclaration(name=name, parents=parents, disjoint=disjoint, values=values):
                 yield from self.term("class", name, declares=True)
-                yield from (Occurrence(value.span, ChoiceSymbol(value.text)) for value in values)
+                home = self.visible.term("class", name.text) or ""
+                for value in values:
+                    yield Occurrence(value.span, ChoiceSymbol(value.text, value_iri(home, value.text)), declares=True)
                 for other in (*parents, *disjoint):
                     yield from self.term("class", other)
             case s.RelationDeclaration():

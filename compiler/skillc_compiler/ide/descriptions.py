@@ -11,6 +11,7 @@ from skillc_compiler.ide import term_pages
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.symbols import (
     ChoiceSymbol,
+    FailurePartSymbol,
     FileSymbol,
     FunctionSymbol,
     ImplementationSymbol,
@@ -30,7 +31,8 @@ from skillc_compiler.ide.symbols import (
 from skillc_compiler.ide.term_pages import format_page
 from skillc_compiler.program.typed import Parameter, Requirement, Skill, Task, Test
 from skillc_compiler.program.types import describe_type
-from skillc_dsl.descriptions.constructs import find_constructs
+from skillc_dsl.descriptions.constructs import find_construct, find_constructs
+from skillc_dsl.descriptions.rows import Construct
 from skillc_dsl.source import Span
 from skillc_dsl.token_table import scan_tokens
 from skillc_rdf.vocabulary.types import local_name
@@ -49,8 +51,10 @@ def describe_symbol(analysis: Analysis, symbol: Symbol) -> str:
             return term_pages.type_page(name)
         case FunctionSymbol(name=name):
             return term_pages.function_page(vocabulary.functions[name]) if name in vocabulary.functions else ""
-        case ChoiceSymbol(text=text):
-            return term_pages.choice_page(vocabulary, text)
+        case ChoiceSymbol(text=text, iri=value):
+            return term_pages.choice_page(vocabulary, text, value)
+        case FailurePartSymbol(name=name):
+            return f"`{name}`: {term_pages.FAILURE[name]}" if name in term_pages.FAILURE else ""
         case QuantitySymbol(value=value, unit=unit):
             return term_pages.quantity_page(value, unit)
         case PrefixSymbol(name=name):
@@ -171,17 +175,20 @@ def find_hover(analysis: Analysis, path: str, line: int, column: int) -> Hover |
 
 
 def _keyword(analysis: Analysis, path: str, line: int, column: int) -> Hover | None:
-    text = analysis.texts.get(path, "").split("\n")[line - 1 : line]
-    for kind, start, word in scan_tokens(text[0] if text else ""):
+    text = analysis.line(path, line)
+    for kind, start, word in scan_tokens(text):
         if kind == "name" and start < column <= start + len(word):
-            told = describe_keyword(word)
-            return Hover(Span(path, line, start + 1, line, start + 1 + len(word)), told) if told else None
+            found = find_construct(word, text)
+            if found is None or (line, start + 1) in analysis.words_as_names(path):
+                return None
+            return Hover(Span(path, line, start + 1, line, start + 1 + len(word)), _of_construct(word, found))
     return None
 
 
 def describe_keyword(word: str) -> str:
     """Return the forms and meanings of what has a keyword, in Markdown; empty for other words."""
-    return "\n\n---\n\n".join(
-        format_page(each.written or each.words[0].text, _LINK.sub(r"\1", each.meaning))
-        for each in find_constructs(word)
-    )
+    return "\n\n---\n\n".join(_of_construct(word, each) for each in find_constructs(word))
+
+
+def _of_construct(word: str, construct: Construct) -> str:
+    return format_page(construct.written.replace("`", "") or word, _LINK.sub(r"\1", construct.meaning))

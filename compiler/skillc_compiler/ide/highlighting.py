@@ -11,6 +11,7 @@ import msgspec
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.symbols import (
     ChoiceSymbol,
+    FailurePartSymbol,
     FileSymbol,
     FunctionSymbol,
     ImplementationSymbol,
@@ -59,10 +60,12 @@ class HighlightedWord(msgspec.Struct, frozen=True):
 def highlight_words(analysis: Analysis, path: str) -> tuple[HighlightedWord, ...]:
     """Return the coloured words of a file in order of their places, without overlaps."""
     names = {(o.span.line, o.span.column): o for o in analysis.index.by_path.get(path, ())}
+    as_names = analysis.words_as_names(path)
     return tuple(
         word
         for number, line in enumerate(analysis.texts.get(path, "").split("\n"), 1)
         for word in _words(names, path, number, line)
+        if word.kind != "keyword" or (number, word.span.column) not in as_names
     )
 
 
@@ -108,6 +111,7 @@ def _kind_of_value(
     | PrefixSymbol
     | IndividualSymbol
     | ChoiceSymbol
+    | FailurePartSymbol
     | QuantitySymbol
     | FileSymbol
     | SceneSymbol,
@@ -121,6 +125,8 @@ def _kind_of_value(
             return "namespace"
         case ChoiceSymbol():
             return "enumMember"
+        case FailurePartSymbol():
+            return "property"
         case QuantitySymbol():
             return "number"
         case FileSymbol() | SceneSymbol():

@@ -8,9 +8,12 @@ from collections.abc import Iterable, Iterator, Mapping
 import msgspec
 
 from skillc_compiler.ide.declarations import FileOccurrences
-from skillc_compiler.ide.symbols import Occurrence, Symbol
+from skillc_compiler.ide.symbols import ChoiceSymbol, Occurrence, Symbol
 from skillc_compiler.ide.visible import VisibleNames
 from skillc_compiler.program.typed import Program
+from skillc_compiler.program.walk import all_values
+from skillc_dsl.source import Span
+from skillc_model.conditions import Individual
 
 
 class Index(msgspec.Struct, frozen=True):
@@ -41,11 +44,28 @@ def build_index(program: Program, visible: Mapping[str, VisibleNames]) -> Index:
         for label in (r.label for r in skill.requirements)
         if label
     }
+    values = _find_individuals(program)
     by_path: dict[str, tuple[Occurrence, ...]] = {}
     for unit in program.files:
         walk = FileOccurrences(visible[unit.file.path], program.skills, frozenset(labels))
-        by_path[unit.file.path] = tuple(sorted(walk.file(unit), key=lambda o: o.span))
+        by_path[unit.file.path] = tuple(sorted((_chosen(o, values) for o in walk.file(unit)), key=lambda o: o.span))
     return Index(by_path, _by_symbol(occurrence for found in by_path.values() for occurrence in found))
+
+
+def _chosen(occurrence: Occurrence, values: Mapping[Span, str]) -> Occurrence:
+    """Return an occurrence of a bare value as that of the individual which it was resolved to."""
+    symbol = occurrence.symbol
+    if not isinstance(symbol, ChoiceSymbol) or symbol.iri or occurrence.span not in values:
+        return occurrence
+    return msgspec.structs.replace(occurrence, symbol=ChoiceSymbol(symbol.text, values[occurrence.span]))
+
+
+def _find_individuals(program: Program) -> dict[Span, str]:
+    """Return the values of enumerations that values were resolved to, by place."""
+    if not program.vocabulary.enumerations:
+        return {}
+    found = ((value.span, value.meaning) for value in all_values(program))
+    return {span: meaning.iri for span, meaning in found if isinstance(meaning, Individual)}
 
 
 def _covers(occurrence: Occurrence, line: int, column: int) -> bool:

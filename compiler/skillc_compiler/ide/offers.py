@@ -11,7 +11,7 @@ from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.cursor_context import CursorContext
 from skillc_compiler.ide.descriptions import format_parameter
 from skillc_compiler.ide.imports import find_importable
-from skillc_compiler.ide.term_pages import format_bare_type, format_function_head
+from skillc_compiler.ide.term_pages import FAILURE, format_bare_type, format_function_head
 from skillc_compiler.program.typed import Parameter
 from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, describe_type, fits, type_of
 from skillc_compiler.resolve.names import Kind
@@ -94,8 +94,8 @@ def offer_properties(around: CursorContext, of: Type) -> Iterator[Offer]:
                 yield Offer(text, "relation", " or ".join(sorted(map(local_name, ranges))), relation.comment, rank=1)
 
 
-def offer_values(around: CursorContext, wanted: ExpectedType) -> Iterator[Offer]:
-    """Offer values of the wanted type: choices, local names, their properties, functions, individuals."""
+def offer_constants(around: CursorContext, wanted: ExpectedType) -> Iterator[Offer]:
+    """Offer values of the wanted type that are the same everywhere: those of an enumeration or a property, `true`."""
     vocabulary = around.visible.vocabulary
     closed = wanted.type.cls if isinstance(wanted.type, Thing) else None
     for value in vocabulary.enumerations.get(closed or "", ()):
@@ -103,6 +103,12 @@ def offer_values(around: CursorContext, wanted: ExpectedType) -> Iterator[Offer]
     yield from (Offer(text, "value", "a value of the property") for text in wanted.values)
     if wanted.type in (BOOL, UNKNOWN):
         yield from (Offer(text, "keyword", rank=0 if wanted.type == BOOL else 5) for text in ("true", "false"))
+
+
+def offer_values(around: CursorContext, wanted: ExpectedType) -> Iterator[Offer]:
+    """Offer values of the wanted type: constants, local names, their properties, functions, individuals."""
+    vocabulary = around.visible.vocabulary
+    yield from offer_constants(around, wanted)
     for name, kind in around.locals.items():
         if fits(vocabulary, kind, wanted.type) and not wanted.values:
             yield Offer(name, "variable", describe_type(kind), rank=1)
@@ -154,6 +160,26 @@ def offer_unimported_skills(analysis: Analysis, path: str, scoped: bool = False)
         flags = [member.flag for member in skill.members if isinstance(member, s.Flag)]
         if not scoped or "scoped" in flags:
             yield Offer(skill.name.text, "skill", f"import {file}", skill.doc, rank=7, imports=file)
+
+
+def offer_outcomes(analysis: Analysis, skill: str) -> Iterator[Offer]:
+    """Offer the labels of what can come of a skill."""
+    found = analysis.program.skills.get(skill)
+    for requirement in found.requirements if found else ():
+        if requirement.kind == "outcome" and requirement.label is not None:
+            yield Offer(requirement.label.text, "label", requirement.text)
+
+
+def offer_uncertain_skills(analysis: Analysis, around: CursorContext) -> Iterator[Offer]:
+    """Offer the skills that have outcomes."""
+    for offer in offer_skills(analysis, around):
+        if any(offer_outcomes(analysis, offer.text)):
+            yield offer
+
+
+def offer_parts_of_failure() -> Iterator[Offer]:
+    """Offer what is told of a failure."""
+    return (Offer(name, "property", "Text", about) for name, about in FAILURE.items())
 
 
 def offer_parameters(analysis: Analysis, of: Iterable[Parameter]) -> Iterator[Offer]:

@@ -83,9 +83,16 @@ class IndividualSymbol(msgspec.Struct, frozen=True):
 
 
 class ChoiceSymbol(msgspec.Struct, frozen=True):
-    """One of the allowed values of a text property."""
+    """A value of an enumeration, by its IRI, or a value of a text property, which has none."""
 
     text: str
+    iri: str = ""
+
+
+class FailurePartSymbol(msgspec.Struct, frozen=True):
+    """What is told of a failure, such as `why.kind`."""
+
+    name: str
 
 
 class QuantitySymbol(msgspec.Struct, frozen=True):
@@ -120,6 +127,7 @@ Symbol: TypeAlias = (
     | PrefixSymbol
     | IndividualSymbol
     | ChoiceSymbol
+    | FailurePartSymbol
     | QuantitySymbol
     | FileSymbol
     | SceneSymbol

@@ -33,6 +33,15 @@ ABOUT = {
 """The descriptions of the types that have no units."""
 
 
+FAILURE = {
+    "kind": "what kind of failure it is, a Text: `pre`, `hold`, `post`, `timeout`, `space`, `body`, ..",
+    "message": "the message of the failure, a Text",
+    "skill": "the innermost skill that failed, a Text",
+    "source": "the line of the innermost skill that failed, a Text",
+}
+"""What is told of a failure, by the name after the `.`."""
+
+
 def term_page(vocabulary: Vocabulary, kind: Kind, iri: str) -> str:
     """Return the page of a class, relation or property, or an empty string for an unknown one."""
     match kind:
@@ -66,8 +75,12 @@ def format_function_head(term: FunctionTerm) -> str:
     return f"function {term.name}({parameters}) -> {format_bare_type(term.result)}"
 
 
-def choice_page(vocabulary: Vocabulary, text: str) -> str:
-    """Return the page of a value: the enumerations and text properties that have it."""
+def choice_page(vocabulary: Vocabulary, text: str, iri: str = "") -> str:
+    """Return the page of a value: its enumeration, or for an unknown one all that have it, and text properties."""
+    if iri in vocabulary.enumerated:
+        home = vocabulary.enumerated[iri]
+        values = ", ".join(map(value_name, vocabulary.enumerations[home]))
+        return f"`{text}`: a value of {format_names([home])}: {values}\n\n`{vocabulary.short(iri)}`"
     homes = {iri: tuple(map(value_name, values)) for iri, values in sorted(vocabulary.enumerations.items())}
     homes |= {iri: term.values for iri, term in sorted(vocabulary.properties.items())}
     return "\n\n".join(

@@ -9,6 +9,7 @@ import msgspec
 
 from skillc_compiler.ide.symbols import (
     ChoiceSymbol,
+    FailurePartSymbol,
     FunctionSymbol,
     IndividualSymbol,
     LocalSymbol,
@@ -24,6 +25,7 @@ from skillc_compiler.resolve.names import Kind
 from skillc_compiler.resolve.type_names import is_built_in
 from skillc_dsl import syntax as s
 from skillc_dsl.source import Span
+from skillc_rdf.vocabulary.types import value_name
 
 Locals: TypeAlias = Mapping[str, Symbol]
 
@@ -72,7 +74,10 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
                 yield from self.reference(known, name)
             case s.Member(of=of, property=name):
                 yield from self.value(known, of)
-                yield from self.read(name)
+                if _is_failure(known, of):
+                    yield Occurrence(name.span, FailurePartSymbol(name.text))
+                else:
+                    yield from self.read(name)
             case s.Invoke(function=name, arguments=arguments):
                 if name.text in self.visible.functions:
                     yield Occurrence(name.span, FunctionSymbol(name.text))
@@ -91,6 +96,8 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
         iri = self.visible.iri(name.text) if ":" in name.text else None
         if name.text in known:
             yield Occurrence(name.span, known[name.text])
+        elif iri is not None and iri in self.visible.vocabulary.enumerated:
+            yield Occurrence(name.span, ChoiceSymbol(value_name(iri), iri))
         elif iri is not None:
             yield Occurrence(name.span, IndividualSymbol(iri))
         elif name.text in self.visible.vocabulary.value_names:
@@ -153,3 +160,8 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
                 yield Occurrence(span, ChoiceSymbol(text))
             case _:
                 yield from self.value(known, written)
+
+
+def _is_failure(known: Locals, written: s.Value) -> bool:
+    symbol = known.get(written.name.text) if isinstance(written, s.NameReference) else None
+    return isinstance(symbol, LocalSymbol) and symbol.origin == "failure"

@@ -109,19 +109,42 @@ FLAGS = (
 """What a skill is declared to be. Each has its field in `skillc_model.skills.Skill`."""
 
 OTHER_MEMBERS = (
-    Construct("member", reserved("refine"), "refine NAME: TYPE"),
-    Construct("member", reserved("let"), "let NAME = VALUE"),
-    Construct("member", words("prefer", "trailing")),
-    Construct("member", (*reserved("run"), *words("python")), 'run python "MODULE:CLASS"'),
-    Construct("member", reserved("do")),
-    Construct("member", words("scene", "trailing"), 'scene "FILE.ttl"'),
-    Construct("member", words("goal", "trailing")),
-    Construct("member", words("start", "trailing", since=2)),
+    Construct(
+        "member",
+        reserved("refine"),
+        "refine NAME: TYPE",
+        "narrows a parameter of the skill: its class or range; it may have another default",
+    ),
+    Construct("member", reserved("let"), "let NAME = VALUE", "names a value, which is computed at the start"),
+    Construct(
+        "member",
+        words("prefer", "trailing"),
+        meaning="of implementations that are equally specific, the one with the higher number is selected",
+    ),
+    Construct(
+        "member",
+        (*reserved("run"), *words("python")),
+        'run python "MODULE:CLASS"',
+        "the primitive of Python that is run",
+    ),
+    Construct("member", reserved("do"), meaning="the body: a behaviour tree"),
+    Construct("member", words("scene", "trailing"), 'scene "FILE.ttl"', "the world that it starts in, a Turtle file"),
+    Construct("member", words("goal", "trailing"), meaning="what has to hold at the end; it is planned"),
+    Construct(
+        "member",
+        words("start", "trailing", since=2),
+        meaning="what is so at the start of the test besides the scene, or what comes of a skill with outcomes",
+    ),
     Construct(
         "member",
         (*words("expect plan", "trailing", since=2), *words("failure no", since=2)),
         'expect CONDITION`, `expect failure "TEXT"` or `expect no plan',
+        "what holds at the end, or that the test fails, or that no plan reaches the goal",
     ),
-    Construct("member", reserved("verify")),
+    Construct(
+        "member",
+        reserved("verify"),
+        meaning="a property of every execution, whatever succeeds or fails inside",
+    ),
 )
 """What implementations, tasks and tests state beside it."""
