@@ -79,15 +79,20 @@ def put_back(server: RunningServer) -> None:
 
 
 def choose(page: Page, task: str) -> None:
-    """Choose a task, and wait for its plan."""
+    """Choose a task."""
     page.keyboard.press("r")
     page.get_by_role("list", name="Tasks").get_by_role("button", name=task).first.click()
 
 
-def start(page: Page, task: str) -> None:
-    """Choose a task, see its plan, and start it."""
+def choose_planned(page: Page, task: str) -> None:
+    """Choose a task, and wait for its plan."""
     choose(page, task)
     page.locator(".preview-step").first.wait_for()
+
+
+def start(page: Page, task: str) -> None:
+    """Choose a task, see its plan, and start it."""
+    choose_planned(page, task)
     press_start(page)
 
 

@@ -11,7 +11,7 @@ from running_cells.asking import write_question
 from server.running import RunningServer, serving_bench
 from studio.conftest import PATIENCE
 from studio.legible import find_illegible, in_each_look
-from studio.opening import choose, open_studio, origin_of
+from studio.opening import choose, choose_planned, open_studio, origin_of
 
 pytestmark = pytest.mark.early
 
@@ -81,8 +81,7 @@ def walk_choice(page: Page, cells: RunningServer, look: Look) -> None:
     choose(page, "carry")
     look("parameters of a task")
     page.get_by_role("button", name="‹ all tasks").click()
-    choose(page, "carry_all")
-    page.locator(".preview-step").first.wait_for()
+    choose_planned(page, "carry_all")
     page.locator(".run details summary").first.click()
     look("plan")
     page.keyboard.press("g")

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from server.running import RunningServer
-from studio.opening import FINISHED, choose, press_start, start, wait_for_state
+from studio.opening import FINISHED, choose, choose_planned, press_start, start, wait_for_state
 
 pytestmark = pytest.mark.early
 
@@ -125,7 +125,7 @@ def test_the_keyboard_alone_answers_a_question_and_reads_the_report(page: Page) 
 
 def test_pause_step_resume_and_stop(page: Page, server: RunningServer) -> None:
     server.client.put("/cells/yard/pace", json={"factor": 0.2})
-    choose(page, "carry_all")
+    choose_planned(page, "carry_all")
     page.get_by_label(STEP).check()
     press_start(page)
     wait_for_state(page, "paused")
@@ -191,7 +191,7 @@ def test_a_task_with_parameters_asks_for_them(page: Page) -> None:
 
 
 def test_the_plan_waits_for_approval(page: Page) -> None:
-    choose(page, "carry_all")
+    choose_planned(page, "carry_all")
     page.get_by_label(APPROVE).check()
     press_start(page)
     wait_for_state(page, "waits for approval")

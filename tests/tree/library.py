@@ -32,6 +32,7 @@ from skillc_rdf.vocabulary.types import (
 )
 from skillc_runtime.world.state.changes import AddIndividual, SetProperty
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import DEVICE_STATE
 from skillc_runtime.world.state.world_state import WorldState
 
 NS = "http://example.org/stage#"
@@ -75,11 +76,19 @@ WRITTEN = Post(
     source=here(),
 )
 LIT = requirement("lit", "flag.on == true", is_on(Variable("flag")))
+READY = requirement(
+    "ready",
+    "device.deviceState != Fault",
+    Compare(PropertyOf(Variable("device"), DEVICE_STATE), "!=", Constant("Fault")),
+)
 
 VOCABULARY = Vocabulary(
     prefixes={"stage": NS},
     classes={iri: ClassTerm(iri=iri) for iri in (FLAG, DEVICE)},
-    properties={ON: PropertyTerm(iri=ON, domains=(FLAG,), type=BOOL)},
+    properties={
+        ON: PropertyTerm(iri=ON, domains=(FLAG,), type=BOOL),
+        DEVICE_STATE: PropertyTerm(iri=DEVICE_STATE, domains=(DEVICE,), type=TEXT),
+    },
     functions={"names": FunctionTerm(name="names", parameters=(), result=ListType(TEXT), python="tree.library:names")},
 )
 
@@ -92,7 +101,9 @@ def names(state: WorldState) -> list[str]:
 def world() -> WorldModel:
     """Return a world of flags, all on, and devices."""
     flags = [change for iri in FLAGS for change in (AddIndividual(iri, (FLAG,)), SetProperty(iri, ON, True))]
-    devices = [AddIndividual(iri, (DEVICE,)) for iri in DEVICES]
+    devices = [
+        change for iri in DEVICES for change in (AddIndividual(iri, (DEVICE,)), SetProperty(iri, DEVICE_STATE, "Idle"))
+    ]
     return WorldModel(WorldState.empty(VOCABULARY).with_changes([*flags, *devices]))
 
 
@@ -110,6 +121,7 @@ class Library:
         self.add(Skill(name="Lit", parameters=(name, flag), pre=(LIT,), source=here()))
         self.add(Skill(name="Set", parameters=(name, flag, value), post=(WRITTEN,), source=here()))
         self.add(Skill(name="Use", parameters=(name, device), uses=("device",), source=here()))
+        self.add(Skill(name="Drive", parameters=(name, device), hold=(READY,), source=here()))
         self.add(Skill(name="Either", parameters=(name,), source=here()), count=2)
         self.add(Skill(name="Another", parameters=(name,), fallback=True, source=here()), count=2)
 

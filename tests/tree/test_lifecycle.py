@@ -8,6 +8,8 @@ import pytest
 
 from skillc_model import tree
 from skillc_model.skills import Compound, Skill
+from skillc_runtime.devices.backend import DeviceStop
+from skillc_runtime.devices.device_states import DeviceStates
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import SkillFailure, Status
@@ -215,3 +217,14 @@ def test_a_broken_hold_is_not_hidden_and_names_the_facts() -> None:
     assert run.failure.message == (
         "hold `lit: flag.on == true` does not hold for flag = stage:flag1: stage:flag1.on is false; needed: true"
     )
+
+
+def test_a_device_that_stopped_is_the_reason_why_its_call_fails_and_why_the_next_one_does_not_start() -> None:
+    cell, why = stage(a=LONG), "arm: it touched the table with 80 N"
+    uses = [TreeRun(call("Drive", name="a", device=DEVICES[0]), Library().build(), cell) for _ in range(2)]
+    uses[0].tick()
+    DeviceStates(cell.world, DEVICES).note(DeviceStop("protective-stop", why, DEVICES[:1]))
+    for run in uses:
+        assert run.tick() is Status.FAILURE and run.failure is not None
+        assert (run.failure.kind, run.failure.message) == ("hold", why)
+        assert run.failure.detail.startswith("hold `ready: device.deviceState != Fault` does not hold")

@@ -15,6 +15,7 @@ from skillc_runtime.execution.selection.binding import BoundImplementation, desc
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_matching_primitive
 from skillc_runtime.execution.tree.calls.declared_run import DeclaredRun
 from skillc_runtime.execution.tree.calls.inverse_changes import inverse_changes
+from skillc_runtime.execution.tree.calls.withdrawn_facts import lead_with_stop
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.locks import Holders
@@ -74,7 +75,8 @@ class Activation:
         for hold in self.implementation.hold:
             if not evaluate(hold.condition, state, self.frame):
                 message = describe_unmet_condition(self.implementation, hold, "hold", self.frame, state)
-                return Failure(kind="hold", message=message, source=hold.source, skill=self.skill.name)
+                failure = Failure(kind="hold", message=message, source=hold.source, skill=self.skill.name)
+                return lead_with_stop(failure, hold.condition, self.frame, self._context.cell.world)
         self.holds_checked_in = state
         return None
 
