@@ -87,7 +87,7 @@ VOCABULARY = Vocabulary(
     classes={iri: ClassTerm(iri=iri) for iri in (FLAG, DEVICE)},
     properties={
         ON: PropertyTerm(iri=ON, domains=(FLAG,), type=BOOL),
-        DEVICE_STATE: PropertyTerm(iri=DEVICE_STATE, domains=(DEVICE,), type=TEXT),
+        DEVICE_STATE: PropertyTerm(iri=DEVICE_STATE, domains=(), type=TEXT),
     },
     functions={"names": FunctionTerm(name="names", parameters=(), result=ListType(TEXT), python="tree.library:names")},
 )
