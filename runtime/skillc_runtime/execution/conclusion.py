@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from typing import TypeAlias
 
 import msgspec
 from msgspec.structs import replace
 
+from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.assignment import (
     AchieveGoal,
@@ -18,8 +20,7 @@ from skillc_runtime.execution.assignment import (
     arrange_prepared,
 )
 from skillc_runtime.execution.attempt import AttemptResult
-from skillc_runtime.execution.plans.doubts import find_doubt
-from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.execution.plans.failed_steps import FailedStep, FailedSteps
 from skillc_runtime.execution.success_facts import collect_success_facts
 from skillc_runtime.planning.plan import Solved, Step
 from skillc_runtime.planning.validation import PlanError, bind_parameters, compute_effects
@@ -28,6 +29,10 @@ from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.recording.states import EndState
 from skillc_runtime.world.eval.conditions import evaluate
+from skillc_runtime.world.eval.grounds import find_grounds
+from skillc_runtime.world.state.facts import Fact
+from skillc_runtime.world.state.labels.labelled_text import format_fact
+from skillc_runtime.world.state.labels.labelling import label_fact
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
@@ -66,7 +71,7 @@ def conclude(attempts: Sequence[AttemptResult], failures: FailedSteps, world: Wo
     if not isinstance(objective, AchieveGoal) or (last.status is Status.HALTED and last.invalidated is None):
         return ended
     if last.status is Status.SUCCESS and evaluate(objective.goal, world.snapshot(), {}):
-        doubt = find_doubt(objective.goal, failures, world)
+        doubt = _find_doubt(objective.goal, failures, world)
         return ended if doubt is None else Ended("failed", doubt)
     if last.status is Status.FAILURE and not _has_failed_step(last, failures):
         return ended
@@ -172,3 +177,33 @@ def _prepare_steps(
     if space is not None:
         space = space.carry_over(len(steps), "it goes on after a failure")
     return arrange_prepared(replace(last.prepared.assignment, state=state), rest, library, space)
+
+
+def _find_doubt(goal: Condition, failures: FailedSteps, world: WorldModel) -> Failure | None:
+    """Return why a goal that holds does not count as reached; None if it does.
+
+    It does not if a fact that it rests on is only assumed, was to be achieved by a step that failed, and has not been
+    written since: a part that was let go in its place may not be there if what followed failed.
+    """
+    for ground in find_grounds(goal, world, {}):
+        if ground.write is None or not ground.is_assumed:
+            continue
+        for failed in failures.failed:
+            if ground.write.number <= failed.writes and ground.fact in _to_achieve(failed, failures, world):
+                return _describe(failed, format_fact(label_fact(ground.fact, world.snapshot())))
+    return None
+
+
+def _to_achieve(failed: FailedStep, failures: FailedSteps, world: WorldModel) -> Iterator[Fact]:
+    """Yield the facts that decide the postconditions of a failed step which did not hold when it started."""
+    step = failed.step
+    for post in failures.library.skills[step.skill].post:
+        with suppress(EvaluationError):  # not every parameter of a call inside a step has a value
+            if not evaluate(post.achieved, failed.state, step.arguments):
+                yield from (ground.fact for ground in find_grounds(post.achieved, world, step.arguments))
+
+
+def _describe(failed: FailedStep, fact: str) -> Failure:
+    cause = failed.failure
+    doubt = Failure(kind="plan", message=f"that `{fact}` is only assumed: {failed.step.skill} has failed since")
+    return Failure(kind="post", message=cause.message, source=cause.source, causes=(cause, doubt))

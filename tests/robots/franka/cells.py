@@ -18,8 +18,7 @@ from skillc_ontology import catalogue
 from skillc_runtime.backends.control_process.handshake import Patience
 from skillc_runtime.backends.control_process.opening import open_cell
 from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
-from skillc_runtime.backends.franka.cell import make_devices
-from skillc_runtime.backends.franka.facts import describe
+from skillc_runtime.backends.franka.cell import describe, make_devices
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.devices.backend import StopPersists

@@ -15,7 +15,7 @@ from backends.test_conformance import *  # noqa: F403
 from robots.franka.cells import ARM, own_scene
 from robots.franka.running import Peer, proxy
 from skillc_runtime.backends.control_process.opening import open_cell
-from skillc_runtime.backends.franka.facts import describe
+from skillc_runtime.backends.franka.cell import describe
 from skillc_runtime.motion.pose import Array
 
 pytestmark = [pytest.mark.robot, pytest.mark.long]

@@ -12,14 +12,13 @@ import pytest
 from robots.ros2.nodes import receiving, spun, wait_until
 from robots.ros2.test_link import SCENE
 from simulation.cells import LAB, vocabulary
-from skillc_runtime.backends.ros2.arms.controller_parameters import ask_controller
-from skillc_runtime.backends.ros2.arms.stiffness_parameters import NAMES, StiffnessParameters
+from skillc_runtime.backends.ros2.arms.joint_commands import ask_controller
+from skillc_runtime.backends.ros2.arms.tool_commands import NAMES, StiffnessParameters
 from skillc_runtime.backends.ros2.camera import IMAGE, INFO, Ros2Camera
-from skillc_runtime.backends.ros2.device_check import check_devices
 from skillc_runtime.backends.ros2.device_facts import Quality, Timing
 from skillc_runtime.backends.ros2.facts import ARRAY, CameraInterface, CleanShareTopic
+from skillc_runtime.backends.ros2.graph_check import check_devices, check_places
 from skillc_runtime.backends.ros2.inspection import SHARE, Ros2Inspection
-from skillc_runtime.backends.ros2.place_check import check_places
 from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.backends.ros2.session import Session, find_message
 from skillc_runtime.backends.ros2.transforms import Transforms

@@ -24,7 +24,7 @@ from skillc_runtime.backends.control_process.link import (
     make_command,
     make_state,
 )
-from skillc_runtime.backends.ros2.arms.controller_parameters import ask_controller
+from skillc_runtime.backends.ros2.arms.joint_commands import ask_controller
 from skillc_runtime.backends.ros2.arms.link import Ros2Description, Ros2Link
 from skillc_runtime.backends.ros2.facts import ArmInterface, Services, read_arm
 from skillc_runtime.backends.ros2.session import Session, find_message

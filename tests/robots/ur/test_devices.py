@@ -13,8 +13,8 @@ from skillc_runtime.backends.devices.fingers import FingerDevice, Fingers
 from skillc_runtime.backends.devices.robotiq import RobotiqFingers
 from skillc_runtime.backends.devices.wsg import WsgFingers
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec
+from skillc_runtime.backends.ur.cell import TERMINALS, Wire, WiredPoint
 from skillc_runtime.backends.ur.io import UrIo
-from skillc_runtime.backends.ur.wiring import TERMINALS, Wire, WiredPoint
 from skillc_runtime.devices.arm import NotOffered
 from skillc_runtime.devices.backend import BackendUnavailable
 from skillc_runtime.motion.pose import Pose

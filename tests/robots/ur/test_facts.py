@@ -14,8 +14,8 @@ from skillc_ontology import catalogue
 from skillc_runtime.backends.devices.gripper_facts import open_gripper
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
 from skillc_runtime.backends.ur.cell import UrDescription, open_arms
-from skillc_runtime.backends.ur.conditions import read_condition
 from skillc_runtime.backends.ur.facts import UrFacts, read_facts
+from skillc_runtime.backends.ur.states import read_condition
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.devices.backend import BackendUnavailable
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty

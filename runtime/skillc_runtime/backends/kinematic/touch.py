@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import mujoco
 import numpy as np
 
 from skillc_runtime.backends.kinematic.arm import KinematicArm
@@ -14,17 +15,23 @@ from skillc_runtime.backends.kinematic.contact import (
     FREE,
     RIGID_N_M,
     TOOL,
+    Forces,
     Motion,
     Points,
     compute_contacts,
     make_forces,
 )
-from skillc_runtime.backends.kinematic.contact_sensors import ContactSensors
-from skillc_runtime.backends.kinematic.yielding import YieldingParts
 from skillc_runtime.backends.simulation.model.contact_bits import HANDLE, PAD, WORKS
-from skillc_runtime.backends.simulation.names import part_name
+from skillc_runtime.backends.simulation.names import (
+    box_geom_name,
+    contact_sensor_name,
+    face_sensor_name,
+    part_name,
+    pressing_sensor_name,
+)
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.motion.arrays import OutVector
+from skillc_runtime.motion.pose import Array
 
 PAD_POINTS = 8
 """Contact points of a pad that lies flat; together they are as stiff as its sheet says."""
@@ -108,3 +115,101 @@ def geoms_of(model: Any, device: str) -> np.ndarray[tuple[int], np.dtype[np.int6
     return np.array(
         [g for g in range(model.ngeom) if model.body(model.geom_bodyid[g]).name.startswith(prefix)], dtype=np.int64
     )
+
+
+class YieldingParts:
+    """The joints of all fixtures. slides (j,): 1 if it slides; moves (j, geoms): 1 if the joint moves a geom."""
+
+    def __init__(self, scene: SceneSpec, model: Any, data: Any) -> None:
+        prefixes = tuple(part_name(scene.names[each.individual], "") for each in scene.fixtures)
+        joints = [j for j in range(model.njnt) if prefixes and model.joint(j).name.startswith(prefixes)]
+        dofs, places = model.jnt_dofadr[joints], model.jnt_qposadr[joints]
+        self.count, self._joints, self._dofs, self._places, self._data = len(joints), joints, dofs, places, data
+        self.slides = (model.jnt_type[joints] == mujoco.mjtJoint.mjJNT_SLIDE).astype(np.float64)
+        self.moves = np.array([_moved(model, int(model.jnt_bodyid[j])) for j in joints]).reshape(-1, model.ngeom)
+        self._stiffness, self._damping = model.jnt_stiffness[joints].reshape(-1), model.dof_damping[dofs]
+        self._rest = model.qpos_spring[places]
+        limited = model.jnt_limited[joints].astype(bool)
+        self._least = np.where(limited, model.jnt_range[joints, 0], -np.inf)
+        self._most = np.where(limited, model.jnt_range[joints, 1], np.inf)
+
+    @property
+    def axes(self) -> Array:
+        """The axes (j, 3) of the joints in the world."""
+        axes: Array = self._data.xaxis[self._joints]
+        return axes
+
+    @property
+    def anchors(self) -> Array:
+        """The anchors (j, 3) in m of the joints in the world."""
+        anchors: Array = self._data.xanchor[self._joints]
+        return anchors
+
+    def step(self, pressed: Array, period_s: float) -> None:
+        """Move for one step: (d / T + k + k_c) dq = f - k (q - q_0).
+
+        pressed (j, 2): f, N or N m, and the stiffness k_c of the contacts, with which a part comes to its balance.
+        """
+        q, force, contact = self._data.qpos[self._places], pressed[:, 0], pressed[:, 1]
+        resisting = self._damping / period_s + self._stiffness + contact
+        change = (force - self._stiffness * (q - self._rest)) / np.where(resisting > 0.0, resisting, np.inf)
+        after = np.clip(q + change, self._least, self._most)
+        self._data.qpos[self._places], self._data.qvel[self._dofs] = after, (after - q) / period_s
+
+
+def _moved(model: Any, body: int) -> Array:
+    """Return 1 for each geom (geoms,) on a body or on its descendants, else 0."""
+
+    def is_moved(at: int) -> bool:
+        while at not in (0, body):
+            at = int(model.body_parentid[at])
+        return at == body
+
+    return np.array([float(is_moved(int(each))) for each in model.geom_bodyid])
+
+
+class ContactSensors:
+    """The touch and contact sensors of a cell. A tool's row: its force on its face, on all things, on each surface."""
+
+    def __init__(self, scene: SceneSpec, forces: Forces, model: Any, data: Any) -> None:
+        self._on_geom = forces.on_geom.reshape(-1, model.ngeom, 3)
+        self._forces, self._values = forces, data.sensordata
+        addresses = {model.sensor(each).name: int(model.sensor(each).adr[0]) for each in range(model.nsensor)}
+        names = scene.names
+        self._tools = {t.individual: _Tool(scene, names[t.individual], addresses, model) for t in scene.tools}
+        fixtures = tuple(part_name(names[each.individual], "") for each in scene.fixtures)
+        self._fixtures = [
+            (addresses[name], np.flatnonzero(model.geom_bodyid == model.site_bodyid[model.sensor(name).objid[0]]))
+            for name in addresses
+            if model.sensor(name).type[0] == mujoco.mjtSensor.mjSENS_TOUCH and fixtures and name.startswith(fixtures)
+        ]
+
+    def update(self, held: Sequence[str | None]) -> None:
+        """Write the forces on the tools that arms hold, in the order of arms, and on all fixtures."""
+        on_geom, values, forces = self._on_geom, self._values, self._forces
+        for address, geoms in self._fixtures:
+            values[address] = np.linalg.norm(on_geom[:, geoms].sum(axis=(0, 1)))
+        for number, tool in enumerate(held):
+            if tool in self._tools:
+                carrier = 2 * number + TOOL
+                self._tools[tool].update(values, on_geom[carrier], forces.net[carrier], forces.total[carrier])
+
+
+class _Tool:
+    """The sensors of one tool."""
+
+    def __init__(self, scene: SceneSpec, name: str, addresses: dict[str, int], model: Any) -> None:
+        self._touch = addresses[face_sensor_name(name, "touch")]
+        self._contact = addresses[contact_sensor_name(name)]
+        self._surfaces = [
+            (addresses[sensor], model.geom(box_geom_name(surface)).id)
+            for surface in (scene.names[each.individual] for each in scene.surfaces)
+            if (sensor := pressing_sensor_name(name, surface)) in addresses
+        ]
+
+    def update(self, values: Array, on_geom: Array, net: Array, total_n: float) -> None:
+        """Write the forces of the tool in N: on each geom (geoms, 3), on all (3,), and the sum of normal forces."""
+        values[self._touch] = total_n
+        values[self._contact : self._contact + 3] = net
+        for address, geom in self._surfaces:
+            values[address : address + 3] = on_geom[geom]

@@ -5,31 +5,54 @@ So all that measures, records, films and saves a cell knows one model only, what
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
 from typing import Any, Literal
 
 import msgspec
 import numpy as np
 
-from skillc_runtime.backends.mujoco.exchange import (
-    CHANGES,
-    FORCES,
-    LIMITS,
-    MOVED,
-    PLACED,
-    Piece,
-    copies,
-    find_pieces,
-    shown,
-    taken,
-)
 from skillc_runtime.backends.mujoco.held_load import Held, make_held, take_off_load
-from skillc_runtime.backends.mujoco.model_map import ModelMap
+from skillc_runtime.backends.mujoco.model_map import ModelMap, Part, Rows
 from skillc_runtime.backends.simulation.machine_code import address_of, address_of_time
 from skillc_runtime.motion.arrays import Integers, Vector
 from skillc_runtime.motion.numerics.compiled import Bound, bind, compiled, inlined
 from skillc_runtime.motion.numerics.copying import Copies, copy_pieces
 from skillc_runtime.motion.numerics.places import call_entry
+from skillc_runtime.motion.pose import Array
+
+Names = Mapping[Part, Sequence[str]]
+"""Arrays of a model or its data, by what has a row there."""
+
+FORCES: Names = {"dofs": ("qfrc_applied",), "actuators": ("ctrl",), "bodies": ("xfrc_applied",)}
+"""What acts on a cell."""
+
+LIMITS: Names = {"actuators": ("actuator_forcerange",)}
+"""What fingers change in the model."""
+
+CHANGES: Names = {"coordinates": ("qpos",), "dofs": ("qvel",), "mocaps": ("mocap_pos", "mocap_quat")}
+"""What may be put elsewhere between steps."""
+
+MOVED: Names = {
+    "coordinates": ("qpos",),
+    "dofs": ("qvel", "qacc", "qfrc_actuator"),
+    "actuators": ("actuator_force",),
+    "sensors": ("sensordata",),
+}
+"""What the second half of a step computes."""
+
+PLACED: Names = {
+    "dofs": ("qfrc_bias", "qfrc_passive", "cdof"),
+    "actuators": ("actuator_length", "actuator_velocity"),
+    "sensors": ("sensordata",),
+    "bodies": ("xpos", "xquat", "xmat", "xipos", "ximat", "subtree_com"),
+    "geoms": ("geom_xpos", "geom_xmat"),
+    "sites": ("site_xpos", "site_xmat"),
+}
+"""What the first half computes, from positions and speeds."""
+
+Piece = tuple[int, int, int]
+"""As a row of `Copies`."""
 
 
 class Pull(msgspec.Struct, frozen=True):
@@ -96,17 +119,17 @@ class Mirror:
             np.array([address_of(name), tight_model._address, tight._address], dtype=np.float64)
             for name in ("mj_step1", "mj_step2")
         )
-        forces = taken(rows, FORCES, free, tight), taken(rows, LIMITS, free_model, tight_model)
+        forces = _taken(rows, FORCES, free, tight), _taken(rows, LIMITS, free_model, tight_model)
         time = address_of_time(free), address_of_time(tight), free.energy.itemsize
-        moved = copies(shown(rows, MOVED, free, tight), [time])
+        moved = copies(_shown(rows, MOVED, free, tight), [time])
         things = (_find_place(rows, each, free_model, free, tight) for each in blocks)
-        placed = copies(shown(rows, PLACED, free, tight), *things)
+        placed = copies(_shown(rows, PLACED, free, tight), *things)
         held, nothing = (make_held(rows, each, free, tight_model, tight) for each in (blocks, ()))
         self.halves: dict[Half, Bound[[float], int]] = {
             "mj_step1": bind(run_half, HalfStep(copies(), first, placed, held)),
             "mj_step2": bind(run_half, HalfStep(copies(*forces), second, moved, nothing)),
         }
-        self.take_changes = bind(take, copies(taken(rows, CHANGES, free, tight)))
+        self.take_changes = bind(take, copies(_taken(rows, CHANGES, free, tight)))
         called = np.array([[address_of("mj_rnePostConstraint"), tight_model._address, tight._address]])
         self.pulls = [Pull(tight.cfrc_int[rows.bodies[block], 3:], called) for block in blocks]
 
@@ -116,4 +139,38 @@ def _find_place(rows: ModelMap, block: int, free_model: Any, free: Any, tight: A
     held, first = int(rows.bodies[block]), int(free_model.jnt_qposadr[free_model.body_jntadr[block]])
     for source, start in ((tight.xpos[held], first), (tight.xquat[held], first + 3)):
         every = np.arange(source.size)
-        yield from find_pieces(source, every, free.qpos, start + every)
+        yield from _find_pieces(source, every, free.qpos, start + every)
+
+
+def _taken(rows: ModelMap, names: Names, free: Any, tight: Any) -> Iterator[Piece]:
+    """Yield what the tight model takes from the free one."""
+    for part, each in names.items():
+        there, here = rows.of(part)
+        for name in each:
+            yield from _find_pieces(getattr(free, name), there, getattr(tight, name), here)
+
+
+def _shown(rows: ModelMap, names: Names, free: Any, tight: Any) -> Iterator[Piece]:
+    """Yield what the free model shows of the tight one."""
+    for part, each in names.items():
+        there, here = rows.of(part)
+        for name in each:
+            yield from _find_pieces(getattr(tight, name), here, getattr(free, name), there)
+
+
+def _find_pieces(source: Array, rows: Rows, target: Array, to_rows: Rows) -> Iterator[Piece]:
+    """Yield the copies that make rows of one array those of another; rows that follow each other are one."""
+    if not (source.flags.c_contiguous and target.flags.c_contiguous and source.strides == target.strides):
+        raise ValueError(f"memory of the shapes {source.shape} and {target.shape} cannot be copied")
+    starts = [0, *(np.flatnonzero((np.diff(rows) != 1) | (np.diff(to_rows) != 1)) + 1).tolist(), len(rows)]
+    (begin, width), (to_begin, _) = (
+        (each.__array_interface__["data"][0], each.strides[0]) for each in (source, target)
+    )
+    for first, end in pairwise(starts):
+        if end > first:
+            yield to_begin + width * int(to_rows[first]), begin + width * int(rows[first]), width * (end - first)
+
+
+def copies(*pieces: Iterable[Piece]) -> Copies:
+    """Return pieces as compiled functions take them; who has them keeps the arrays."""
+    return Copies(np.array([piece for each in pieces for piece in each], dtype=np.float64).reshape(-1, 3))

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
 from itertools import chain
+from typing import Any
 
 import mujoco
 
 from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.real_time.device_cell import CellDevices
 from skillc_runtime.backends.ros2.base import Ros2Base
-from skillc_runtime.backends.ros2.button import Ros2Button
 from skillc_runtime.backends.ros2.camera import Ros2Camera
 from skillc_runtime.backends.ros2.device_facts import DeviceFacts, Timing
 from skillc_runtime.backends.ros2.facts import read_base, read_camera, read_gripper, read_inspected
@@ -22,6 +22,7 @@ from skillc_runtime.backends.ros2.receiver import Receiver, TopicFeed
 from skillc_runtime.backends.ros2.transforms import Transforms
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.devices.backend import DeviceStop, find_first_stop
+from skillc_runtime.devices.sensors import Button
 from skillc_runtime.world.state.data_sheet import number_of, sheet_of
 from skillc_runtime.world.state.terms import ARRIVAL_TOLERANCE
 from skillc_runtime.world.state.world_state import WorldState
@@ -140,3 +141,20 @@ def joints_of(file: str) -> tuple[str, ...]:
     """Return the names of the joints of a model, in its order."""
     model = mujoco.MjModel.from_xml_path(file)
     return tuple(model.joint(number).name for number in range(model.njnt))
+
+
+class Ros2Button(Button):
+    """One button; its first message is waited for, and later ones may come only when it changes."""
+
+    def __init__(self, facts: DeviceFacts, receiver: Receiver) -> None:
+        reliable, topic = facts.quality().reliable_states, facts.topic("switchedTopic")
+        self.feed = receiver.feed(topic, "std_msgs/msg/Bool", reliable, self._take)
+        self._switched = False
+
+    @property
+    def switched(self) -> bool:
+        """Whether it is pressed so far that it has switched."""
+        return self._switched
+
+    def _take(self, message: Any) -> None:
+        self._switched = bool(message.data)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from importlib.util import find_spec
+from math import degrees
 from pathlib import Path
-from time import monotonic
-from typing import Any
+from time import monotonic, sleep
+from typing import Any, TypeAlias
 
 import mujoco
 import numpy as np
@@ -18,15 +20,35 @@ from skillc_runtime.backends.control_process.joint_doubts import (
 )
 from skillc_runtime.backends.ros2.arms.joint_states import JointOrder
 from skillc_runtime.backends.ros2.arms.tool_commands import make_commands
+from skillc_runtime.backends.ros2.camera import IMAGE, INFO
 from skillc_runtime.backends.ros2.cell import describe
 from skillc_runtime.backends.ros2.description import Description
-from skillc_runtime.backends.ros2.device_check import check_devices, check_services
-from skillc_runtime.backends.ros2.facts import ArmInterface
-from skillc_runtime.backends.ros2.place_check import check_places
+from skillc_runtime.backends.ros2.device_facts import DeviceFacts
+from skillc_runtime.backends.ros2.devices import joints_of
+from skillc_runtime.backends.ros2.facts import (
+    ARRAY,
+    LINKED,
+    ArmInterface,
+    GripperInterface,
+    read_base,
+    read_camera,
+    read_gripper,
+    read_inspected,
+)
+from skillc_runtime.backends.ros2.inspection import SHARE
+from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
-from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
-from skillc_runtime.motion.pose import Array
+from skillc_runtime.backends.ros2.transforms import Transforms
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec, read_scene_spec
+from skillc_runtime.motion.pose import Array, log
+from skillc_runtime.world.space.frame_tree import WORLD_FRAME
 from skillc_runtime.world.state.world_state import WorldState
+
+Topic: TypeAlias = tuple[str, str, bool]
+"""A topic with its type, and whether the device publishes it; else it takes its messages."""
+
+LOOK_S = 2.0
+NEAR_M, NEAR_RAD = 0.02, 0.03
 
 LOOK_S, FIND_S = 2.0, 4.0
 """How long messages are counted, after the first one was waited for so long at most, in s."""
@@ -86,7 +108,7 @@ def _check_arm(arm: ArmSpec, facts: ArmInterface, session: Session) -> Iterator[
             yield difference
     yield from _check_commands(facts, str(arm.model), session)
     services = facts.services
-    yield from check_services((services.recover, services.tare), session)
+    yield from _check_services((services.recover, services.tare), session)
 
 
 def _take_all(listened: Listened, only_if: Any = lambda _: True) -> Iterator[Any]:
@@ -133,3 +155,82 @@ def _check_commands(facts: ArmInterface, model: str, session: Session) -> Iterat
     found = commands.fit() if problem is None else problem.sentence
     if found is not None:
         yield found
+
+
+def check_places(state: WorldState, scene: SceneSpec) -> Iterator[str]:
+    """Yield a sentence for each arm whose base tf has elsewhere; nothing where there is no tf of it."""
+    frames = {each.individual: str(frame) for each in scene.arms if (frame := state.value(each.individual, LINKED))}
+    if not frames or find_spec("tf2_msgs") is None:
+        return
+    receiver = Receiver("skillc_check_frames")
+    try:
+        transforms = Transforms(receiver)
+        receiver.begin()
+        sleep(LOOK_S)
+        with receiver.lock:  # wait ends: with the messages that have arrived
+            found = {arm: transforms.find(frame, WORLD_FRAME) for arm, frame in frames.items()}
+    finally:
+        receiver.close()
+    for arm in scene.arms:
+        if (transform := found.get(arm.individual)) is None:
+            continue
+        away = float(np.linalg.norm(transform.pose.position - arm.base.position))
+        turned = float(np.linalg.norm(log(transform.pose.rotation @ arm.base.rotation.T)))
+        if away > NEAR_M or turned > NEAR_RAD:
+            yield (
+                f"{scene.names[arm.individual]}: tf has {frames[arm.individual]} {away:.2f} m and "
+                f"{degrees(turned):.0f} deg from where the facts have the base of the arm"
+            )
+
+
+def check_devices(state: WorldState, scene: SceneSpec, session: Session) -> Iterator[str]:
+    """Yield a sentence for each topic, service or action that nobody offers, or that has another type."""
+    for arm in scene.arms:
+        if arm.gripper is not None:
+            hand = read_gripper(state, arm.gripper.individual, joints_of(str(arm.gripper.model)))
+            yield from (f"{hand.name}: {each}" for each in _check_gripper(hand, session))
+    for name, topics in _find_topics(state, scene):
+        yield from (f"{name}: {each}" for each in _check_topics(topics, session))
+
+
+def _check_gripper(facts: GripperInterface, session: Session) -> Iterator[str]:
+    yield from _check_topics([(facts.states, "sensor_msgs/msg/JointState", True)], session)
+    if facts.open_service:
+        yield from _check_services((facts.open_service, facts.close_service), session)
+    elif facts.command_type == ARRAY:
+        yield from _check_topics([(each, ARRAY, False) for each in (facts.command, facts.effort)], session)
+    elif f"{facts.command}/_action/send_goal" not in dict(session.node.get_service_names_and_types()):
+        yield f"nobody offers the action {facts.command} ({facts.command_type})"
+
+
+def _find_topics(state: WorldState, scene: SceneSpec) -> Iterator[tuple[str, list[Topic]]]:
+    """Yield the other devices by name, with the topics of each; empty names for those that it does not have."""
+    for each in scene.bases:
+        base = read_base(state, each.individual)
+        goal = (base.goal, "geometry_msgs/msg/PoseStamped", False)
+        yield base.name, [(base.odometry, "nav_msgs/msg/Odometry", True), goal]
+    for spec in scene.cameras:
+        if (camera := read_camera(state, spec.individual)) is not None:
+            depths = [(camera.depth, IMAGE, True), (camera.info, INFO, True)] if camera.depth else []
+            yield camera.name, [(camera.image, IMAGE, True), *depths]
+    for fixture in scene.fixtures:
+        facts = DeviceFacts(state, fixture.individual)
+        yield facts.name, [(facts.topic("switchedTopic"), "std_msgs/msg/Bool", True)]
+    for surface, share in read_inspected(state).items():
+        yield state.vocabulary.short(surface), [(share.topic, SHARE, True)]
+
+
+def _check_topics(topics: Iterable[Topic], session: Session) -> Iterator[str]:
+    """Yield a sentence for each topic that is not there; empty names are left out."""
+    for topic, kind, offered in topics:
+        ends = session.node.get_publishers_info_by_topic if offered else session.node.get_subscriptions_info_by_topic
+        if topic and kind not in {each.topic_type for each in ends(topic)}:
+            yield describe_topic(session.node, topic, kind, offered)
+
+
+def _check_services(services: Iterable[str], session: Session) -> Iterator[str]:
+    """Yield a sentence for each service that nobody offers; empty names are left out."""
+    there = dict(session.node.get_service_names_and_types())
+    for service in filter(None, services):
+        if "std_srvs/srv/Trigger" not in there.get(service, ()):
+            yield f"nobody offers the service {service} (std_srvs/srv/Trigger)"

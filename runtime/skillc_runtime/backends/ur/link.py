@@ -7,7 +7,10 @@ connects after a connection was lost. The program that obeys commands is uploade
 
 from __future__ import annotations
 
+import re
 from contextlib import suppress
+from socket import create_connection, socket
+from types import TracebackType
 
 import numpy as np
 
@@ -22,12 +25,13 @@ from skillc_runtime.backends.control_process.link import (
     RobotLink,
     StateView,
 )
-from skillc_runtime.backends.ur.dashboard import Dashboard
 from skillc_runtime.backends.ur.facts import UrFacts
 from skillc_runtime.backends.ur.leaving import CLOSE_S, Leaving
 from skillc_runtime.backends.ur.program import UrMode, UrProgram
 from skillc_runtime.backends.ur.states import UrStates
-from skillc_runtime.devices.backend import StopPersists
+from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
+
+PORT, TIMEOUT_S = 29999, 1.0
 
 RELEASE_S = 1.0
 """How long the release of a stop, and the end of a program, may take."""
@@ -209,3 +213,54 @@ def _together(one: PointMass, other: PointMass) -> PointMass:
     if mass <= 0.0:
         return NO_MASS
     return PointMass(mass, (one.mass_kg * one.centre + other.mass_kg * other.centre) / mass)
+
+
+class Dashboard:
+    """A connection for a few questions; it needs no library and never waits for longer than `TIMEOUT_S`."""
+
+    def __init__(self, name: str, address: str) -> None:
+        """Connect to the controller of an arm called `name`; BackendUnavailable if it does not answer."""
+        self._name = name
+        try:
+            self._socket: socket = create_connection((address, PORT), timeout=TIMEOUT_S)
+            self._lines = self._socket.makefile("r", encoding="utf-8", newline="\n")
+            self._lines.readline()
+        except OSError as error:
+            raise BackendUnavailable(
+                f"the dashboard server of {name} (port {PORT}) does not answer ({error.strerror or error}): is the "
+                "controller on, is the address right (skiros:DriverAddress), and is the service enabled in its "
+                "security settings?"
+            ) from error
+
+    def __enter__(self) -> Dashboard:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        self._socket.close()
+
+    @property
+    def version(self) -> tuple[int, int]:
+        """The version of PolyScope."""
+        answer = self.ask("PolyscopeVersion")
+        if (found := re.search(r"(\d+)\.(\d+)\.", answer)) is None:
+            raise BackendUnavailable(f"{self._name} does not tell its version of PolyScope: {answer!r}")
+        return int(found[1]), int(found[2])
+
+    @property
+    def is_remote(self) -> bool:
+        """Whether the controller takes programs from outside; versions that do not know the question do."""
+        return "false" not in self.ask("is in remote control").lower()
+
+    def release_protective_stop(self) -> str | None:
+        """Release a protective stop; return why that is refused, None if it is not."""
+        answer = self.ask("unlock protective stop")
+        return None if "releasing" in answer.lower() else answer
+
+    def ask(self, line: str) -> str:
+        """Send a line and return the answer; BackendUnavailable if there is none."""
+        try:
+            self._socket.sendall(f"{line}\n".encode())
+            return self._lines.readline().strip()
+        except OSError as error:
+            why = error.strerror or error
+            raise BackendUnavailable(f"the dashboard server of {self._name} has gone silent: {why}") from error

@@ -14,10 +14,15 @@ from skillc_model.traversal import children
 from skillc_runtime.recording import events
 from skillc_runtime.recording.events import Event
 from skillc_runtime.recording.history.attempt_steps import collect_steps, failure_chain
-from skillc_runtime.recording.history.history import RecordedAttempt, RecordedFact, RecordedNote, RunHistory
+from skillc_runtime.recording.history.history import (
+    RecordedAttempt,
+    RecordedCall,
+    RecordedFact,
+    RecordedNote,
+    RunHistory,
+)
 from skillc_runtime.recording.history.node_outcome import NodeOutcome
-from skillc_runtime.recording.history.node_records import AttemptRecord, NodeRecords
-from skillc_runtime.recording.history.record_tree import draw_attempt
+from skillc_runtime.recording.history.node_records import AttemptRecord, NodeRecord, NodeRecords
 from skillc_runtime.recording.reasons import WrittenExpression
 from skillc_runtime.world.state.labels.labelled import LabelledFact, LabelledProperty, LabelledRelation
 
@@ -120,7 +125,7 @@ class HistoryBuilder:
         if history is None:
             return []
         pairs = zip(self._attempts, history.attempts, strict=True)
-        return [draw_attempt(record, attempt, history) for record, attempt in pairs]
+        return [_draw_attempt(record, attempt, history) for record, attempt in pairs]
 
     def _make_attempts(self) -> list[RecordedAttempt]:
         attempts, count = list[RecordedAttempt](), 0
@@ -217,3 +222,44 @@ def _make_attempt(record: AttemptRecord, before: int, body: tree.Node | None) ->
         sensed=record.sensed,
         notes=tuple(RecordedNote(time=each.time, message=each.message) for each in record.notes),
     )
+
+
+def _draw_attempt(record: AttemptRecord, attempt: RecordedAttempt, history: RunHistory) -> NodeOutcome:
+    """Return the tree of an attempt, with the steps that were not started at its end."""
+    here = Position(path=history.library, line=1, column=1)
+    roots = tuple(map(_draw, record.roots))
+    missing = tuple(_draw_unstarted(each, here) for each in attempt.steps if not each.node)
+    if len(roots) == 1 and not missing:
+        return roots[0]
+    if len(roots) == 1 and roots[0].kind != "call":
+        return structs.replace(roots[0], children=(*roots[0].children, *missing))
+    name, is_last = "plan" if attempt.planner else history.task, attempt is history.attempts[-1]
+    status = "running" if is_last and not history.status else "idle" if not roots else "failure"
+    return NodeOutcome(id=0, name=name, kind="seq", status=status, source=here, children=(*roots, *missing))
+
+
+def _draw(record: NodeRecord) -> NodeOutcome:
+    return NodeOutcome(
+        id=record.start.node,
+        name=_name(record),
+        kind=record.start.kind,
+        status=record.status,
+        source=record.start.source,
+        started=record.start.time,
+        ended=record.ended,
+        failure=record.failure,
+        rejected=record.rejected,
+        children=tuple(map(_draw, record.children)),
+    )
+
+
+def _name(record: NodeRecord) -> str:
+    """Return the name of a node; that of a call has the last implementation, and in a loop the round."""
+    chosen = record.choice
+    name = record.start.name if chosen is None else f"{chosen.skill}[{chosen.implementation}]"
+    return f"round {record.round}: {name}" if record.round else name
+
+
+def _draw_unstarted(step: RecordedCall, here: Position) -> NodeOutcome:
+    status = "skipped" if step.status == "skipped" else "idle"
+    return NodeOutcome(id=0, name=step.skill, kind="call", status=status, source=step.source or here)

@@ -10,16 +10,22 @@ import signal
 import socket
 import sys
 
+import numpy as np
+
 from skillc_runtime.backends.control_process.calls import Mailbox
 from skillc_runtime.backends.control_process.handshake import Connected, ControlTask
+from skillc_runtime.backends.control_process.link import RobotLink, make_state
 from skillc_runtime.backends.control_process.memory_plan import MemoryPlan
 from skillc_runtime.backends.control_process.message_socket import MessageSocket
 from skillc_runtime.backends.control_process.periods.controlled_arm import ControlledArm
 from skillc_runtime.backends.control_process.periods.loop import ControlLoop
-from skillc_runtime.backends.control_process.periods.rehearsal import rehearse
 from skillc_runtime.backends.control_process.shared_memory import map_memory
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
+from skillc_runtime.devices.guarded_push import GuardedPush, Travel
 from skillc_runtime.motion.numerics.compiled import compile_imported
 from skillc_runtime.platforms.real_time import run_in_real_time
+
+PERIODS = 20
 
 START_S = 60.0
 """How long the other process may take to say what is to be done, in s."""
@@ -38,7 +44,7 @@ def main(messages: MessageSocket, memory_file: int) -> int:
         link.connect()
         try:
             arm = ControlledArm(task.facts, task.names, link.abilities, link.period_s)
-            rehearse(task.facts, task.names, link)
+            _rehearse(task.facts, task.names, link)
         except BaseException:
             link.close()
             raise
@@ -57,3 +63,30 @@ def main(messages: MessageSocket, memory_file: int) -> int:
 
 if __name__ == "__main__":
     sys.exit(main(MessageSocket(socket.socket(fileno=int(sys.argv[1]))), int(sys.argv[2])))
+
+
+def _rehearse(facts: ArmSpec, names: dict[str, str], link: RobotLink) -> None:
+    """Control a copy of the arm that stays at home, with its joints, its tool and a push, one after the other."""
+    arm, measured = ControlledArm(facts, names, link.abilities, link.period_s), make_state(facts.home.size)
+    measured.buffer[:], measured.speed_share[:] = 0.0, 1.0
+    measured.q[:] = measured.target[:] = facts.home
+    now = 0.0
+
+    def run() -> None:
+        nonlocal now
+        for _ in range(PERIODS):
+            now += link.period_s
+            arm.step(measured, now)
+
+    arm.begin(measured, now)
+    run()
+    arm.driver.motion.hold_position()
+    run()
+    along = arm.driver.measured.pose.rotation[:, 2].copy()
+    arm.driver.compliance.release(along)
+    push = arm.driver.compliance.start_push(GuardedPush(-along, 1.0, 0.01, Travel(0.1)))
+    run()
+    arm.driver.compliance.end_push(push)
+    arm.driver.compliance.restore()
+    run()
+    assert np.isfinite(arm.driver.measured.q).all()

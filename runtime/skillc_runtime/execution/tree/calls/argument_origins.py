@@ -3,27 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import TypeAlias, cast
+
+import msgspec
 
 from skillc_dsl.position import Position
 from skillc_model import tree
-from skillc_model.conditions import Expression, Literal
+from skillc_model.conditions import Expression, Literal, Variable
 from skillc_model.format_condition import format_expression
-from skillc_model.skills import Implementation
-from skillc_model.traversal import free_variables_in_order
-from skillc_rdf.vocabulary.types import ListType
+from skillc_model.skills import Implementation, SkillLibrary, Task
+from skillc_model.traversal import children, free_variables_in_order, walk
+from skillc_model.tree import Call, ForEach
+from skillc_rdf.vocabulary.types import ListType, ValueType
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import LexicalScope
 from skillc_runtime.execution.tree.node import Node
 from skillc_runtime.execution.tree.nodes.loop_nodes import ForEachNode
-from skillc_runtime.execution.tree.task_parameters import OriginalExpression, find_original
 from skillc_runtime.recording.reasons import NameInExpression, WrittenExpression
 from skillc_runtime.world.eval.deciding_facts import facts_read
 from skillc_runtime.world.eval.expressions import type_of, value_of
+from skillc_runtime.world.eval.identity_cache import IdentityCache
 from skillc_runtime.world.state.labels.labelled import LabelledValue
 from skillc_runtime.world.state.labels.labelled_text import format_value
 from skillc_runtime.world.state.labels.labelling import label_value
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
+
+_Index: TypeAlias = Mapping[tuple[Position, str], tuple[Task, Expression]]
+"""The expressions in bodies of tasks by the place of the node and the name that gets the value."""
 
 
 def explain_arguments(
@@ -67,7 +74,7 @@ class EnclosingBody:
         self, name: str, expression: Expression, source: Position, value: LabelledValue | None = None
     ) -> WrittenExpression:
         """Return the expression that gives a name its value, with what it reads; a constant as its labelled `value`."""
-        return self._write_in(self.state, find_original(self._library, source, name, expression), source, value)
+        return self._write_in(self.state, _find_original(self._library, source, name, expression), source, value)
 
     def _write_in(
         self, state: WorldState, original: OriginalExpression, source: Position, value: LabelledValue | None = None
@@ -117,3 +124,52 @@ def _loops_around(node: Node) -> Iterator[tree.ForEach]:
     yield from _loops_around(around)
     if isinstance(around, ForEachNode):
         yield around.node
+
+
+class OriginalExpression(msgspec.Struct, frozen=True):
+    """An expression as it is written, and the values, with their types, of the parameters of a task that it names."""
+
+    expression: Expression
+    given: Mapping[str, tuple[Expression, ValueType]] = msgspec.field(default_factory=dict)
+
+
+def _find_original(library: SkillLibrary, source: Position, name: str, bound: Expression) -> OriginalExpression:
+    """Return how an expression of a task is written in which values stand in place of parameters.
+
+    It is at `source` the argument `name` of a call, or the items of the loop with the variable `name`. Another
+    expression is returned as it is.
+    """
+    found = _indexed(library).get((source, name))
+    if found is None:
+        return OriginalExpression(bound)
+    task, written = found
+    types = {each.name: each.type for each in task.parameters}
+    values = {each: (value, types[each]) for each, value in _replaced(written, bound) if each in types}
+    return OriginalExpression(written, values)
+
+
+def _replaced(written: msgspec.Struct, bound: msgspec.Struct) -> Iterator[tuple[str, Expression]]:
+    """Yield the names in an expression with what stands in their place."""
+    if isinstance(written, Variable):
+        yield written.name, cast(Expression, bound)
+        return
+    for part, with_values in zip(children(written), children(bound), strict=True):
+        yield from _replaced(part, with_values)
+
+
+def _index(library: SkillLibrary) -> _Index:
+    return {
+        (node.source, name): (task, expression)
+        for task in library.tasks.values()
+        if task.parameters and task.body is not None
+        for node in walk(task.body)
+        if isinstance(node, Call | ForEach)
+        for name, expression in _named_expressions(node).items()
+    }
+
+
+def _named_expressions(node: Call | ForEach) -> Mapping[str, Expression]:
+    return node.arguments if isinstance(node, Call) else {node.variable: node.items}
+
+
+_indexed = IdentityCache(_index)
