@@ -133,6 +133,16 @@ def test_a_mistake_is_reported_with_its_place(
     assert message in first.message and help_ in first.help
 
 
+def test_an_unknown_term_that_is_used_many_times_is_one_mistake() -> None:
+    with pytest.raises(SceneError) as caught:
+        world(
+            "lab:T a t:Location .\n" + "".join(f"lab:T t:contian lab:B{n} . lab:B{n} a t:Product .\n" for n in range(9))
+        )
+    (one,) = caught.value.problems
+    assert "which is used 9 times" in one.message and "t:contain" in one.help
+    assert [each.span.line - HEADER for each in one.labels] == [3, 4, 5]
+
+
 def test_all_mistakes_are_reported_and_one_mistake_once() -> None:
     with pytest.raises(SceneError) as caught:
         world("lab:T a t:Locatoin ; t:contain lab:B .\nlab:B a t:Product ; t:wieght 3 ; t:weight true .")

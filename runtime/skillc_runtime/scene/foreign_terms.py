@@ -1,9 +1,10 @@
-"""Terms in a scene of namespaces of which no vocabulary has a term: each such namespace is one problem."""
+"""Unknown terms that are one problem: those of a namespace that nothing declares, and one that is used many times."""
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -19,6 +20,28 @@ class TermUse(NamedTuple):
 
     iri: str
     place: Span
+
+
+class RepeatedTerm(NamedTuple):
+    """An IRI, and all its uses but the first."""
+
+    iri: str
+    others: Sequence[TermUse]
+
+
+def group_repeated_terms(unknown: Iterable[TermUse]) -> Iterator[RepeatedTerm]:
+    """Yield the unknown terms that are used more often than would be shown one by one."""
+    uses: dict[str, list[TermUse]] = defaultdict(list)
+    for use in unknown:
+        uses[use.iri].append(use)
+    yield from (RepeatedTerm(iri, found[1:]) for iri, found in uses.items() if len(found) > MOST)
+
+
+def say_where_else(problem: Diagnostic, others: Sequence[TermUse]) -> Diagnostic:
+    """Return the problem of a term at its first use, with the places of others; no edit mends all of them."""
+    labels = tuple(Label(other.place, "also here") for other in others[:MOST])
+    message = f"{problem.message}, which is used {len(others) + 1} times"
+    return replace(problem, message=message, labels=labels, fix=None)
 
 
 def group_foreign_terms(unknown: Iterable[TermUse], vocabulary: Vocabulary) -> Mapping[str, Sequence[TermUse]]:

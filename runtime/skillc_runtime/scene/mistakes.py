@@ -13,7 +13,13 @@ from skillc_dsl.source import Span
 from skillc_rdf.turtle.statements import SOMETHING, Node, Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import THING, Vocabulary
-from skillc_runtime.scene.foreign_terms import TermUse, group_foreign_terms, report_foreign_terms
+from skillc_runtime.scene.foreign_terms import (
+    TermUse,
+    group_foreign_terms,
+    group_repeated_terms,
+    report_foreign_terms,
+    say_where_else,
+)
 from skillc_runtime.scene.interpretation import Interpretation, Mistake, interpret_table
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.scene.suggestions import Suggestion, suggest
@@ -69,20 +75,25 @@ class LocatedFacts:
     def problems(self, doubtful: Collection[str]) -> Iterator[Diagnostic]:
         """Yield the problem of each mistake; a missing class of a `doubtful` individual is not reported.
 
-        Terms of a namespace of which nothing is known are one problem.
+        Terms of a namespace of which nothing is known are one problem, and so is a term that is used many times.
         """
         subjects, objects = dict[str, Statement](), defaultdict[str, list[Statement]](list)
         wrong = [
             (each, self._said[self._position(each)]) for each in sorted(self._meaning.mistakes, key=self._position)
         ]
-        unknown = (use for mistake, each in wrong if (use := _unknown_term(mistake, each)))
+        unknown = [use for mistake, each in wrong if (use := _unknown_term(mistake, each))]
+        again = {each.iri: each.others for each in group_repeated_terms(unknown)}
         foreign = group_foreign_terms(unknown, self._vocabulary)
         yield from (report_foreign_terms(namespace, uses, self._vocabulary) for namespace, uses in foreign.items())
         reported = {use for uses in foreign.values() for use in uses}
         for mistake, each in wrong:
-            if _unknown_term(mistake, each) in reported:
+            use = _unknown_term(mistake, each)
+            if use in reported:
                 continue
-            if mistake.kind == "unknown subject":
+            if use is not None and use.iri in again:
+                reported.update(again[use.iri])
+                yield from (say_where_else(one, again[use.iri]) for one in self._problems_of(mistake, each))
+            elif mistake.kind == "unknown subject":
                 subjects.setdefault(iri_of(each.subject), each)
             elif mistake.kind == "unknown object":
                 objects[iri_of(each.object)].append(each)
