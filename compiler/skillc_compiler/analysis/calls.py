@@ -15,7 +15,8 @@ from skillc_compiler.analysis.binding import (
     fresh_variable,
 )
 from skillc_compiler.analysis.exploration import CallEffect, EvalContext, Exploration, havoc_concurrent
-from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
+from skillc_compiler.analysis.findings import EarlyApply
+from skillc_compiler.analysis.knowledge.apply_effects import apply_effects, is_done
 from skillc_compiler.analysis.knowledge.assume import assume, unify
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.havoc import havoc
@@ -37,7 +38,8 @@ def explore_call(run: Exploration, call: Call, states: StatePaths, context: Eval
     run.called.add(id(call))
     pre, hold = call_requirements(run.program, call, "pre"), call_requirements(run.program, call, "hold")
     for state, path in states.items():
-        run.check_holds(state, path)
+        run.check_holds(state, path, context)
+        run.check_holds_inside(call, state, path)
         if call.skill is None:
             _end_unknown_call(call, state, path, ends)
             continue
@@ -101,6 +103,7 @@ def _end_call(
 ) -> None:
     name, span = binding.skill.name, call.written.span
     failed = extend_path(path, span, f"`{name}` fails")
+    _check_applied(run, call, binding, state, path)
     started = _assume_started(run, binding, (*conditions[0], *conditions[1]), state)
     less = havoc_concurrent(
         run, havoc(run.types, state, _hide_unstable(run, run.summaries.writes_of_call(call, failing=True))), context
@@ -113,6 +116,18 @@ def _end_call(
             if outcome == "success" and "endless" in binding.skill.flags:
                 continue
             add_state({"success": ends.success, "failure": ends.failure, "broken": ends.broken}[outcome], ended, trail)
+
+
+def _check_applied(run: Exploration, call: Call, binding: Binding, state: State, path: Path) -> None:
+    """Record an `apply` that has written what the call is still to establish."""
+    posts = call_requirements(run.program, call, "post") if run.applied and path is not None else ()
+    for _, promised in definite_effects(posts):
+        effect = binding.effect(promised)
+        node, post = run.applied.get(effect, (None, None))
+        if node is None or post is None or not any(step.span == node.written.span for step in path or ()):
+            continue
+        if is_done(run.types, state, effect):
+            run.add_finding(("applied", id(node)), EarlyApply(node, post, call=call, path=path), path)
 
 
 def _monitored_ends(

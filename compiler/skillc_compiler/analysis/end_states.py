@@ -8,7 +8,7 @@ from msgspec import structs
 
 from skillc_compiler.analysis.binding import definite_effects
 from skillc_compiler.analysis.exploration import CallEffect, Exploration
-from skillc_compiler.analysis.findings import Finding, LeakedChange, UnassignedOutput, UndeclaredEffect, UnprovedPost
+from skillc_compiler.analysis.findings import Finding, UnassignedOutput, UndeclaredEffect, UnprovedPost
 from skillc_compiler.analysis.initial_state import requirements_of
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, is_any_individual
 from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
@@ -23,7 +23,8 @@ from skillc_compiler.analysis.knowledge.writes import (
     write_of,
     written_condition,
 )
-from skillc_compiler.analysis.paths import EndStates, Path, StatePaths, path_length
+from skillc_compiler.analysis.paths import EndStates, StatePaths, path_length
+from skillc_compiler.analysis.released import contains_call, find_leaked
 from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedCondition, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s
@@ -77,7 +78,7 @@ def end_findings(
         if condition is not None:
             if not unproved:
                 yield from _check_declared(run, implementation, one, condition, before, ends.success)
-            yield from _check_released(run, one, condition, start, ends)
+            yield from find_leaked(run, one, condition, start, ends)
 
 
 def undeclared_writes(
@@ -210,7 +211,7 @@ def _check_declared(
     found = [
         path
         for state, path in states.items()
-        if _contains_call(path, one.call)
+        if contains_call(path, one.call)
         and evaluate(run.types, state, condition)
         and not any(evaluate(run.types, _with_identities(each, state), condition) for each in before)
     ]
@@ -226,7 +227,7 @@ def _check_each_declared(
     declared = definite_effects(requirements_of(implementation, "post"))
     if one.post.sensed or any(isinstance(own, ForEach) and _same_each(effect, own) for _, own in declared):
         return
-    found = [path for path in states.values() if _contains_call(path, one.call)]
+    found = [path for path in states.values() if contains_call(path, one.call)]
     if found:
         names = {each.name for each in implementation.skill.parameters}
         text = format_each(effect, run.types.vocabulary)
@@ -273,42 +274,3 @@ def _may_mean(run: Exploration, one: object, other: object) -> bool:
     if one == other:
         return True
     return isinstance(one, Variable) and "@" in one.name
-
-
-def _contains_call(path: Path, call: Call) -> bool:
-    return path is not None and any(each.span == call.written.span for each in path)
-
-
-def _check_released(
-    run: Exploration, one: CallEffect, condition: Condition, start: State, ends: EndStates
-) -> Iterator[Finding]:
-    """Yield a value that no success keeps and that a failure after the effect leaves changed.
-
-    Relations are not device states: a failure leaves objects where they are. If the undoing call itself fails, nothing
-    could have undone the effect.
-    """
-    if (
-        one.post.sensed
-        or not isinstance(write_of(one.effect), PropertyWrite)
-        or not ends.success
-        or evaluate(run.types, start, condition) is not False
-    ):
-        return
-    if all(evaluate(run.types, state, condition) is False for state in ends.success):
-        failed = ends.failed
-        undoing = {
-            each.call.written.span for each in run.effects.values() if _undoes(run.types, each.effect, condition)
-        }
-        left = [
-            path
-            for state, path in failed.items()
-            if path is not None and path.span not in undoing and _contains_call(path, one.call)
-            if evaluate(run.types, state, condition)
-        ]
-        if left:
-            yield LeakedChange(one.call, one.post, min(left, key=path_length))
-
-
-def _undoes(types: AliasTypes, effect: Effect, condition: Condition) -> bool:
-    """Whether an effect makes a condition false."""
-    return evaluate(types, apply_effects(types, State(), [effect]), condition) is False

@@ -12,11 +12,13 @@ from msgspec import structs
 from skillc_compiler.analysis.findings import BrokenHold, Finding, UnassignedRead, UnprovedPrecondition
 from skillc_compiler.analysis.initial_state import requirements_of
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
+from skillc_compiler.analysis.knowledge.apply_effects import apply_write, spare
+from skillc_compiler.analysis.knowledge.assume import assume
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.havoc import havoc
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import NO_WRITES, Write
-from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, path_length
+from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, extend_path, path_length
 from skillc_compiler.analysis.summaries import WriteSummaries, hide_names
 from skillc_compiler.program.typed import (
     Call,
@@ -37,10 +39,14 @@ FindUndeclared: TypeAlias = Callable[[Implementation], frozenset[Write]]
 
 
 class EvalContext(msgspec.Struct, frozen=True):
-    """The context of a node: whether its failure is caught, and what others may write while it runs."""
+    """The context of a node: whether its failure is caught, and what others may write while it runs.
+
+    `parallel_writes` are those of them that siblings in a `par` make.
+    """
 
     caught: bool = False
     concurrent_writes: frozenset[Write] = NO_WRITES
+    parallel_writes: frozenset[Write] = NO_WRITES
 
     def with_failure_caught(self) -> EvalContext:
         """Return the same context with failures caught."""
@@ -49,6 +55,10 @@ class EvalContext(msgspec.Struct, frozen=True):
     def with_concurrent_writes(self, writes: frozenset[Write]) -> EvalContext:
         """Return the same context with more writes by others."""
         return structs.replace(self, concurrent_writes=self.concurrent_writes | writes)
+
+    def beside(self, writes: frozenset[Write]) -> EvalContext:
+        """Return the same context with siblings in a `par` that write."""
+        return structs.replace(self.with_concurrent_writes(writes), parallel_writes=self.parallel_writes | writes)
 
 
 class PropertyMonitor(Protocol):
@@ -82,7 +92,7 @@ class PreconditionStats:
     """How often a precondition was checked, was false and was open, with the paths.
 
     `excused` counts the times when it was open and need not be known: its failure is caught, or it is decided at run
-    time.
+    time. `uncaught` tells whether it was false where nothing catches that, as in the last round of a `retry`.
     """
 
     call: Call
@@ -91,7 +101,7 @@ class PreconditionStats:
     false: int = 0
     open_: int = 0
     excused: int = 0
-    caught: bool = False
+    uncaught: bool = False
     false_way: Path = None
     open_way: Path = None
     open_condition: Condition | None = None
@@ -101,7 +111,7 @@ class PreconditionStats:
         if not self.false or path_length(path) < path_length(self.false_way):
             self.false_way = path
         self.false += 1
-        self.caught |= caught
+        self.uncaught |= not caught
 
     def count_open(self, condition: Condition, path: Path) -> None:
         """Count that it is open, and what is needed in the caller's terms."""
@@ -125,7 +135,8 @@ class Exploration:
     `leaks` finds the undeclared changes of an implementation; `outputs` are the names that calls assign. While `quiet`
     is not 0, ends are computed and nothing is recorded. `steps` counts how often a node was followed from a state.
     `known` stores the ends of explored nodes by node, states and context, and whether they were recorded. `called` are
-    the calls that were followed, so that states may know what they found.
+    the calls that were followed, so that states may know what they found. `always` is what is known as long as a `par`
+    runs, by its node. `applied` are the effects that an `apply` has written.
     """
 
     program: Program
@@ -145,6 +156,8 @@ class Exploration:
     quiet: int = 0
     steps: int = 0
     known: dict[object, tuple[bool, EndStates]] = field(default_factory=dict)
+    always: dict[int, State] = field(default_factory=dict)
+    applied: dict[Effect, tuple[TypedNode, Requirement]] = field(default_factory=dict)
     called: set[int] = field(default_factory=set)
 
     def writes(self, node: TypedNode) -> frozenset[Write]:
@@ -178,15 +191,41 @@ class Exploration:
                     found = UnassignedRead(name, value.span, value.declared or value.span, path)
                     self.add_finding((value.span, name), found, path)
 
-    def check_holds(self, state: State, path: Path) -> None:
-        """Record holds of the implementation that may not hold when a node that takes time begins."""
+    def check_holds(self, state: State, path: Path, context: EvalContext) -> None:
+        """Record holds of the implementation that may not hold when a node that takes time begins.
+
+        What a sibling in a `par` may break is found where the sibling does it.
+        """
         if self.implementation is None or path is None:
             return
         for hold in requirements_of(self.implementation, "hold"):
-            known = evaluate(self.types, state, hold.condition.meaning)
+            condition = hold.condition.meaning
+            known = evaluate(self.types, state, condition)
+            if known is None and self._may_break_beside(condition, context):
+                continue
             if known is not True:
                 finding = BrokenHold(hold, path.span, known is False, path)
                 self.add_finding((id(hold), path.span, known), finding, path)
+
+    def _may_break_beside(self, condition: Condition, context: EvalContext) -> bool:
+        held = assume(self.types, State(), condition)
+        return held is not None and not evaluate(
+            self.types, havoc(self.types, held, context.parallel_writes), condition
+        )
+
+    def check_holds_inside(self, call: Call, state: State, path: Path) -> None:
+        """Record holds of the implementation that a call may break before it ends."""
+        if self.implementation is None:
+            return
+        for hold in requirements_of(self.implementation, "hold"):
+            condition = hold.condition.meaning
+            if not evaluate(self.types, state, condition):
+                continue
+            for write in self.summaries.early_writes_of_call(call):
+                if not evaluate(self.types, apply_write(self.types, state, spare(self.types, state, write)), condition):
+                    span = call.written.span
+                    trail = extend_path(path, span, f"`{call.written.skill.text}` has still to do more")
+                    self.add_finding((id(hold), span, None), BrokenHold(hold, span, False, trail), trail)
 
     def count_precondition(
         self,
@@ -213,8 +252,8 @@ class Exploration:
     def unproved_preconditions(self) -> Iterable[Finding]:
         """Yield the preconditions that are false or open on some path; if failure is caught, false on all."""
         for count in self.precondition_stats.values():
-            if count.false == count.seen or (count.false and not count.caught):
-                always = count.false == count.seen and not count.caught
+            if count.false == count.seen or count.uncaught:
+                always = count.false == count.seen and count.uncaught
                 yield UnprovedPrecondition(count.call, count.requirement, True, count.false_way, always)
             elif count.open_ and self.implementation is not None:
                 yield UnprovedPrecondition(

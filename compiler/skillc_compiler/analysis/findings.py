@@ -112,11 +112,28 @@ class UnassignedOutput(msgspec.Struct, frozen=True):
 
 
 class ParallelConflict(msgspec.Struct, frozen=True):
-    """Two calls in parallel that write a fact differently, or use the same device exclusively."""
+    """Two calls in parallel that write a fact differently, or use the same device exclusively.
+
+    `certain` if this does not depend on which individuals names denote.
+    """
 
     first: Call
     second: Call
     what: str
+    certain: bool = True
+
+
+class EarlyApply(msgspec.Struct, frozen=True):
+    """An `apply` that claims what has not been done: nothing has run, the block has failed, or `call` has yet to do it.
+
+    `at_the_end` if it is in a `finally`.
+    """
+
+    node: TypedNode
+    post: Requirement
+    at_the_end: bool = False
+    call: Call | None = None
+    path: Path = None
 
 
 class LeakedChange(msgspec.Struct, frozen=True):
@@ -155,6 +172,7 @@ Finding: TypeAlias = (
     | UnassignedRead
     | UnassignedOutput
     | ParallelConflict
+    | EarlyApply
     | LeakedChange
     | ViolatedProperty
     | UndecidedProperty

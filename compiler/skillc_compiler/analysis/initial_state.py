@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from skillc_compiler.analysis.binding import class_of
+from skillc_compiler.analysis.binding import class_of, definite_effects
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
 from skillc_compiler.analysis.knowledge.assume import assume
 from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
 from skillc_compiler.analysis.knowledge.havoc import havoc
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
-from skillc_compiler.analysis.knowledge.writes import Write
+from skillc_compiler.analysis.knowledge.writes import Write, normalise_each
 from skillc_compiler.program.typed import Implementation, Parameter, Requirement, Task
 from skillc_compiler.program.types import Thing as ThingType
-from skillc_model.conditions import Compare, Condition, Given, Holds, Individual, Literal, Not, Same, Variable
+from skillc_model.conditions import Compare, Condition, ForEach, Given, Holds, Individual, Literal, Not, Same, Variable
 from skillc_model.rewriting import constant_number
 from skillc_model.traversal import conjuncts
 from skillc_rdf.vocabulary.types import THING
@@ -39,12 +39,19 @@ def initial_state(types: AliasTypes, implementation: Implementation, writes: Ite
 
     `writes` are those of the body.
     """
-    state = parameter_state(implementation)
+    state = parameter_state(implementation).replace(unchanged=frozenset(_effects_on_many(implementation)))
     for requirement in _assumed_requirements(implementation):
         state = assume(types, state, requirement.condition.meaning) or state
     for excluded in (*_kept_apart(types, implementation), *_kept_open(types, implementation, frozenset(writes))):
         state = assume(types, state, excluded) or state
     return state
+
+
+def _effects_on_many(implementation: Implementation) -> Iterator[ForEach]:
+    """Yield the effects on many that an implementation promises, in their one form."""
+    for _, effect in definite_effects(requirements_of(implementation, "post")):
+        if isinstance(effect, ForEach):
+            yield normalise_each(effect)
 
 
 def _kept_apart(types: AliasTypes, implementation: Implementation) -> Iterable[Condition]:

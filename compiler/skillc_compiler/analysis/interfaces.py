@@ -6,7 +6,7 @@ import msgspec
 
 from skillc_compiler.analysis.knowledge.writes import Write
 from skillc_compiler.analysis.parallel_conflicts import devices_inside
-from skillc_compiler.analysis.summaries import WriteSummaries
+from skillc_compiler.analysis.summaries import HoldInside, WriteSummaries
 from skillc_compiler.program.typed import Implementation, Program, Requirement
 
 
@@ -14,7 +14,8 @@ class Interface(msgspec.Struct, frozen=True):
     """What the proofs of its callers read of an implementation with a body.
 
     `leaks` are its changes that its description does not declare; `writes`, `writes_on_failure` and `scoped_writes` are
-    those of its summary, in its own terms. `devices` are the parameters with devices that it uses exclusively.
+    those of its summary, in its own terms; `early_writes` those while a part of it has still to run, `holds_inside`
+    what has to hold meanwhile. `devices` are the parameters with devices that it uses exclusively.
     """
 
     key: str
@@ -24,6 +25,8 @@ class Interface(msgspec.Struct, frozen=True):
     writes_on_failure: frozenset[Write]
     scoped_writes: frozenset[Write]
     may_break_hold: bool
+    early_writes: frozenset[Write]
+    holds_inside: frozenset[HoldInside]
     devices: frozenset[str]
 
 
@@ -37,5 +40,7 @@ def summarise(program: Program, summaries: WriteSummaries, of: Implementation, l
         writes_on_failure=summaries.writes_on_failure(of),
         scoped_writes=summaries.scoped_writes_inside(of),
         may_break_hold=summaries.may_break_hold(of.skill),
+        early_writes=summaries.early_writes(of),
+        holds_inside=summaries.holds_inside(of),
         devices=devices_inside(program, of),
     )

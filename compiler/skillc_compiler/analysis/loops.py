@@ -7,7 +7,7 @@ from math import inf
 from typing import assert_never
 
 from skillc_compiler.analysis.exploration import EvalContext, Exploration, explore_sequence, havoc_concurrent
-from skillc_compiler.analysis.knowledge.assume import assume
+from skillc_compiler.analysis.knowledge.assume import assume, unify
 from skillc_compiler.analysis.knowledge.state import State, join
 from skillc_compiler.analysis.paths import (
     EndStates,
@@ -23,11 +23,12 @@ from skillc_compiler.logic.intervals import interval_of, parameter_intervals
 from skillc_compiler.logic.rounds import count_rounds
 from skillc_compiler.program.typed import TypedNode
 from skillc_dsl import syntax as s
-from skillc_model.conditions import ListValue, Literal
+from skillc_model.conditions import Expression, Individual, ListValue, Literal, Variable
 from skillc_model.tree import MOST_ROUNDS
 
 MAX_ROUNDS = 6
-"""The number of rounds that are followed one by one; after them, only what every round keeps is known."""
+"""The number of rounds that are followed one by one; after them, unless they lead to known states only, what every
+round keeps is known."""
 MAX_NARROWINGS = 2
 """The number of times that the loop invariant is narrowed."""
 
@@ -47,8 +48,9 @@ def explore_loop(
 
 def explore_retry(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:
     """Return how a `retry` ends: a failed round is followed by another until none is left."""
-    ends = EndStates()
+    ends, later = EndStates(), dict[State, Path]()
     least, most = _count(run, node, states, ends)
+    first = states
     for number in range(1, min(most, MAX_ROUNDS) + 1):
         last = number == min(most, MAX_ROUNDS)
         one = explore_sequence(
@@ -60,6 +62,10 @@ def explore_retry(run: Exploration, node: TypedNode, states: StatePaths, context
         states = widen(one.failed)
         if not states:
             return ends
+        if most > MAX_ROUNDS and all(state in later or state in first for state in states):
+            ends.add_failures(explore_sequence(run, node.children, widen({**later, **states}), context))
+            return ends
+        add_states(later, states)
     if most > MAX_ROUNDS:
         ends.add_failures(_explore_any_round(run, node, states, context, ends.success))
     return ends
@@ -67,7 +73,7 @@ def explore_retry(run: Exploration, node: TypedNode, states: StatePaths, context
 
 def explore_repeat(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:
     """Return how a `repeat` ends: a successful round is followed by another."""
-    ends, going = EndStates(), dict(states)
+    ends, going, later = EndStates(), dict(states), dict[State, Path]()
     least, most = _count(run, node, states, ends)
     for number in range(1, min(most, MAX_ROUNDS) + 1):
         one = explore_sequence(run, node.children, widen(going), context)
@@ -75,6 +81,11 @@ def explore_repeat(run: Exploration, node: TypedNode, states: StatePaths, contex
         ends.add_failures(one)
         if number >= least:
             add_states(ends.success, going)
+        if most > MAX_ROUNDS and all(state in later or state in states for state in going):
+            add_states(ends.success, later)
+            add_states(ends.success, going)
+            return ends
+        add_states(later, going)
     if most > MAX_ROUNDS and going:
         ends.add_failures(_explore_any_round(run, node, going, context, ends.success))
     return ends
@@ -84,7 +95,7 @@ def _explore_while(
     run: Exploration, node: TypedNode, limit: int, states: StatePaths, context: EvalContext
 ) -> EndStates:
     """Explore a `while`: rounds while the condition holds; a failure if it still holds after the last one."""
-    ends = EndStates()
+    ends, later = EndStates(), dict(states)
     for _ in range(min(limit, MAX_ROUNDS)):
         going, out = _split_on_condition(run, node, states, context)
         add_states(ends.success, out)
@@ -93,11 +104,15 @@ def _explore_while(
         states = widen(one.success)
         if not states:
             return ends
-    if limit > MAX_ROUNDS:
-        later: dict[State, Path] = {}
-        ends.add_failures(_explore_any_round(run, node, states, context, later))
+        if limit > MAX_ROUNDS and all(state in later for state in states):
+            limit, states = MAX_ROUNDS, widen(later)
+            break
         add_states(later, states)
-        states = later
+    if limit > MAX_ROUNDS:
+        after: dict[State, Path] = {}
+        ends.add_failures(_explore_any_round(run, node, states, context, after))
+        add_states(after, states)
+        states = after
     going, out = _split_on_condition(run, node, states, context)
     add_states(ends.success, out)
     for state, path in going.items():
@@ -117,8 +132,9 @@ def _explore_for(
     run.types.classes.pop(name, None)
     items = node.values[0].meaning
     if isinstance(items, ListValue) and len(items.items) <= MAX_ROUNDS:
-        for _ in items.items:
-            one = explore_sequence(run, node.children, widen(ends.success), context)
+        for item in items.items:
+            begun = _with_item(ends.success, Variable(name), item)
+            one = explore_sequence(run, node.children, widen(begun), context)
             ends.success = _without_item(one.success, name)
             ends.add_failures(one)
         return ends
@@ -134,6 +150,17 @@ def _explore_for(
     ends.add_failures(_explore_any_round(run, node, states, context, later))
     add_states(ends.success, _without_item(later, name))
     return ends
+
+
+def _with_item(states: StatePaths, name: Variable, item: Expression) -> dict[State, Path]:
+    """Return the states in which the variable of a loop is another name for an item, if that has a name."""
+    if not isinstance(item, Variable | Individual):
+        return dict(states)
+    found: dict[State, Path] = {}
+    for state, path in states.items():
+        thing = state.aliases.get(item.name, item) if isinstance(item, Variable) else item
+        add_state(found, unify(state, name, thing), path)
+    return found
 
 
 def _without_item(states: StatePaths, name: str) -> dict[State, Path]:

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from typing import assert_never
 
 from skillc_compiler.analysis import loops, parallel
+from skillc_compiler.analysis.applied import applied_posts, claims
 from skillc_compiler.analysis.binding import definite_effects
 from skillc_compiler.analysis.calls import explore_call
 from skillc_compiler.analysis.decorators import explore_decorator
 from skillc_compiler.analysis.exploration import EvalContext, Exploration, explore_sequence, havoc_concurrent
-from skillc_compiler.analysis.initial_state import requirements_of
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, any_individual
 from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
 from skillc_compiler.analysis.knowledge.assume import assume
@@ -182,14 +182,14 @@ def _explore_leaf(run: Exploration, node: TypedNode, states: StatePaths, context
                 event = f"it fails: {message.text}"
                 add_state(ends.failure, havoc_concurrent(run, state, context), extend_path(path, span, event))
             case s.WaitUntil():
-                run.check_holds(state, path)
+                run.check_holds(state, path, context)
                 add_state(
                     ends.success,
                     havoc_concurrent(run, wait_for(run.types, state, node.conditions[0].meaning), context),
                     path,
                 )
             case _:
-                run.check_holds(state, path)
+                run.check_holds(state, path, context)
                 add_state(ends.success, havoc_concurrent(run, state, context), path)
     return ends
 
@@ -217,9 +217,10 @@ def _explore_apply(
     ends = EndStates()
     if run.implementation is None:
         return EndStates(success=dict(states))
-    labels = {name.text for name in written.labels}
-    posts = [p for p in requirements_of(run.implementation, "post") if p.label and p.label.text in labels]
-    effects = [effect for post in posts if not post.sensed for _, effect in definite_effects([post])]
+    labels = [name.text for name in written.labels]
+    posts = [post for post in applied_posts(run.implementation, node) if not post.sensed]
+    effects = [effect for _, effect in definite_effects(posts)]
+    run.applied.update({effect: (node, post) for post, effect in definite_effects(posts) if claims(effect)})
     for state, path in states.items():
         after = apply_effects(run.types, state, effects)
         event = "`apply` writes " + " and ".join(f"`{label}`" for label in sorted(labels))

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from functools import reduce
+
 from skillc_compiler.analysis.binding import bind_call, call_requirements
 from skillc_compiler.analysis.exploration import EvalContext, Exploration, interleave
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
+from skillc_compiler.analysis.knowledge.apply_effects import spare
 from skillc_compiler.analysis.knowledge.assume import assume
 from skillc_compiler.analysis.knowledge.havoc import havoc
-from skillc_compiler.analysis.knowledge.state import State
+from skillc_compiler.analysis.knowledge.state import State, join
 from skillc_compiler.analysis.knowledge.writes import OutputWrite, Write
 from skillc_compiler.analysis.paths import EndStates, Path, StatePaths, add_state, add_states, havoc_all, widen
 from skillc_compiler.program.typed import Call, TypedNode
@@ -18,9 +21,9 @@ def explore_parallel(
     run: Exploration, node: TypedNode, kind: str, states: StatePaths, context: EvalContext
 ) -> EndStates:
     """Return how a `par` ends, by which of its children determines the end."""
-    writes = [run.writes(child) for child in node.children]
     if not node.children:
         return EndStates(success=dict(states))
+    writes = _writes_of_children(run, node, states, context)
     if kind == "par all":
         return _explore_all(run, node, writes, states, context)
     ends, place = EndStates(), context if kind != "par any" else context.with_failure_caught()
@@ -28,9 +31,7 @@ def explore_parallel(
         others = _writes_of_others(writes, number)
         siblings = _siblings(node, number)
         entry = interleave(run, havoc_all(run.types, states, others), *siblings)
-        one = run.explore(
-            run, child, entry, _context_of_child(kind, number, context, place).with_concurrent_writes(others)
-        )
+        one = run.explore(run, child, entry, _context_of_child(kind, number, context, place).beside(others))
         one = EndStates(*(dict(interleave(run, each, *siblings)) for each in (one.success, one.failure, one.broken)))
         if number == 0 or kind != "par lead":
             add_states(ends.success, one.success)
@@ -39,6 +40,18 @@ def explore_parallel(
         ends.failure = havoc_all(run.types, ends.failure, frozenset().union(*writes))
         ends.broken = havoc_all(run.types, ends.broken, frozenset().union(*writes))
     return ends
+
+
+def _writes_of_children(
+    run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext
+) -> list[frozenset[Write]]:
+    """Return what each child may write; one on many is none on what does not fulfil its condition all the time."""
+    writes = [run.writes(child) for child in node.children]
+    together = frozenset[Write]().union(context.concurrent_writes, *writes)
+    always = reduce(join, havoc_all(run.types, states, together))
+    if not run.quiet:
+        run.always[id(node)] = join(run.always.get(id(node), always), always)
+    return [frozenset(spare(run.types, always, write) for write in each) for each in writes]
 
 
 def _context_of_child(kind: str, number: int, context: EvalContext, several: EvalContext) -> EvalContext:
@@ -55,9 +68,7 @@ def _explore_all(
     for number, child in enumerate(node.children):
         others = _writes_of_others(writes, number)
         ends.add_failures(
-            _explore_start(
-                run, node, number, havoc_all(run.types, states, others), context.with_concurrent_writes(others)
-            )
+            _explore_start(run, node, number, havoc_all(run.types, states, others), context.beside(others))
         )
         before = ends.success
         ends.success = {}
@@ -65,12 +76,11 @@ def _explore_all(
         for state, path in before.items():
             entry = _without_outputs(havoc(run.types, state, others), others, known)
             siblings = _siblings(node, number)
-            one = run.explore(
-                run, child, interleave(run, {entry: path}, *siblings), context.with_concurrent_writes(others)
-            )
+            one = run.explore(run, child, interleave(run, {entry: path}, *siblings), context.beside(others))
             one.success = dict(interleave(run, one.success, *siblings))
+            kept = havoc(run.types, state, writes[number])
             for found, found_way in one.success.items():
-                add_state(ends.success, _combine(found, state), found_way)
+                add_state(ends.success, _combine(found, kept), found_way)
             ends.add_failures(one)
         run.quiet -= 1
         ends.success = widen(ends.success)
@@ -93,6 +103,7 @@ def _combine(state: State, other: State) -> State:
         possible={**other.possible, **state.possible},
         assigned=other.assigned | state.assigned,
         done=other.done | state.done,
+        unchanged=other.unchanged & state.unchanged,
     )
 
 

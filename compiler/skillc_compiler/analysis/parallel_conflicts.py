@@ -5,75 +5,109 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from skillc_compiler.analysis.binding import call_requirements
-from skillc_compiler.analysis.findings import ParallelConflict
-from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
-from skillc_compiler.analysis.knowledge.apply_effects import apply_write
+from skillc_compiler.analysis.exploration import Exploration
+from skillc_compiler.analysis.findings import BrokenHold, ParallelConflict
+from skillc_compiler.analysis.initial_state import requirements_of
+from skillc_compiler.analysis.knowledge.alias_types import is_any_individual
+from skillc_compiler.analysis.knowledge.apply_effects import apply_write, spare
+from skillc_compiler.analysis.knowledge.assume import assume
 from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import PropertyWrite, RelationWrite, Write
-from skillc_compiler.analysis.summaries import WriteSummaries
-from skillc_compiler.program.typed import Call, Implementation, Program, Requirement, TypedNode
+from skillc_compiler.analysis.summaries import HoldInside
+from skillc_compiler.program.typed import Call, Implementation, Program, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s
-from skillc_model.conditions import Expression, Individual, Literal, Variable
-from skillc_model.rewriting import substitute
-from skillc_model.traversal import free_variables
+from skillc_model.conditions import Anything, Individual, Variable
 from skillc_rdf.vocabulary.types import local_name
 
 
-def find_parallel_conflicts(
-    program: Program, summaries: WriteSummaries, axioms: CanonicalAxioms, body: TypedNode
-) -> Iterator[ParallelConflict]:
-    """Yield the first two conflicting calls of each pair of children of a `par`."""
+def find_parallel_conflicts(run: Exploration, body: TypedNode) -> Iterator[ParallelConflict | BrokenHold]:
+    """Yield the first two conflicting calls of each pair of children of a `par`, and what breaks a hold around it."""
     for node in nodes_in(body):
         if isinstance(node.written, s.Block) and node.written.kind.startswith("par"):
+            always = run.always.get(id(node), State())
             for one, other in combinations(node.children, 2):
-                yield from _first_conflict(program, summaries, axioms, one, other)
+                yield from _first_conflict(run, always, one, other)
+            if run.implementation is not None and len(node.children) > 1:
+                yield from _broken_around(run, run.implementation, always, node)
 
 
-def _first_conflict(
-    program: Program, summaries: WriteSummaries, axioms: CanonicalAxioms, one: TypedNode, other: TypedNode
-) -> Iterator[ParallelConflict]:
+def _first_conflict(run: Exploration, always: State, one: TypedNode, other: TypedNode) -> Iterator[ParallelConflict]:
+    possible: ParallelConflict | None = None
     for first in calls_in(one):
         for second in calls_in(other):
-            devices = _devices(program, first) & _devices(program, second)
-            written = _conflicts(axioms, summaries.writes_of_call(first), summaries.writes_of_call(second))
-            if devices:
-                yield ParallelConflict(
-                    first, second, f"both use `{_short_name(min(devices, key=_short_name))}` exclusively"
-                )
+            found = _conflict(run, always, first, second)
+            if found is not None and found.certain:
+                yield found
                 return
-            for fact in written:
-                yield ParallelConflict(first, second, f"both write `{fact}` differently")
-                return
-            for holding, breaking in ((first, second), (second, first)):
-                broken = _find_broken_hold(program, summaries, axioms, holding, breaking)
-                if broken is not None:
-                    what = f"ends `{broken.text}`, which has to hold as long as the other one runs"
-                    yield ParallelConflict(holding, breaking, what)
-                    return
+            possible = possible or found
+    if possible is not None:
+        yield possible
 
 
-def _find_broken_hold(
-    program: Program, summaries: WriteSummaries, axioms: CanonicalAxioms, holding: Call, breaking: Call
-) -> Requirement | None:
-    """Return a hold of a call that another call makes false, as far as both name the same individuals."""
-    types, values = AliasTypes(program.vocabulary, axioms), _passed_terms(holding)
-    ended = [apply_write(types, State(), write) for write in summaries.writes_of_call(breaking)]
-    for hold in call_requirements(program, holding, "hold"):
-        condition = substitute(hold.condition.meaning, values)
-        is_named = free_variables(hold.condition.meaning) <= values.keys()
-        if is_named and any(evaluate(types, state, condition) is False for state in ended):
-            return hold
+def _conflict(run: Exploration, always: State, first: Call, second: Call) -> ParallelConflict | None:
+    program, summaries = run.program, run.summaries
+    devices = _devices(program, first) & _devices(program, second)
+    if devices:
+        used = _short_name(min(devices, key=_short_name))
+        return ParallelConflict(first, second, f"both use `{used}` exclusively")
+    written = _conflicts(run.types.axioms, summaries.writes_of_call(first), summaries.writes_of_call(second))
+    if written:
+        return ParallelConflict(first, second, f"both write `{written[0]}` differently")
+    for holding, breaking in ((first, second), (second, first)):
+        for certain in (True, False):
+            broken = _find_broken_hold(run, always, holding, breaking, certain)
+            if broken is not None:
+                verb = "ends" if certain else "may end"
+                what = f"{verb} `{broken.text}`, which has to hold as long as the other one runs"
+                return ParallelConflict(holding, breaking, what, certain)
     return None
 
 
-def _passed_terms(call: Call) -> dict[str, Expression]:
-    """Return the arguments of a call that are names, individuals or constants."""
-    values = ((argument.name.text, argument.value.meaning) for argument in call.arguments)
-    return {name: value for name, value in values if isinstance(value, Variable | Individual | Literal)}
+def _find_broken_hold(
+    run: Exploration, always: State, holding: Call, breaking: Call, certain: bool
+) -> HoldInside | None:
+    """Return what has to hold while a call runs and another one makes false, certainly or possibly.
+
+    What the other one only measures, or does to individuals without a name, is not reported.
+    """
+    writes = run.summaries.writes_of_call(breaking)
+    ending = [write for write in writes if isinstance(write, RelationWrite | PropertyWrite) and _is_told(write)]
+    for hold in sorted(run.summaries.holds_of_call(holding), key=lambda each: each.text):
+        held = assume(run.types, always, hold.condition)
+        if held is None:
+            continue
+        for write in ending:
+            known = evaluate(run.types, _after(run, always, held, write), hold.condition)
+            if known is False or (known is None and not certain):
+                return hold
+    return None
+
+
+def _after(run: Exploration, always: State, held: State, write: Write) -> State:
+    return apply_write(run.types, held, spare(run.types, always, write))
+
+
+def _is_told(write: RelationWrite | PropertyWrite) -> bool:
+    """Whether it is said what is written, and of what."""
+    ends = (write.subject, write.object) if isinstance(write, RelationWrite) else (write.subject,)
+    return write.when is not None or (write.value is not None and not any(map(is_any_individual, ends)))
+
+
+def _broken_around(
+    run: Exploration, implementation: Implementation, always: State, node: TypedNode
+) -> Iterator[BrokenHold]:
+    """Yield the nodes of a `par` that may break a hold of the implementation while their siblings run."""
+    for hold in requirements_of(implementation, "hold"):
+        held = assume(run.types, always, hold.condition.meaning)
+        if held is None:
+            continue
+        for leaf in nodes_in(node):
+            writes = run.writes(leaf) if not leaf.children else ()
+            if not all(evaluate(run.types, _after(run, always, held, each), hold.condition.meaning) for each in writes):
+                yield BrokenHold(hold, leaf.written.span, False, None)
 
 
 def _devices(program: Program, call: Call, context: tuple[str, ...] = ()) -> frozenset[Variable | Individual]:
@@ -99,10 +133,10 @@ def devices_inside(program: Program, of: Implementation, context: tuple[str, ...
 
 
 def _conflicts(axioms: CanonicalAxioms, ours: frozenset[Write], theirs: frozenset[Write]) -> list[str]:
-    return sorted({fact for one in ours for other in theirs for fact in _conflict(axioms, one, other)})
+    return sorted({fact for one in ours for other in theirs for fact in _written_differently(axioms, one, other)})
 
 
-def _conflict(axioms: CanonicalAxioms, one: Write, other: Write) -> Iterator[str]:
+def _written_differently(axioms: CanonicalAxioms, one: Write, other: Write) -> Iterator[str]:
     match one, other:
         case RelationWrite(), RelationWrite() if one.relation == other.relation:
             same = (_same(one.subject, other.subject), _same(one.object, other.object))
@@ -112,7 +146,7 @@ def _conflict(axioms: CanonicalAxioms, one: Write, other: Write) -> Iterator[str
                 single and axioms.canonical.get(one.relation) in {(r, False) for r in axioms.single_object}
             ):
                 yield local_name(one.relation)
-        case PropertyWrite(value=Literal() as ours), PropertyWrite(value=Literal() as theirs):
+        case PropertyWrite(value=ours), PropertyWrite(value=theirs) if None not in (ours, theirs):
             if one.property == other.property and _same(one.subject, other.subject) and ours != theirs:
                 yield local_name(one.property)
 
@@ -122,7 +156,11 @@ def _same(one: object, other: object) -> bool:
 
 
 def _are_distinct(one: object, other: object) -> bool:
-    return isinstance(one, Individual) and isinstance(other, Individual) and one != other
+    return one != other and not (_is_unnamed(one) or _is_unnamed(other))
+
+
+def _is_unnamed(term: object) -> bool:
+    return isinstance(term, Anything) or is_any_individual(term)
 
 
 def _short_name(thing: Variable | Individual) -> str:

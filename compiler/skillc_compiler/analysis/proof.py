@@ -12,6 +12,7 @@ import msgspec
 from msgspec import structs
 
 from skillc_compiler.analysis import end_states
+from skillc_compiler.analysis.applied import early_applies
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
     Finding,
@@ -213,8 +214,9 @@ class Prover:
             *run.found.values(),
             *run.unproved_preconditions(),
             *unreachable_nodes(run, body, parameter_state(of) if isinstance(of, Implementation) else State()),
-            *find_parallel_conflicts(self.program, self.summaries, self._axioms, body),
+            *find_parallel_conflicts(run, body),
             *leaked_scopes(of, body),
+            *(early_applies(of, body) if isinstance(of, Implementation) else ()),
             *end_findings,
         ]
         if run.widened_at is not None:

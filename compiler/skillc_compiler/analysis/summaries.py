@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from skillc_compiler.analysis.binding import class_of, definite_effects
+import msgspec
+
+from skillc_compiler.analysis.applied import applied_posts
+from skillc_compiler.analysis.binding import call_requirements, class_of, definite_effects
 from skillc_compiler.analysis.initial_state import declare_names, initial_state, requirements_of
-from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, any_individual, is_any_individual
+from skillc_compiler.analysis.knowledge.alias_types import ANY_PREFIX, AliasTypes, any_individual, is_any_individual
 from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
 from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
@@ -24,8 +27,17 @@ from skillc_compiler.program.typed import Call, Implementation, Program, Skill, 
 from skillc_compiler.program.types import Thing
 from skillc_compiler.program.walk import calls_in
 from skillc_dsl import syntax as s
-from skillc_model.conditions import Anything, Expression, Individual, Literal, Term, Variable
+from skillc_model.conditions import Anything, Condition, Expression, Individual, Literal, Term, Variable
+from skillc_model.rewriting import substitute
+from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import THING
+
+
+class HoldInside(msgspec.Struct, frozen=True):
+    """A condition that has to hold while a part of a body runs, and its text where it was written."""
+
+    condition: Condition
+    text: str
 
 
 class WriteSummaries:
@@ -39,6 +51,8 @@ class WriteSummaries:
         self._kept: dict[str, bool] = {}
         self._holding: dict[str, bool] = {}
         self._names: dict[str, frozenset[str]] = {}
+        self._early: dict[str, frozenset[Write]] = {}
+        self._holds_inside: dict[str, frozenset[HoldInside]] = {}
 
     def all_writes(self, implementation: Implementation) -> frozenset[Write]:
         """Return what the implementation may write before it ends, in any way."""
@@ -88,6 +102,59 @@ class WriteSummaries:
         if id(node) not in self._steps:
             self._steps[id(node)] = frozenset(self._writes_of_node(node, implementation))
         return self._steps[id(node)]
+
+    def early_writes(self, implementation: Implementation) -> frozenset[Write]:
+        """Return what the implementation may write while a part of it has still to run."""
+        if implementation.key not in self._early:
+            self._early[implementation.key] = NO_WRITES
+            if isinstance(implementation.body, TypedNode):
+                visible = [p.name for p in implementation.parameters if p.direction != "out"]
+                found = self._early_writes_of_node(implementation.body, implementation)
+                facts = (write for write in found if isinstance(write, RelationWrite | PropertyWrite))
+                self._early[implementation.key] = hide_names(facts, visible)
+        return self._early[implementation.key]
+
+    def early_writes_of_call(self, call: Call) -> frozenset[Write]:
+        """Return what a call may write before it ends, in the caller's terms."""
+        candidates = self._program.candidates(call) if call.skill is not None else ()
+        return in_caller_terms(call, frozenset(write for one in candidates for write in self.early_writes(one)))
+
+    def _early_writes_of_node(self, node: TypedNode, of: Implementation) -> frozenset[Write]:
+        """Return what a node may write while a part of it has still to run."""
+        written = node.written
+        if isinstance(written, s.CallSkill) and node.call is not None:
+            return self.early_writes_of_call(node.call)
+        several = isinstance(written, s.While | s.For) or (isinstance(written, s.Decorator) and written.row.repeats)
+        if several or (isinstance(written, s.Block) and (written.kind.startswith(("par", "reactive")))):
+            return self.writes_of_node(node, of)
+        opened = self.writes_of_call(node.call) if node.call is not None else NO_WRITES
+        before = node.children if isinstance(written, s.Finally) else node.children[:-1]
+        last = (*node.children[-1:], *node.orelse[-1:])
+        whole = (self.writes_of_node(each, of) for each in (*before, *node.orelse[:-1]))
+        in_last = (self._early_writes_of_node(each, of) for each in last)
+        return opened.union(*whole, *in_last)
+
+    def holds_inside(self, implementation: Implementation) -> frozenset[HoldInside]:
+        """Return what has to hold while parts of a body run, as far as it is on the parameters of its skill."""
+        if implementation.key not in self._holds_inside:
+            self._holds_inside[implementation.key] = frozenset()
+            calls = calls_in(implementation.body) if isinstance(implementation.body, TypedNode) else ()
+            names = {p.name for p in implementation.skill.parameters}
+            found = (hold for call in calls for hold in self.holds_of_call(call))
+            self._holds_inside[implementation.key] = frozenset(
+                hold for hold in found if free_variables(hold.condition) <= names
+            )
+        return self._holds_inside[implementation.key]
+
+    def holds_of_call(self, call: Call) -> Iterator[HoldInside]:
+        """Yield what has to hold while a call, or a part of it, runs, as far as the caller has names for it."""
+        passed = ((argument.name.text, argument.value.meaning) for argument in call.arguments)
+        values = {name: value for name, value in passed if isinstance(value, Variable | Individual | Literal)}
+        own = (HoldInside(each.condition.meaning, each.text) for each in call_requirements(self._program, call, "hold"))
+        candidates = self._program.candidates(call) if call.skill is not None else ()
+        for hold in (*own, *(hold for one in candidates for hold in self.holds_inside(one))):
+            if free_variables(hold.condition) <= values.keys():
+                yield HoldInside(substitute(hold.condition, values), hold.text)
 
     def scoped_writes(self, call: Call, context: tuple[str, ...] = ()) -> frozenset[Write]:
         """Return the writes of scoped skills that remain after the call, until an enclosing `with` ends.
@@ -162,10 +229,7 @@ class WriteSummaries:
             if node.call.out is not None:
                 yield OutputWrite(node.call.out.text)
         if isinstance(node.written, s.ApplyPosts) and implementation is not None:
-            labels = {name.text for name in node.written.labels}
-            posts = [
-                post for post in requirements_of(implementation, "post") if post.label and post.label.text in labels
-            ]
+            posts = applied_posts(implementation, node)
             yield from (write_of(effect) for _, effect in definite_effects(posts))
         if isinstance(node.written, s.Decorator) and node.written.kind == "once":
             yield OnceWrite(node_key(node))
@@ -199,14 +263,26 @@ def _argument_values(call: Call, skill: Skill) -> Mapping[str, Expression]:
 
 def _substitute_write(write: Write, values: Mapping[str, Expression]) -> Write:
     match write:
-        case RelationWrite(subject=subject, relation=relation, object=object_, value=value):
-            return RelationWrite(_substitute_term(subject, values), relation, _substitute_term(object_, values), value)
-        case PropertyWrite(subject=subject, property=iri, value=value, cleared=cleared):
+        case RelationWrite(subject=subject, relation=relation, object=object_, value=value, when=when):
+            start, end = _substitute_term(subject, values), _substitute_term(object_, values)
+            kept = None if is_any_individual(start) and is_any_individual(end) else _substitute_when(when, values)
+            return RelationWrite(start, relation, end, value, kept)
+        case PropertyWrite(subject=subject, property=iri, value=value, cleared=cleared, when=when):
             new = values.get(value.name) if isinstance(value, Variable) else value
             known = new if isinstance(new, Literal | Variable | Individual) and not is_any_individual(new) else None
-            return PropertyWrite(_substitute_term(subject, values), iri, known, cleared)
+            kept = _substitute_when(when, values)
+            return PropertyWrite(_substitute_term(subject, values), iri, known, cleared, kept)
         case OutputWrite() | OnceWrite():
             return write
+
+
+def _substitute_when(when: Condition | None, values: Mapping[str, Expression]) -> Condition | None:
+    """Return on which individuals an effect is; not known if not all that it reads has a name."""
+    if when is None:
+        return None
+    read = {name: values.get(name) for name in free_variables(when) if not name.startswith(ANY_PREFIX)}
+    named = {name: value for name, value in read.items() if value is not None and not is_any_individual(value)}
+    return substitute(when, named) if len(named) == len(read) else None
 
 
 def _substitute_term(term: Term, values: Mapping[str, Expression]) -> Term:

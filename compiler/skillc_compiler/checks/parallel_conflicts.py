@@ -23,6 +23,7 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
             "parallel-conflict",
             second.span,
             f"`{second.text}` runs in parallel with `{first.text}`, and {one.what}",
-            help="run one after the other in a `seq`",
+            help="run one after the other in a `seq`" + ("" if one.certain else ", or add a `pre` that rules this out"),
+            severity="error" if one.certain else "warning",
             labels=(Label(first.span, "in parallel with this one"),),
         )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import msgspec
 
 from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
@@ -38,6 +40,13 @@ class AliasTypes(msgspec.Struct, frozen=True):
         definition = self.vocabulary.definitions.get(relation)
         return definition is not None and not definition.group
 
+    def values_of(self, relation: str) -> tuple[Individual, ...]:
+        """Return the values of the enumeration to which a relation leads; none if it may lead elsewhere."""
+        term = self.vocabulary.relations.get(relation)
+        ranges = {signature.range for signature in term.signatures} if term is not None else set()
+        values = self.vocabulary.enumerations.get(ranges.pop(), ()) if len(ranges) == 1 else ()
+        return tuple(map(Individual, values))
+
     def depends_on(self, relation: str, written: frozenset[str]) -> bool:
         """Whether a computed relation may change with one of these relations (canonical IRIs) and properties."""
         if not self.is_computed(relation):
@@ -66,10 +75,11 @@ class AliasTypes(msgspec.Struct, frozen=True):
             return True
         if state.facts.get(same_individual(one, other)) is False:
             return True
-        return any(
-            self.vocabulary.disjoint(mine, yours)
-            for mine in self._classes(state, one)
-            for yours in self._classes(state, other)
+        mine, yours = self._classes(state, one), self._classes(state, other)
+        return (
+            any(self.vocabulary.disjoint(each, every) for each in mine for every in yours)
+            or self._is_excluded(state, one, yours)
+            or self._is_excluded(state, other, mine)
         )
 
     def may_be_same(self, state: State, one: Term, other: Term) -> bool:
@@ -77,6 +87,11 @@ class AliasTypes(msgspec.Struct, frozen=True):
         if isinstance(one, Anything) or isinstance(other, Anything):
             return True
         return not self.are_distinct(state, one, other)
+
+    def _is_excluded(self, state: State, thing: IndividualTerm, classes: Sequence[str]) -> bool:
+        """Whether the individual is known not to be of one of the classes."""
+        excluded = state.excluded_classes.get(thing, ())
+        return any(self.vocabulary.is_a(cls, each) for each in excluded for cls in classes)
 
     def _classes(self, state: State, thing: IndividualTerm) -> list[str]:
         return [self.class_of(thing), *state.classes.get(thing, ())]

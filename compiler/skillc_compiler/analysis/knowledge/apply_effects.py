@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import assert_never
 
-from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
+from msgspec import structs
+
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, is_any_individual
 from skillc_compiler.analysis.knowledge.assume import single_values
+from skillc_compiler.analysis.knowledge.denied import keep_denied
+from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.havoc import havoc
+from skillc_compiler.analysis.knowledge.quantifiers import known_individuals
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import (
     OnceWrite,
@@ -18,6 +23,7 @@ from skillc_compiler.analysis.knowledge.writes import (
     canonical_relation,
     normalise_each,
     write_of,
+    written_condition,
 )
 from skillc_model.conditions import (
     Anything,
@@ -31,21 +37,69 @@ from skillc_model.conditions import (
     PropertyOf,
     Variable,
 )
+from skillc_model.rewriting import substitute
 
 
 def apply_effects(types: AliasTypes, state: State, effects: Iterable[Effect]) -> State:
     """Return the state after effects, retractions first, as the runtime applies them."""
-    effects = tuple(effects)
-    writes = sorted((write_of(effect) for effect in effects), key=lambda w: not _is_retraction(w))
-    for write in writes:
+    effects, before = tuple(effects), state
+    writes = [write for effect in effects for write in _writes_of(types, state, effect)]
+    for write in sorted(writes, key=lambda w: not _is_retraction(w)):
         state = apply_write(types, state, write)
-    each = frozenset(normalise_each(effect) for effect in effects if isinstance(effect, ForEach))
+    each = frozenset(normalise_each(effect) for effect in effects if isinstance(effect, ForEach)) & before.unchanged
     return state.replace(done=state.done | each) if each else state
+
+
+def _writes_of(types: AliasTypes, before: State, effect: Effect) -> Iterator[Write]:
+    """Yield the writes of an effect; of one on many individuals, also those on what certainly fulfils its condition."""
+    if not isinstance(effect, ForEach):
+        yield write_of(effect)
+        return
+    yield spare(types, before, write_of(effect))
+    for thing in known_individuals(before):
+        named = {effect.variable: thing}
+        if types.is_a(before, thing, effect.cls) and evaluate(types, before, substitute(effect.when, named)):
+            yield write_of(substitute(effect.effect, named))
+
+
+def spare(types: AliasTypes, state: State, write: Write) -> Write:
+    """Return a write on any individual that fulfils a condition as one apart from those that do not in this state."""
+    if not isinstance(write, RelationWrite | PropertyWrite) or write.when is None:
+        return write
+    if isinstance(write, RelationWrite) and not types.axioms.chained.isdisjoint(_kin(types, write.relation)):
+        return write
+    every = write.subject if is_any_individual(write.subject) else getattr(write, "object", None)
+    if not isinstance(every, Variable):
+        return write
+    apart = frozenset(
+        thing
+        for thing in known_individuals(state)
+        if evaluate(types, state, substitute(write.when, {every.name: thing})) is False
+    )
+    return structs.replace(write, apart=apart)
+
+
+def _kin(types: AliasTypes, relation: str) -> frozenset[str]:
+    name, _ = types.axioms.canonical.get(relation, (relation, False))
+    return types.axioms.affected.get(name, frozenset({name}))
+
+
+def is_done(types: AliasTypes, state: State, effect: Effect) -> bool:
+    """Whether what an effect makes so is known to be so already."""
+    if isinstance(effect, ForEach):
+        return normalise_each(effect) in state.done
+    write = write_of(effect)
+    condition = written_condition(write) if isinstance(write, RelationWrite | PropertyWrite) else None
+    return condition is not None and bool(evaluate(types, state, condition))
 
 
 def apply_write(types: AliasTypes, state: State, write: Write) -> State:
     """Return the state after a certain write."""
-    state = havoc(types, state, (write,))
+    after = _know_written(types, havoc(types, state, (write,)), write)
+    return keep_denied(types, state, after, write)
+
+
+def _know_written(types: AliasTypes, state: State, write: Write) -> State:
     match write:
         case RelationWrite(value=True):
             return _assert_relation(types, state, write)

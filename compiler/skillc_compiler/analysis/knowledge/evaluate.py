@@ -9,6 +9,7 @@ from msgspec.structs import replace
 
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, same_individual
 from skillc_compiler.analysis.knowledge.quantifiers import (
+    implies,
     is_ruled_out,
     known_individuals,
     normalise_quantifier,
@@ -143,8 +144,18 @@ def _evaluate_relation(types: AliasTypes, state: State, asked: Holds) -> bool | 
         case (Variable() | Individual()) as start, Anything():
             return _evaluate_related_to_any(state, asked.relation, start, True)
         case (Variable() | Individual()) as start, (Variable() | Individual()) as end:
-            return False if _is_excluded(types, state, asked.relation, start, end) else None
+            if _is_excluded(types, state, asked.relation, start, end):
+                return False
+            return True if _is_only_value(types, state, asked.relation, start, end) else None
     return None
+
+
+def _is_only_value(types: AliasTypes, state: State, relation: str, start: IndividualTerm, end: IndividualTerm) -> bool:
+    """Whether something is related to a value of an enumeration, since it is to one of them, and to no other one."""
+    values = types.values_of(relation)
+    if end not in values or not _evaluate_related_to_any(state, relation, start, True):
+        return False
+    return all(state.facts.get(Holds(start, relation, each)) is False for each in values if each != end)
 
 
 def _evaluate_related_to_any(state: State, relation: str, thing: IndividualTerm, is_subject: bool) -> bool | None:
@@ -194,24 +205,7 @@ def _look_up(types: AliasTypes, state: State, asked: Condition) -> bool | None:
     if known is not None:
         return known
     stronger = (fact for fact, true in state.facts.items() if true and type(fact) is type(asked))
-    return True if any(_implies(types, fact, asked) for fact in stronger) else None
-
-
-def _implies(types: AliasTypes, known: Condition, asked: Condition) -> bool:
-    """Whether a condition, part for part, says at least what another one says."""
-    match known, asked:
-        case Holds(subject, relation, object_), Holds(start, above, end):
-            implied = types.axioms.implied.get(relation, ((relation, False),))
-            ends = {(start, end): False, (end, start): True}
-            return (above, ends.get((subject, object_))) in implied
-        case Or(parts), Or(others):
-            return all(any(_implies(types, part, other) for other in others) for part in parts)
-        case And(parts), And(others):
-            return all(any(_implies(types, part, other) for part in parts) for other in others)
-        case Exists(name, cls, body), Exists(other, above, weaker):
-            return name == other and types.vocabulary.is_a(cls, above) and _implies(types, body, weaker)
-        case _:
-            return known == asked
+    return True if any(implies(types, fact, asked) for fact in stronger) else None
 
 
 def _evaluate_exists(types: AliasTypes, state: State, condition: Exists) -> bool | None:

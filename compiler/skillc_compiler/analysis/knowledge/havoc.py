@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import lru_cache
-from typing import NamedTuple, TypeAlias, assert_never
+from typing import assert_never
 
-from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, any_individual, is_any_individual
-from skillc_compiler.analysis.knowledge.evaluate import evaluate
+from msgspec import structs
+
+from skillc_compiler.analysis.knowledge.alias_types import (
+    AliasTypes,
+    any_individual,
+    is_any_individual,
+    same_individual,
+)
+from skillc_compiler.analysis.knowledge.changes import Pattern, matches, may_become_true, may_become_untrue
+from skillc_compiler.analysis.knowledge.evaluate import canonical_condition, evaluate
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, Side, State
 from skillc_compiler.analysis.knowledge.writes import (
     OnceWrite,
@@ -25,6 +33,7 @@ from skillc_model.conditions import (
     Condition,
     Exists,
     Forall,
+    ForEach,
     HasProperty,
     Holds,
     Individual,
@@ -34,19 +43,23 @@ from skillc_model.conditions import (
     Or,
     PropertyOf,
     Same,
-    Term,
     Variable,
 )
 from skillc_model.rewriting import substitute
 from skillc_model.traversal import walk
 
+ONE, OTHER = "|one", "|other"
+"""Names of any individuals while it is found out what a write on the one changes for the other; no names begin so."""
+
 
 def havoc(types: AliasTypes, state: State, writes: Iterable[Write]) -> State:
     """Return what is still known after any of these writes may have happened."""
     for write in writes:
-        if state.done:
-            state = state.replace(done=frozenset(each for each in state.done if not may_undo(types, write, each)))
+        if state.done or state.unchanged:
+            state = _havoc_each(types, state, write)
         match write:
+            case RelationWrite() | PropertyWrite() if write.apart:
+                state = _havoc_others(types, state, write)
             case RelationWrite():
                 state = _havoc_relation(types, state, write)
             case PropertyWrite():
@@ -60,12 +73,49 @@ def havoc(types: AliasTypes, state: State, writes: Iterable[Write]) -> State:
     return state
 
 
+def _havoc_each(types: AliasTypes, state: State, write: Write) -> State:
+    """Return the state without the effects on many that a write may undo, or may put on others than at the start."""
+    return state.replace(
+        done=frozenset(each for each in state.done if not _may_undo_each(types, state, write, each)),
+        unchanged=frozenset(each for each in state.unchanged if not _may_shift(types, state, write, each)),
+    )
+
+
+def _may_undo_each(types: AliasTypes, state: State, write: Write, each: ForEach) -> bool:
+    """Whether a write may undo an effect: not if it is on something that has not fulfilled the condition."""
+    if not may_undo(types, write, each):
+        return False
+    subject = write.subject if isinstance(write, PropertyWrite) else Anything()
+    if each not in state.unchanged or isinstance(subject, Anything) or is_any_individual(subject):
+        return True
+    return evaluate(types, state, substitute(each.when, {each.variable: subject})) is not False
+
+
+def _may_shift(types: AliasTypes, state: State, write: Write, each: ForEach) -> bool:
+    """Whether a write may change which individuals fulfil the condition of an effect on many."""
+    types.classes[OTHER] = each.cls
+    condition = canonical_condition(types, state, substitute(each.when, {each.variable: Variable(OTHER)}))
+    known: dict[Condition, bool] = {fact: true for fact, true in state.facts.items() if isinstance(fact, Same | IsA)}
+    return any(
+        condition not in havoc(types, State({**known, condition: true}), (write,)).facts for true in (True, False)
+    )
+
+
+def _havoc_others(types: AliasTypes, state: State, write: RelationWrite | PropertyWrite) -> State:
+    """Return what is still known after a write on any individual that is none of those apart from it."""
+    one, ends = Variable(ONE), ("subject", "object") if isinstance(write, RelationWrite) else ("subject",)
+    named = {end: one for end in ends if is_any_individual(getattr(write, end))}
+    types.classes[ONE] = next(types.class_of(getattr(write, end)) for end in named)
+    known = state.with_facts({same_individual(one, each): False for each in write.apart})
+    return havoc(types, known, (structs.replace(write, **named, apart=frozenset()),)).without_name(ONE)
+
+
 def _havoc_relation(types: AliasTypes, state: State, write: RelationWrite) -> State:
     """Return the state without the facts that writing a relation may have made untrue."""
     subject, relation, object_ = canonical_relation(types, state, write)
     kin = types.axioms.affected.get(relation, frozenset({relation}))
-    adds = _may_become_true(types, (subject, relation, object_)) if write.value is not False else ()
-    takes = _may_become_untrue(types, (subject, relation, object_), write.value)
+    adds = may_become_true(types, (subject, relation, object_)) if write.value is not False else ()
+    takes = may_become_untrue(types, (subject, relation, object_), write.value)
     changed = (*adds, *takes)
     state = _havoc_computed(types, state, frozenset(touched.relation for touched in changed))
     facts = {
@@ -81,110 +131,17 @@ def _havoc_relation(types: AliasTypes, state: State, write: RelationWrite) -> St
     return state.replace(facts=facts, possible={side: others for side, others in alone.items() if others is not None})
 
 
-Triple: TypeAlias = tuple[Term, str, Term]
-
-
-class Pattern(NamedTuple):
-    """Facts that may change: those of a relation between two terms, or, of a link, all by a chain in which it is."""
-
-    subject: Term
-    relation: str
-    object: Term
-    is_link: bool = False
-
-
-def _may_become_true(types: AliasTypes, fact: Triple) -> tuple[Pattern, ...]:
-    """Return the facts that an assertion may make true."""
-    subject, relation, object_ = fact
-    return tuple(
-        _in_chains(types, Pattern(*((object_, above, subject) if turned else (subject, above, object_))))
-        for above, turned in types.axioms.implied.get(relation, ((relation, False),))
-    )
-
-
-def _may_become_untrue(types: AliasTypes, fact: Triple, value: bool | None) -> tuple[Pattern, ...]:
-    """Return the facts that an assertion, by replacing others, or a retraction may make untrue."""
-    subject, relation, object_ = fact
-    lost: list[Triple] = []
-    if value is not True:
-        lost += [
-            (object_, source, subject) if turned else (subject, source, object_)
-            for source, turned in types.axioms.sources.get(relation, ((relation, False),))
-        ]
-    if value is not False:
-        lost += [each for true in _may_become_true(types, fact) for each in _replaced_by(types, true)]
-    return tuple(dict.fromkeys(pattern for each in lost for pattern in _may_become_true(types, each)))
-
-
-def _replaced_by(types: AliasTypes, fact: Pattern) -> Iterator[Triple]:
-    """Yield the facts that end when this one begins, as its relation has one object or one subject."""
-    axioms, relation = types.axioms, fact.relation
-    subject, object_ = (Anything(), Anything()) if fact.is_link else (fact.subject, fact.object)
-    for source, turned in axioms.sources.get(relation, ((relation, False),)):
-        if relation in axioms.single_object:
-            yield (Anything(), source, subject) if turned else (subject, source, Anything())
-        if relation in axioms.single_subject:
-            yield (object_, source, Anything()) if turned else (Anything(), source, object_)
-
-
-def _in_chains(types: AliasTypes, pattern: Pattern) -> Pattern:
-    """Return the pattern; if the relation may hold by a chain of facts, of those in which this one is a link.
-
-    Of a relation that is not transitive itself, but above one that is, any fact may change.
-    """
-    if pattern.relation not in types.axioms.chained:
-        return pattern
-    if pattern.relation in types.axioms.transitive:
-        return pattern._replace(is_link=True)
-    return Pattern(Anything(), pattern.relation, Anything())
-
-
 def _is_affected(
     types: AliasTypes, state: State, fact: Holds, true: bool, adds: tuple[Pattern, ...], takes: tuple[Pattern, ...]
 ) -> bool:
-    return any(_matches(types, state, fact, pattern) for pattern in (takes if true else adds))
+    return any(matches(types, state, fact, pattern) for pattern in (takes if true else adds))
 
 
 def _depends_on(types: AliasTypes, state: State, fact: Condition, changed: tuple[Pattern, ...]) -> bool:
     """Whether a condition that is more than one relation depends on what changes."""
     if _reads(types, fact, frozenset()):
         return True
-    return any(_matches(types, state, part, pattern) for part in _relations_in(fact) for pattern in changed)
-
-
-def _matches(types: AliasTypes, state: State, fact: Holds, pattern: Pattern) -> bool:
-    if fact.relation != pattern.relation:
-        return False
-    if pattern.is_link:
-        return _may_lead_over(types, state, fact, pattern)
-    return types.may_be_same(state, fact.subject, pattern.subject) and types.may_be_same(
-        state, fact.object, pattern.object
-    )
-
-
-def _may_lead_over(types: AliasTypes, state: State, fact: Holds, link: Pattern) -> bool:
-    """Whether a chain from the subject of a fact to its object may lead over a link.
-
-    It gets to where the link begins, and from where it ends to the object. If no chain leads back to where it begins,
-    none leads over a link that ends at its subject or begins at its object.
-    """
-    if link.relation in types.axioms.acyclic and (
-        _is_one(fact.subject, link.object) or _is_one(fact.object, link.subject)
-    ):
-        return False
-    return _may_lead_to(types, state, fact.subject, link.relation, link.subject) and _may_lead_to(
-        types, state, link.object, link.relation, fact.object
-    )
-
-
-def _may_lead_to(types: AliasTypes, state: State, start: Term, relation: str, end: Term) -> bool:
-    """Whether two terms may be the same, or a chain of a relation may lead from one to the other."""
-    return types.may_be_same(state, start, end) or state.facts.get(Holds(start, relation, end)) is not False
-
-
-def _is_one(one: Term, other: Term) -> bool:
-    """Whether two terms are certainly the same individual."""
-    return one == other and not isinstance(one, Anything) and not is_any_individual(one)
+    return any(matches(types, state, part, pattern) for part in _relations_in(fact) for pattern in changed)
 
 
 def _add_possible(

@@ -89,6 +89,23 @@ def is_ruled_out(types: AliasTypes, state: State, asked: Condition) -> bool:
     return False
 
 
+def implies(types: AliasTypes, known: Condition, asked: Condition) -> bool:
+    """Whether a condition, part for part, says at least what another one says."""
+    match known, asked:
+        case Holds(subject, relation, object_), Holds(start, above, end):
+            implied = types.axioms.implied.get(relation, ((relation, False),))
+            ends = {(start, end): False, (end, start): True}
+            return (above, ends.get((subject, object_))) in implied
+        case Or(parts), Or(others):
+            return all(any(implies(types, part, other) for other in others) for part in parts)
+        case And(parts), And(others):
+            return all(any(implies(types, part, other) for part in parts) for other in others)
+        case Exists(name, cls, body), Exists(other, above, weaker):
+            return name == other and types.vocabulary.is_a(cls, above) and implies(types, body, weaker)
+        case _:
+            return known == asked
+
+
 def _is_known(state: State, condition: Condition) -> bool:
     if isinstance(condition, Not):
         return state.facts.get(condition.body) is False

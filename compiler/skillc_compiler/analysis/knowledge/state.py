@@ -24,7 +24,8 @@ class State:
     that may be on the other side. `aliases` maps a name to the one that is used for the same individual. `once_results`
     holds the results of `once` nodes, None if they may or may not have run. `assigned` are the outputs that have a
     value; `monitor` is the memory of the monitored property. `done` are the effects on all individuals of a class that
-    a call had, and of which nothing was undone since.
+    a call had, and of which nothing was undone since; `unchanged` those that the skill promises and that would still be
+    on the same individuals as at its start.
     """
 
     facts: Mapping[Condition, bool] = field(default_factory=dict)
@@ -34,11 +35,12 @@ class State:
     assigned: frozenset[str] = frozenset()
     monitor: tuple[int, bool] = (0, False)
     done: frozenset[ForEach] = frozenset()
+    unchanged: frozenset[ForEach] = frozenset()
 
     @cached_property
     def _key(self) -> tuple[object, ...]:
         tables = (self.facts, self.possible, self.aliases, self.once_results)
-        return (*(frozenset(table.items()) for table in tables), self.assigned, self.monitor, self.done)
+        return (*(frozenset(table.items()) for table in tables), self.assigned, self.monitor, self.done, self.unchanged)
 
     @cached_property
     def classes(self) -> Mapping[Term, Sequence[str]]:
@@ -46,6 +48,15 @@ class State:
         found: dict[Term, list[str]] = defaultdict(list)
         for fact, true in self.facts.items():
             if true and isinstance(fact, IsA):
+                found[fact.subject].append(fact.cls)
+        return dict(found)
+
+    @cached_property
+    def excluded_classes(self) -> Mapping[Term, Sequence[str]]:
+        """The classes that individuals are known not to be of."""
+        found: dict[Term, list[str]] = defaultdict(list)
+        for fact, true in self.facts.items():
+            if not true and isinstance(fact, IsA):
                 found[fact.subject].append(fact.cls)
         return dict(found)
 
@@ -69,6 +80,7 @@ class State:
             "assigned": self.assigned,
             "monitor": self.monitor,
             "done": self.done,
+            "unchanged": self.unchanged,
         }
         return State(**{**values, **changes})  # type: ignore[arg-type]
 
@@ -97,4 +109,5 @@ def join(one: State, other: State) -> State:
         else None
         for key in {*one.once_results, *other.once_results}
     }
-    return State(facts, alone, same, results, one.assigned & other.assigned, one.monitor, one.done & other.done)
+    done, unchanged = one.done & other.done, one.unchanged & other.unchanged
+    return State(facts, alone, same, results, one.assigned & other.assigned, one.monitor, done, unchanged)

@@ -7,7 +7,7 @@ from typing import TypeAlias, assert_never
 import msgspec
 
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, any_individual
-from skillc_compiler.analysis.knowledge.state import State
+from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
 from skillc_model.conditions import (
     Assert,
     Assign,
@@ -27,24 +27,32 @@ from skillc_model.rewriting import substitute
 
 
 class RelationWrite(msgspec.Struct, frozen=True):
-    """A relation that may be written: made true, made false, or either (None)."""
+    """A relation that may be written: made true, made false, or either (None).
+
+    `when` is what any individual in it fulfilled before if it is written, None if that is not known; `apart` are
+    individuals that are certainly none of these.
+    """
 
     subject: Term
     relation: str
     object: Term
     value: bool | None
+    when: Condition | None = None
+    apart: frozenset[IndividualTerm] = frozenset()
 
 
 class PropertyWrite(msgspec.Struct, frozen=True):
     """A property that may be written; `value` is the constant or name that it gets, None if not known.
 
-    `cleared` if it may have no value afterwards.
+    `cleared` if it may have no value afterwards; `when` and `apart` as for relations.
     """
 
     subject: Term
     property: str
     value: Literal | Variable | Individual | None
     cleared: bool = False
+    when: Condition | None = None
+    apart: frozenset[IndividualTerm] = frozenset()
 
 
 class OutputWrite(msgspec.Struct, frozen=True):
@@ -69,9 +77,10 @@ def write_of(effect: Effect) -> Write:
     """Return the write of an effect; one on all individuals that fulfil a condition may be on any."""
     match effect:
         case ForEach(variable=variable, cls=cls, effect=single):
-            write = write_of(substitute(single, {variable: any_individual(cls)}))
+            named = {variable: any_individual(cls)}
+            write = write_of(substitute(single, named))
             assert isinstance(write, RelationWrite | PropertyWrite), "an effect writes a relation or a property"
-            return msgspec.structs.replace(write, value=None)
+            return msgspec.structs.replace(write, value=None, when=substitute(effect.when, named))
         case Assert(subject=subject, relation=relation, object=object_):
             return RelationWrite(subject, relation, object_, True)
         case Retract(subject=subject, relation=relation, object=object_):
