@@ -13,6 +13,13 @@ from skillc_runtime.scene.suggestions import suggest
 
 MISTAKES = {
     "a class that is removed": ("cell.skill", "class Panel < Button\n", "", "cell.skill", "unknown-class"),
+    "a parent that is unknown": (
+        "cell.skill",
+        "class Panel < Button",
+        "class Panel < Device",
+        "cell.skill",
+        "unknown-class",
+    ),
     "a property that is renamed": (*("cell.skill", "panel.isOn", "panel.isPressed", "cell.skill", "unknown-property"),),
     "a class in the scene": ("cell.ttl", "a cell:Panel", "a cell:Pannel", "cell.ttl", "unknown-class"),
     "a property in the scene": ("cell.ttl", "contact:pressForce", "contact:presForce", "cell.ttl", "unknown-property"),

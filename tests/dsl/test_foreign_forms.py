@@ -87,6 +87,8 @@ EXAMPLES = (
     ("member", "pre a.x == B -> a.y == C", "pre a.x == B implies a.y == C"),
     ("member", "pre if a.x == B then a.y == C", "pre a.x == B implies a.y == C"),
     ("member", "pre exists b in Box: a hasA b", "pre exists b: Box (a hasA b)"),
+    ("member", "pre exists b: Box, c: Box (b hasA c)", "pre exists b: Box (exists c: Box (b hasA c))"),
+    ("member", "pre exists b: Box, c: Box (\n        b hasA c\n    )", None),
     ("member", "pre forall b: Box, a hasA b", "pre forall b: Box (a hasA b)"),
     ("member", "pre for all b: Box (a hasA b)", "pre forall b: Box (a hasA b)"),
     ("member", "pre a hasA *", "pre a hasA _"),

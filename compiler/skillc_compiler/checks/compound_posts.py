@@ -60,6 +60,8 @@ def _cannot_start(finding: Finding) -> bool:
 
 
 def _help(one: UnprovedPost) -> str:
+    if _ends_in_finally(one):
+        return "a failure in `finally` leaves the result as it is: establish this in the block before it"
     if one.false:
         return "undo what makes it false, or remove the postcondition"
     if one.post.sensed or one.post.label is None:
@@ -69,3 +71,12 @@ def _help(one: UnprovedPost) -> str:
     if any(isinstance(each, s.ApplyPosts) and label in {name.text for name in each.labels} for each in applied):
         return f"`apply {label}` is undone later, or is not reached: apply it last, on every path"
     return f"call a skill that establishes it, or write it yourself: `apply {label}`"
+
+
+def _ends_in_finally(one: UnprovedPost) -> bool:
+    """Whether the last step that led there stands in the second block of a `finally`."""
+    body, last = one.implementation.body, one.path
+    if last is None or not isinstance(body, TypedNode):
+        return False
+    ends = (node.orelse for node in nodes_in(body) if isinstance(node.written, s.Finally))
+    return any(last.span == inner.written.span for after in ends for each in after for inner in nodes_in(each))

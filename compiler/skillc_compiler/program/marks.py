@@ -22,6 +22,7 @@ from skillc_dsl.source import Span
 
 _WORD = re.compile(r"[\w-]+")
 _TERMS = (s.ClassDeclaration, s.RelationDeclaration, s.PropertyDeclaration, s.FunctionDeclaration)
+_TERM_KEYWORDS = frozenset(("class", "enum", "relation", "property", "function"))
 
 
 class Need(IntEnum):
@@ -148,9 +149,11 @@ class Marks:
 
     @cached_property
     def _terms(self) -> frozenset[str]:
-        """The terms whose declarations have an error, and those that are declared by means of them."""
+        """The terms whose declarations have an error or were dropped, and those that are declared by means of them."""
         terms = [d for d in self._declarations if isinstance(d, _TERMS)]
         found = {d.name.text for d in terms if d.span in self._erroneous}
+        dropped = (error for unit in self._program.files for error in unit.file.errors)
+        found |= {error.name for error in dropped if error.keyword in _TERM_KEYWORDS}
         while found:
             more = {d.name.text for d in terms if not found.isdisjoint(_WORD.findall(self._lines_of(d.span)))}
             if more <= found:

@@ -59,7 +59,8 @@ def extend_vocabulary(
                     if iri in relations and (iri in defined or declaration.definition is not None):
                         look_up.problems.append(_not_only_defined(declaration.name, relations[iri], vocabulary))
                     defined |= {iri} if declaration.definition is not None else set()
-                    relations[iri] = _relation(declaration, iri, relations.get(iri), look_up)
+                    former = relations.get(iri) if iri not in defined else None  # what is defined has one signature
+                    relations[iri] = _relation(declaration, iri, former, look_up)
                 case s.PropertyDeclaration() if term_kind(declaration, look_up.is_class) == "relation":
                     iri = _declared_iri("relation", declaration.name, here, look_up)
                     relations[iri] = _link(declaration, iri, relations.get(iri), look_up)

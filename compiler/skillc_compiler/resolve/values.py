@@ -211,10 +211,23 @@ def _part_of_failure(context: FileContext, scope: Scope, written: s.Member) -> T
     return TypedExpression(Variable(f"{name}.{part}"), known.type, written.span, declared=known.span)
 
 
+def _is_link(context: FileContext, of: TypedExpression, name: s.Name) -> bool:
+    """Whether a name after a dot is that of a relation; one that is a property as well is what `of` can have."""
+    names, vocabulary = context.names, context.vocabulary
+    if not names.is_term("relation", name.text) or not names.is_term("property", name.text):
+        return names.is_term("relation", name.text)
+    links = (vocabulary.relations[iri] for iri in names.bare["relation"].get(name.text, ()))
+    starts = (signature.domain for link in links if link.functional for signature in link.signatures)
+    owners = (each for iri in names.bare["property"].get(name.text, ()) for each in vocabulary.properties[iri].domains)
+    return any(fits(vocabulary, of.type, Thing(each)) for each in starts) and not any(
+        fits(vocabulary, of.type, Thing(each)) for each in owners
+    )
+
+
 def resolve_property(context: FileContext, of: TypedExpression, name: s.Name) -> str | None:
     """Return the IRI of a property, or of a functional relation; suggestions are properties that `of` can have."""
     names, vocabulary = context.names, context.vocabulary
-    if names.is_term("relation", name.text) and not names.is_term("property", name.text):
+    if _is_link(context, of, name):
         iri = names.look_up_term("relation", name)
         if iri is None or vocabulary.relations[iri].functional:
             return iri

@@ -193,6 +193,12 @@ class Translator(msgspec.Struct, frozen=True):
     def _refuse_moving(self, read: Iterable[str]) -> None:
         for iri in sorted(filter(self.symbols.is_computed, read)):
             moving = self.symbols.decided_by(iri)
+            definition = self.symbols.vocabulary.definitions.get(iri)
+            if moving and definition is not None and definition.group:
+                raise Untranslatable(
+                    f"reads `{self.symbols.short(iri)}` under `not`, which leads back to itself, "
+                    f"and skills change `{self.symbols.short(moving[0])}`"
+                )
             if moving:
                 raise Untranslatable(
                     f"reads `{self.symbols.short(iri)}`, which is computed from `{self.symbols.short(moving[0])}`, "

@@ -60,7 +60,7 @@ def token_span(token: Token, path: str) -> Span:
 def tokenize(source: Source) -> Outcome[tuple[Token, ...]]:
     """Return the tokens of `source` followed by an END token, without invalid characters.
 
-    Words that came after the edition of the source are names.
+    Words that came after the edition of the source are names, and so is every word right after a dot.
     """
     tables, match, text = load_tables(), load_pattern().match, source.text
     words, ignored, tokens = tables.words, tables.ignored, list[Token]()
@@ -74,7 +74,8 @@ def tokenize(source: Source) -> Outcome[tuple[Token, ...]]:
         end, terminal = found.end(), found.lastgroup or ""
         if terminal not in ignored:
             written = found.group()
-            terminal = words.get(written, terminal) if terminal == WORD else terminal
+            if terminal == WORD and written in words and not _is_member(tokens, at):
+                terminal = words[written]
             tokens.append(Token(terminal, written, at, line, at - begin + 1, line, end - begin + 1, end))
         elif breaks := text.count("\n", at, end):
             line, begin = line + breaks, text.rindex("\n", at, end) + 1
@@ -82,6 +83,11 @@ def tokenize(source: Source) -> Outcome[tuple[Token, ...]]:
     if later := list_later_words(source.edition):
         _read_as_names(tokens, later)
     return Outcome((*tokens, empty_token_after(tokens[-1] if tokens else None, END)), tuple(problems))
+
+
+def _is_member(tokens: Sequence[Token], at: int) -> bool:
+    """Whether a word at this position stands right after a dot, as in `why.skill`."""
+    return bool(tokens) and tokens[-1].type == "DOT" and tokens[-1].end_pos == at
 
 
 def _read_as_names(tokens: list[Token], later: frozenset[str]) -> None:

@@ -257,8 +257,9 @@ class Recovery:
         words = (str(token).rstrip(":") for token in tokens)
         names = frozenset(word for word in words if word.replace(":", "_").isidentifier())
         span = token_span(self.tokens[index], self.path)
-        here = [str(token) for token in tokens if token.type in DECLARATIONS and token.line == span.line]
-        self.errors.append(s.ErrorNode(span, names, here[-1] if here else ""))
+        here = [at for at, token in enumerate(tokens) if token.type in DECLARATIONS and token.line == span.line]
+        keyword, name = (*map(str, tokens[here[-1] :][:2]), "")[:2] if here else ("", "")
+        self.errors.append(s.ErrorNode(span, names, keyword, name))
         self._dropped.clear()
 
     def _drop(self, level: int) -> None:

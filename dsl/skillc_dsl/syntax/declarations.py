@@ -203,12 +203,13 @@ class ErrorNode(msgspec.Struct, frozen=True):
     """A place with a syntax error, and the names in what was dropped there: whatever declares them may be missing.
 
     `keyword` is None at a syntax error. Where something was dropped, it is the keyword of that declaration, or empty if
-    that is not clear.
+    that is not clear, and `name` is the word after it.
     """
 
     span: Span
     names: frozenset[str] = frozenset()
     keyword: str | None = None
+    name: str = ""
 
 
 class File(msgspec.Struct, frozen=True):

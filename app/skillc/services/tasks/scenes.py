@@ -32,11 +32,25 @@ TERM_KINDS = ("class", "relation", "property", "type")
 
 
 def find_missing_terms(program: Program) -> frozenset[str]:
-    """Return the IRIs that terms would have which files of a program use and none declares."""
+    """Return the IRIs of terms that files of a program use and none declares, and of classes below such ones."""
     namespaces = {unit.file.path: unit.namespace for unit in program.files}
-    unknown = (each for each in program.unknown if each.kind in TERM_KINDS)
-    named = ((each.written.span.path, each.written.text.rpartition(":")[2]) for each in unknown)
-    return frozenset(namespaces[path] + name for path, name in named if path in namespaces)
+    unknown = [each.written for each in program.unknown if each.kind in TERM_KINDS]
+    found = {namespaces[each.span.path] + local_name(each) for each in unknown if each.span.path in namespaces}
+    places = {each.span for each in unknown}
+    below = set[str]()
+    for unit in program.files:  # a class is declared after those above it, or its order is reported
+        for each in unit.file.declarations:
+            if isinstance(each, s.ClassDeclaration) and any(
+                parent.span in places or local_name(parent) in below for parent in each.parents
+            ):
+                below.add(local_name(each.name))
+                found.add(unit.namespace + local_name(each.name))
+    return frozenset(found)
+
+
+def local_name(name: s.Name) -> str:
+    """Return a name without its prefix."""
+    return name.text.rpartition(":")[2]
 
 
 def select_problems(scene: Outcome[LoadedScene | None], missing: Collection[str]) -> Iterator[Diagnostic]:
@@ -44,7 +58,9 @@ def select_problems(scene: Outcome[LoadedScene | None], missing: Collection[str]
     said = scene.value.said if scene.value is not None and missing else ()
     places = {with_shown_path(each.predicate_place) for each in said if each.predicate in missing}
     places |= {with_shown_path(each.object_place) for each in said if iri_of(each.object) in missing}
-    yield from (problem for problem in scene.diagnostics if problem.span not in places)
+    for problem in scene.diagnostics:
+        if places.isdisjoint((problem.span, *(label.span for label in problem.labels))):
+            yield problem
 
 
 Individuals: TypeAlias = dict[str, list[str]]

@@ -97,8 +97,7 @@ class ValueBuilder(TreeBuilder):
                 case "text":
                     parts.append(found.group())
                 case _:
-                    help_ = f"write a name in braces, such as `{{force}}`, or `{found.group()[0] * 2}` for a brace"
-                    self.complain(place, f"`{found.group()}` stands for no value", help_)
+                    self.complain(place, f"`{found.group()}` stands for no value", _name_in_braces(found.group()))
         return s.Message(text, tuple(parts), span)
 
     def boolean(self, children: list[Token]) -> s.Boolean:
@@ -156,3 +155,11 @@ class ValueBuilder(TreeBuilder):
     def complain(self, span: Span, message: str, help_: str) -> None:
         """Report an error that the grammar does not exclude."""
         self.problems.append(Diagnostic("syntax", span, message, help_))
+
+
+def _name_in_braces(part: str) -> str:
+    """Return what to write instead of a part of a text that begins or ends with a brace."""
+    path = re.match(r"\{\s*([^\W\d]\w*)\s*\.", part)
+    if path is not None:
+        return f"write `{{{path[1]}}}`: only a name stands in braces"
+    return f"write a name in braces, such as `{{force}}`, or `{part[0] * 2}` for a brace"
