@@ -20,9 +20,9 @@ from starlette.websockets import WebSocket
 from websockets.asyncio.client import connect
 
 from server.running import RunningServer, serving_app, wait_until
+from skillc.server.app import ProxiedRequests
 from skillc.server.http import connections
 from skillc.server.http.connections import BoundedConnection
-from skillc.server.http.proxy import ProxiedRequests
 
 HERE = PlainTextResponse("here")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import TimeoutError as Late
 from contextlib import aclosing
 from functools import partial
@@ -15,12 +15,18 @@ from msgspec import structs
 from skillc.client.async_cell import AsyncCell
 from skillc.client.async_server import AsyncServer
 from skillc.contract.cell import CellStatus
+from skillc.contract.geometry import CellModel
 from skillc.contract.operation import ENDS, OperationStatus
+from skillc.contract.sample import Sample
 from skillc.errors import SkillcError
 from skillc.events import Event, NodeEnded, NodeStarted
-from skillc.ros.cell_topics import CellTopics
-from skillc.ros.orders import CellOrder, OrderAnswer, carry_out, read_order
-from skillc_runtime.backends.ros2.session import plain_name
+from skillc.ros.messages import joint_state, markers, wrench
+from skillc.ros.orders import CellOrder, OrderAnswer, Word, carry_out, read_order
+from skillc_runtime.backends.ros2.session import find_message, plain_name
+
+SERVICES: tuple[Word, ...] = ("start", "pause", "resume", "stop", "acknowledge")
+MARKERS_EVERY = 5
+"""Every how many samples markers are published: RViz needs no more."""
 
 PERIOD_S = 0.2
 """How often a tree that changes is published at most, in s."""
@@ -171,3 +177,59 @@ def _plain_joint(name: str) -> str:
     """Return the name of a joint of a cell's model as a name of ROS, such as `Ur5e_1_elbow`."""
     device, _, joint = name.rpartition("/")
     return f"{plain_name(device.rpartition(':')[2])}_{joint}" if device else joint
+
+
+class CellTopics:
+    """What a cell publishes, and what can be asked of it; `order` carries out an order, in the thread of a caller."""
+
+    def __init__(self, node: Any, cell: str, order: Callable[[CellOrder | str], OrderAnswer]) -> None:
+        self._node, self._order, self._count = node, order, 0
+        self._below = f"/skillc/{plain_name(cell)}/"
+        self._publishers: dict[str, Any] = {}
+        from rclpy.callback_groups import ReentrantCallbackGroup
+        from rclpy.qos import DurabilityPolicy, QoSProfile
+
+        self._latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        group = ReentrantCallbackGroup()  # a pause that takes its time keeps nobody from a stop
+        trigger = find_message("std_srvs/srv/Trigger")
+        self._services = [
+            node.create_service(trigger, self._below + word, self._answering(word), callback_group=group)
+            for word in SERVICES
+        ]
+        self._text = find_message("std_msgs/msg/String")
+        self._orders = node.create_subscription(self._text, self._below + "order", self._take, 10, callback_group=group)
+        self._answers = node.create_publisher(self._text, self._below + "answer", 10)
+
+    def show(self, sample: Sample, model: CellModel, names: Mapping[str, Sequence[str]]) -> None:
+        """Publish what moves; `names` are those of the joints of each arm."""
+        stamp = self._node.get_clock().now().to_msg()
+        self._publish("joint_states", "sensor_msgs/msg/JointState", joint_state(sample, names, stamp))
+        for individual, arm in sample.arms.items():
+            if arm.wrench is not None:
+                label = individual.rpartition("#")[2]
+                topic, message = f"{plain_name(label)}/wrench", wrench(arm, f"{plain_name(label)}_base", stamp)
+                self._publish(topic, "geometry_msgs/msg/WrenchStamped", message)
+        if self._count % MARKERS_EVERY == 0:
+            self._publish("markers", "visualization_msgs/msg/MarkerArray", markers(sample, model, stamp))
+        self._count += 1
+
+    def publish_text(self, topic: str, text: bytes) -> None:
+        """Publish a JSON text, which late subscribers get as well."""
+        self._publish(topic, "std_msgs/msg/String", self._text(data=text.decode()), latched=True)
+
+    def _publish(self, topic: str, kind: str, message: Any, latched: bool = False) -> None:
+        if topic not in self._publishers:
+            quality = self._latched if latched else 10
+            self._publishers[topic] = self._node.create_publisher(find_message(kind), self._below + topic, quality)
+        self._publishers[topic].publish(message)
+
+    def _answering(self, word: Word) -> Callable[[Any, Any], Any]:
+        def answer(_: Any, response: Any) -> Any:
+            found = self._order(CellOrder(word))
+            response.success, response.message = found.success, found.message or found.operation
+            return response
+
+        return answer
+
+    def _take(self, message: Any) -> None:
+        self._answers.publish(self._text(data=msgspec.json.encode(self._order(message.data)).decode()))

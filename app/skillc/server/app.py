@@ -36,7 +36,6 @@ from skillc.server.http.audited_request import AuditedRequest
 from skillc.server.http.authentication import find_cookie, find_known_client, read_session
 from skillc.server.http.event_stream import stream_events
 from skillc.server.http.openapi import make_openapi
-from skillc.server.http.proxy import ProxiedRequests
 from skillc.server.http.requests import decode_body, read_body, read_key, read_query, wait_until_gone
 from skillc.server.http.sample_stream import stream_samples
 from skillc.server.language.stream import stream_language
@@ -222,3 +221,22 @@ def _constant(content: bytes) -> Callable[[Request], Awaitable[Response]]:
         return Response(content, media_type="application/json")
 
     return answer
+
+
+class ProxiedRequests:
+    """Passes the requests that a proxy sends on, as from the client that the proxy names last in `X-Forwarded-For`."""
+
+    def __init__(self, app: ASGIApp, proxy: str) -> None:
+        self._app, self._proxy = app, proxy
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve a request (ASGI)."""
+        if scope["type"] == "lifespan":
+            await self._app(scope, receive, send)
+        elif (scope.get("client") or ("", 0))[0] != self._proxy:
+            refused = ApiRefusal(HTTPStatus.FORBIDDEN, "this server takes requests from its proxy only")
+            await send_refusal(refused, scope, receive, send)
+        else:
+            forwarded = ",".join(Headers(scope=scope).getlist("x-forwarded-for")).rpartition(",")[2].strip()
+            encrypted = {"http": "https", "websocket": "wss"}[scope["type"]]  # the proxy does that
+            await self._app({**scope, "client": (forwarded or self._proxy, 0), "scheme": encrypted}, receive, send)

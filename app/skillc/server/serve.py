@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import os
+import signal
 import socket
-from collections.abc import Callable
-from contextlib import AbstractContextManager, suppress
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, suppress
+from types import FrameType
 
 import uvicorn
 from starlette.types import ASGIApp
@@ -20,7 +23,6 @@ from skillc.errors import ServiceError
 from skillc.server.app import Application
 from skillc.server.cells import ServedCells
 from skillc.server.context import ServerContext
-from skillc.server.ending import EndingServer
 from skillc.server.http.connections import BoundedConnection
 from skillc.server.http.listening import Listening
 from skillc.server.hub import EventHub, News
@@ -31,7 +33,15 @@ from skillc.server.supervisor import CellSupervisor
 from skillc.services.reporting.reporter import Reporter
 from skillc_dsl.garbage import exempt_from_gc
 from skillc_runtime.platforms.open_files import raise_open_files_limit
+from skillc_runtime.platforms.signals import ENDING
 from skillc_runtime.world.state.transactions import StoreError
+
+SHELL_OFFSET = 128
+"""Shells give a process that was ended by a signal this exit code plus the signal's number."""
+
+
+WAITING = 2048
+"""How many connections wait in the system until they are taken; `backlog` of the settings are taken at once."""
 
 KEEP_ALIVE_S = 30
 GRACE_S = 5
@@ -141,3 +151,36 @@ def _configure(application: ASGIApp, listening: Listening) -> uvicorn.Config:
 def _describe(status: CellStatus) -> str:
     pace = "as fast as it computes" if status.pace is None else f"at {status.pace:g} x real time"
     return f"cell {status.name}: {status.state}, {status.reason or pace}"
+
+
+class EndingServer(uvicorn.Server):
+    """Ends at SIGINT, SIGTERM and SIGHUP; `ended_by` is the name of the signal. Signals that are ignored stay so."""
+
+    ended_by = ""
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Listen; more connections may wait than are taken at once, between which requests are answered."""
+        await super().startup(sockets)
+        for each in sockets or ():
+            each.listen(WAITING)
+
+    @contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        """Handle the signals in a `with` statement, in the main thread only."""
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        before = {number: signal.getsignal(number) for number in ENDING}
+        try:
+            for number, former in before.items():
+                if former is not signal.SIG_IGN:
+                    signal.signal(number, self._end)
+            yield
+        finally:
+            for number, former in before.items():
+                signal.signal(number, former)
+
+    def _end(self, number: int, _frame: FrameType | None) -> None:
+        if self.should_exit:
+            os._exit(SHELL_OFFSET + number)
+        self.should_exit, self.ended_by = True, signal.Signals(number).name

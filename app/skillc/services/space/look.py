@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 from skillc.services.planning.planning import prepare_planners
-from skillc.services.space.cure import find_cure
 from skillc.services.tasks.space_problems import SpaceProblem
 from skillc_model import tree
 from skillc_model.conditions import Condition, Individual
 from skillc_model.skills import SkillLibrary, Task
 from skillc_model.traversal import find_calls
 from skillc_model.traversal import walk as walk_parts
-from skillc_runtime.cancellation import CancelToken, cancelling
+from skillc_rdf.vocabulary.types import local_name
+from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
+from skillc_runtime.collision.solid_geoms import find_overlap_m
+from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.plan_refinement import refine_plan
 from skillc_runtime.execution.refinement.replanning import plan_in_space
 from skillc_runtime.execution.refinement.situation import begin_at_home
@@ -21,7 +24,18 @@ from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.planning.plan import Excluded, GaveUp, PlanResult, Solved, Step
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.solve import solve
+from skillc_runtime.world.space.frame_tree import FrameError
+from skillc_runtime.world.space.occupants import read_occupants
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.model import WorldError, WorldModel
+from skillc_runtime.world.state.terms import OFFSET, POSITION
 from skillc_runtime.world.state.world_state import WorldState
+
+DISTANCES_M = (0.05, 0.1, 0.15, 0.2)
+"""How far away places are that are tried, in each direction of the numbers that say where the thing is."""
+
+ROOM_M = 0.02
+"""How far from the place that is proposed the thing may be, along each of these numbers, so that all still goes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +79,7 @@ def _look_at_goal(
     certain = seen and bool(needed) and all(each.kind == "steps" for each in needed)
     things = _given(found.failed, library)
     named = f"{found.failed.skill}({', '.join(map(state.vocabulary.short, things))})"
-    cure = find_cure(state, things, failure, goes, cancel)
+    cure = _find_cure(state, things, failure, goes, cancel)
     return Looked(SpaceProblem(named, failure.message, certain, None, cure), skills)
 
 
@@ -91,5 +105,66 @@ def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node, can
     named = [each.iri for each in parts if isinstance(each, Individual)]
     step, *inside = failure.within
     why = failure.message if inside else failure.why
-    cure = find_cure(state, named, failure, goes, cancel)
+    cure = _find_cure(state, named, failure, goes, cancel)
     return Looked(SpaceProblem(step, why, not walk.unseen, place, cure), skills)
+
+
+def _find_cure(
+    state: WorldState,
+    things: Iterable[str],
+    failure: SpaceFailure,
+    goes: Callable[[WorldState], bool],
+    cancel: CancelToken,
+) -> str:
+    """Return with which place of a thing all goes, as a sentence: of the first of some things that stands somewhere.
+
+    Before it comes what a failure says to be in the way. All goes as well with the thing up to ROOM_M from there.
+    Places are tried from the nearest on, and those left out at which it would lie deeper in another thing. Empty if
+    none was found before `cancel` ends the search.
+    """
+    standing = [each.individual for each in read_occupants(state) if any(_numbers(state, each.individual))]
+    given = [each for each in things if each in standing][:1]
+    words = {each.rstrip(".,;:") for each in failure.why.split()} if failure.cause == "in-the-way" else set[str]()
+    blocking = [each for each in dict.fromkeys(standing) if state.vocabulary.short(each) in words and each not in given]
+    try:
+        with cancelling(cancel):
+            return next(filter(None, (_find_place(state, each, goes) for each in (*blocking, *given))), "")
+    except Cancelled:
+        return ""
+
+
+def _find_place(state: WorldState, thing: str, goes: Callable[[WorldState], bool]) -> str:
+    short, before_m = state.vocabulary.short(thing), find_overlap_m(state, thing)
+    for distance_m, (name, stated_m), sign in product(DISTANCES_M, tuple(_numbers(state, thing)), (1.0, -1.0)):
+        to_m = round(stated_m + sign * distance_m, 4)
+        there = _moved(state, thing, name, to_m)
+        if there is not None and find_overlap_m(there, thing) <= before_m and _goes_about(there, thing, goes):
+            return f"with {short} moved by {distance_m:g} m, to {local_name(name)} {to_m:g}, all steps go"
+    return ""
+
+
+def _goes_about(state: WorldState, thing: str, goes: Callable[[WorldState], bool]) -> bool:
+    """Whether all goes where a thing is, and with it a little to each side."""
+    if not goes(state):
+        return False
+    beside = (
+        _moved(state, thing, name, stated_m + way_m)
+        for name, stated_m in _numbers(state, thing)
+        for way_m in (ROOM_M, -ROOM_M)
+    )
+    return all(there is not None and goes(there) for there in beside)
+
+
+def _numbers(state: WorldState, thing: str) -> Iterator[tuple[str, float]]:
+    """Yield the properties that say where a thing is along an axis, in m."""
+    for name in (*POSITION, *OFFSET):
+        value = state.value(thing, name)
+        if isinstance(value, int | float):
+            yield name, float(value)
+
+
+def _moved(state: WorldState, thing: str, name: str, to_m: float) -> WorldState | None:
+    try:
+        return WorldModel(state).commit([SetProperty(thing, name, to_m)]).after
+    except (WorldError, FrameError):
+        return None

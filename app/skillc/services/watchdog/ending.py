@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import msgspec
@@ -14,9 +14,12 @@ from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_recording
 from skillc_runtime.evaluation.report.write import write_report, write_result
 from skillc_runtime.platforms.watchdog_program import STATE, SharedState
-from skillc_runtime.recording.ending import end_recording
+from skillc_runtime.recording.envelope import Envelope
+from skillc_runtime.recording.events import TaskEnded
+from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.history.history import RecordedCall, RunHistory
-from skillc_runtime.recording.reader import TraceError
+from skillc_runtime.recording.history.history_builder import HistoryBuilder, listen_to
+from skillc_runtime.recording.reader import TraceError, TraceReader
 
 DESCRIPTION = "run.json"
 
@@ -42,7 +45,7 @@ def write_interrupted_end(run: RunDescription, why: str, now: float) -> TaskResu
     `why` is the reason, to which the calls that ran are added, `now` the time of the cell in s. A recording that has
     its last event keeps it. OSError or TraceError if the files cannot be read or written.
     """
-    builder = end_recording(Path(run.events), lambda history: f"{why}{_describe_place(history)}", now)
+    builder = _end_recording(Path(run.events), lambda history: f"{why}{_describe_place(history)}", now)
     wall_s = time.time() - run.began_s
     history = builder.build()
     if history is None:
@@ -87,3 +90,36 @@ def main(folder: Path, reason: str) -> None:
 
 if __name__ == "__main__":
     main(Path(sys.argv[1]), sys.argv[2])
+
+
+def _end_recording(path: Path, explain: Callable[[RunHistory], str], now: float) -> HistoryBuilder:
+    """End a recording as `interrupted` at the time `now` of the cell in s, if it has no end, and build its history.
+
+    `explain` returns the reason for the history up to then. An incomplete last line is removed. TraceError if the file
+    is not a recording, OSError if it cannot be read or written; no other program may write to it.
+    """
+    reader = TraceReader(path)
+    envelopes = list(reader)
+    told = listen_to(envelope.event for envelope in envelopes)
+    history = told.build()
+    if history is None or history.status:
+        return told
+    last = envelopes[-1]
+    ended = TaskEnded(
+        time=max(now, last.cell_time_s),
+        task=history.task,
+        status="interrupted",
+        failure=Failure(kind="interrupted", message=explain(history)),
+    )
+    _append(path, Envelope(run=last.run, sequence=last.sequence + 1, wall_time_ns=time.time_ns(), event=ended))
+    told(ended)
+    return told
+
+
+def _append(path: Path, envelope: Envelope) -> None:
+    """Append an envelope in place of an incomplete last line."""
+    with path.open("r+b") as file:
+        content = file.read()
+        file.truncate(content.rfind(b"\n") + 1)
+        file.seek(0, 2)
+        file.write(msgspec.json.encode(envelope) + b"\n")
