@@ -15,7 +15,7 @@ from skillc.cli.main import skillc
 from skillc.services.check import known_checks
 from skillc.services.library import answer_store as disk_store
 from skillc.services.library.libraries import load_vocabulary
-from skillc.services.space import cure, look, verdicts
+from skillc.services.space import look, verdicts
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.scene.load import load_scene
@@ -122,7 +122,7 @@ def test_a_door_at_which_a_joint_would_leave_its_range_is_told_at_the_task_and_t
     assert {line.split(" a ")[0] for line in lines(found)} == {"task clean_door {", "lab:Desk-1", "lab:Panda-1"}
     moved = move(DOOR, found["help"])
     assert moved != DOOR
-    for x in (moved["X"], moved["X"] - cure.ROOM_M, moved["X"] + cure.ROOM_M):
+    for x in (moved["X"], moved["X"] - look.ROOM_M, moved["X"] + look.ROOM_M):
         write(folder, CLEAN, tilt_desk(x, -20.0, moved["Z"]))
         assert check(folder) == ([], 0)
 
@@ -137,10 +137,10 @@ def test_what_is_in_the_way_is_moved_before_what_the_step_is_given(tmp_path):
     def goes(there: WorldState) -> bool:
         return there.value(desk, POSITION[0]) > before_m + 0.12
 
-    cured = cure.find_cure(state, [eraser], touching, goes, CancelToken())
+    cured = look.find_cure(state, [eraser], touching, goes, CancelToken())
     assert cured == f"with lab:Desk-1 moved by 0.15 m, to PositionX {before_m + 0.15:g}, all steps go"
     far = replace(touching, cause="out-of-reach")
-    assert cure.find_cure(state, [eraser], far, goes, CancelToken()) == "", "no eraser helps there"
+    assert look.find_cure(state, [eraser], far, goes, CancelToken()) == "", "no eraser helps there"
 
 
 @pytest.mark.slow

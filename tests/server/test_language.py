@@ -15,7 +15,7 @@ from websockets.exceptions import ConnectionClosed
 
 from server.running import RunningServer, wait_until
 from skillc.server.context import MAX_OF_CLIENT
-from skillc.server.language import process
+from skillc.server.language import stream
 
 OWN = "skill:///yard/yard.skill"
 Json = dict[str, Any]
@@ -80,10 +80,10 @@ def run(server: RunningServer, edit: Callable[[Editor], Awaitable[None]]) -> Non
 def test_a_page_that_leaves_while_much_is_sent_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     program = "import pathlib, sys; pathlib.Path('begun').touch(); sys.stdout.write(1_000_000 * 'x')"
     (tmp_path / "much.py").write_text(program, "utf-8")
-    monkeypatch.setattr(process, "MODULE", "much")
+    monkeypatch.setattr(stream, "MODULE", "much")
 
     async def leave() -> None:
-        async with asyncio.timeout(30.0), process.language_server({"PYTHONPATH": str(tmp_path)}, str(tmp_path)):
+        async with asyncio.timeout(30.0), stream.language_server({"PYTHONPATH": str(tmp_path)}, str(tmp_path)):
             while not (tmp_path / "begun").exists():
                 await asyncio.sleep(0.05)
             await asyncio.sleep(0.5)

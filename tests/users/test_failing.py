@@ -77,7 +77,7 @@ def test_the_reason_is_that_of_the_author(folder: Path, reason: str, said: str) 
     [
         ("with {forse}", "unknown-parameter", 21, "did you mean `force`?"),
         ("with {fail}", "unset-optional", 21, "read it only under `given fail`"),
-        ("with {arm.pose}", "syntax", 20, "write a name in braces, such as `{force}`, or `{{` for a brace"),
+        ("with {arm.pose}", "syntax", 20, "write `{arm}`: only a name stands in braces"),
         ("with {", "syntax", 20, "or `{{` for a brace"),
         ("with }", "syntax", 20, "or `}}` for a brace"),
     ],

@@ -44,7 +44,7 @@ async def stream_language(server: ServerContext, socket: WebSocket) -> None:
         library = server.find_library(hello.library)
         with server.watchers.watching(name), server.language_servers.watching(name):
             folder = library.checked.basis.folders[0]
-            async with _language_server(library.environment, folder) as running:
+            async with language_server(library.environment, folder) as running:
                 await _connect(client, running, TextUris(library))
 
 
@@ -160,7 +160,7 @@ class LanguageServer:
 
 
 @asynccontextmanager
-async def _language_server(environment: Mapping[str, str], folder: str) -> AsyncIterator[LanguageServer]:
+async def language_server(environment: Mapping[str, str], folder: str) -> AsyncIterator[LanguageServer]:
     """Run a language server in a folder, in a `with` statement; its process is killed at the end. OSError."""
     variables = {**os.environ, **environment}
     command = (sys.executable, "-m", MODULE)

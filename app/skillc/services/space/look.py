@@ -79,7 +79,7 @@ def _look_at_goal(
     certain = seen and bool(needed) and all(each.kind == "steps" for each in needed)
     things = _given(found.failed, library)
     named = f"{found.failed.skill}({', '.join(map(state.vocabulary.short, things))})"
-    cure = _find_cure(state, things, failure, goes, cancel)
+    cure = find_cure(state, things, failure, goes, cancel)
     return Looked(SpaceProblem(named, failure.message, certain, None, cure), skills)
 
 
@@ -105,11 +105,11 @@ def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node, can
     named = [each.iri for each in parts if isinstance(each, Individual)]
     step, *inside = failure.within
     why = failure.message if inside else failure.why
-    cure = _find_cure(state, named, failure, goes, cancel)
+    cure = find_cure(state, named, failure, goes, cancel)
     return Looked(SpaceProblem(step, why, not walk.unseen, place, cure), skills)
 
 
-def _find_cure(
+def find_cure(
     state: WorldState,
     things: Iterable[str],
     failure: SpaceFailure,
