@@ -6,6 +6,7 @@ from typing import TypeAlias, assert_never
 
 import msgspec
 
+from skillc_rdf.vocabulary.conditions import Aggregate as Aggregate
 from skillc_rdf.vocabulary.conditions import And as And
 from skillc_rdf.vocabulary.conditions import Anything as Anything
 from skillc_rdf.vocabulary.conditions import Arithmetic as Arithmetic

@@ -6,8 +6,8 @@ not change is evaluated beforehand. A definition that leads back to itself is wr
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import NamedTuple, TypeVar
+from collections.abc import Callable, Iterable, Mapping
+from typing import NamedTuple, TypeAlias, TypeVar
 
 from msgspec import structs
 
@@ -35,6 +35,7 @@ from skillc_rdf.vocabulary.types import Definition, Vocabulary
 UNKNOWN_SCENE = 2
 """How often a definition that leads back to itself is written out where no scene says how often it may matter."""
 
+ChangeCondition: TypeAlias = Callable[[Condition], Condition]
 DescribedT = TypeVar("DescribedT", Skill, Implementation)
 
 
@@ -125,8 +126,16 @@ def find_changing(library: SkillLibrary) -> dict[str, Definition]:
 
 def expand_library(library: SkillLibrary, expansion: Expansion) -> SkillLibrary:
     """Return a library whose planned skills read the definitions instead of the relations."""
-    skills = {name: _expanded(each, expansion) if each.planned else each for name, each in library.skills.items()}
-    implementations = {name: _expanded(each, expansion) for name, each in library.implementations.items()}
+    return map_planned_conditions(library, expansion.of, expansion.exactly)
+
+
+def map_planned_conditions(
+    library: SkillLibrary, change: ChangeCondition, change_exactly: ChangeCondition | None = None
+) -> SkillLibrary:
+    """Return a library with other conditions of planned skills; `change_exactly` is for those of effects."""
+    exactly = change_exactly or change
+    skills = {name: _changed(each, change, exactly) if each.planned else each for name, each in library.skills.items()}
+    implementations = {name: _changed(each, change, exactly) for name, each in library.implementations.items()}
     return structs.replace(library, skills=skills, implementations=implementations)
 
 
@@ -149,12 +158,12 @@ def passes_on(definition: Definition, side: Variable) -> bool:
     return len(definition.group) == 1 and all((each.subject if is_subject else each.object) == side for each in again)
 
 
-def _expanded(one: DescribedT, expansion: Expansion) -> DescribedT:
+def _changed(one: DescribedT, change: ChangeCondition, exactly: ChangeCondition) -> DescribedT:
     def changed(requirements: tuple[Requirement, ...]) -> tuple[Requirement, ...]:
-        return tuple(structs.replace(each, condition=expansion.of(each.condition)) for each in requirements)
+        return tuple(structs.replace(each, condition=change(each.condition)) for each in requirements)
 
     def decided(effect: Effect) -> Effect:
-        return structs.replace(effect, when=expansion.exactly(effect.when)) if isinstance(effect, ForEach) else effect
+        return structs.replace(effect, when=exactly(effect.when)) if isinstance(effect, ForEach) else effect
 
     post = tuple(structs.replace(each, effects=tuple(map(decided, each.effects))) for each in one.post)
     return structs.replace(one, pre=changed(one.pre), hold=changed(one.hold), post=post)

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import assert_never
 
 from skillc_model.conditions import (
+    Aggregate,
     And,
     Anything,
     Arithmetic,
@@ -125,12 +126,23 @@ def format_expression(expression: Expression, vocabulary: Vocabulary) -> str:
             return f"{format_expression(of, vocabulary)}.{local_name(iri)}"
         case Arithmetic(operator=operator, left=left, right=right):
             return f"{_operand(left, vocabulary)} {operator} {_operand(right, vocabulary)}"
+        case Aggregate():
+            return _format_aggregate(expression, vocabulary)
         case ListValue(items=items):
             return f"[{', '.join(format_expression(each, vocabulary) for each in items)}]"
         case Invoke(function=function, arguments=arguments):
             return f"{function}({', '.join(format_expression(each, vocabulary) for each in arguments)})"
         case _:
             assert_never(expression)
+
+
+def _format_aggregate(aggregate: Aggregate, vocabulary: Vocabulary) -> str:
+    where = "" if aggregate.where == And(()) else f" where {format_condition(aggregate.where, vocabulary)}"
+    members = f"{aggregate.variable}: {vocabulary.short(aggregate.cls)}{where}"
+    value = format_expression(aggregate.value, vocabulary)
+    if aggregate.function == "ordered":
+        return members if isinstance(aggregate.value, Literal) else f"{members} by {value}"
+    return f"{aggregate.function}({members}{'' if aggregate.function == 'count' else f', {value}'})"
 
 
 def _operand(expression: Expression, vocabulary: Vocabulary) -> str:

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from skillc_model.conditions import Expression, Invoke, PropertyOf, Variable
+from skillc_model.conditions import Aggregate, Expression, Invoke, PropertyOf, Variable
 from skillc_model.skills import Compound, Implementation, Parameter, SkillLibrary
 from skillc_model.traversal import children, free_variables, walk
 from skillc_model.tree import Call, Node
@@ -94,6 +94,7 @@ def _with_sources(implementation: Implementation, read: Set[str]) -> set[str]:
 def is_plain(expression: Expression, parameters: Set[str]) -> bool:
     """Whether an expression has a value whatever is known of the world: it reads constants and parameters alone."""
     return not any(
-        isinstance(each, PropertyOf | Invoke) or (isinstance(each, Variable) and each.name not in parameters)
+        isinstance(each, PropertyOf | Invoke | Aggregate)
+        or (isinstance(each, Variable) and each.name not in parameters)
         for each in walk(expression)
     )

@@ -10,6 +10,7 @@ from typing import Any, TypeVar, assert_never
 import msgspec
 
 from skillc_model.conditions import (
+    Aggregate,
     And,
     Anything,
     Arithmetic,
@@ -88,7 +89,7 @@ def substitute(item: T, values: Mapping[str, Expression]) -> T:
     """
     if isinstance(item, Variable):
         return values.get(item.name, item)  # type: ignore[return-value]
-    if isinstance(item, Exists | Forall | ForEach):
+    if isinstance(item, Exists | Forall | ForEach | Aggregate):
         values = {name: value for name, value in values.items() if name != item.variable}
         item = _without_capture(item, values)
     changed = map_children(item, lambda part: substitute(part, values))
@@ -102,7 +103,7 @@ def substitute(item: T, values: Mapping[str, Expression]) -> T:
 
 def _without_capture(item: T, values: Mapping[str, Expression]) -> T:
     """Return the quantifier, its variable renamed if it would capture a free variable of the expressions."""
-    assert isinstance(item, Exists | Forall | ForEach)
+    assert isinstance(item, Exists | Forall | ForEach | Aggregate)
     coming = {name for key in free_variables(item) if key in values for name in free_variables(values[key])}
     if item.variable not in coming:
         return item
@@ -161,7 +162,7 @@ def constant_number(expression: Expression | None) -> float | None:
         case Arithmetic(operator=operator, left=left, right=right):
             a, b = constant_number(left), constant_number(right)
             return None if a is None or b is None else _applied(operator, a, b)
-        case Variable() | Individual() | PropertyOf() | Invoke() | ListValue() | None:
+        case Variable() | Individual() | PropertyOf() | Invoke() | ListValue() | Aggregate() | None:
             return None
         case _:
             assert_never(expression)

@@ -7,7 +7,7 @@ from functools import cache, lru_cache
 
 import msgspec
 
-from skillc_model.conditions import And, Condition, Effect, Exists, Expression, Forall, ForEach, Variable
+from skillc_model.conditions import Aggregate, And, Condition, Effect, Exists, Expression, Forall, ForEach, Variable
 from skillc_model.tree import Call
 
 _PLAIN = (str, int, float, bool)
@@ -78,5 +78,5 @@ def free_variables_in_order(item: Condition | Effect | Expression) -> tuple[str,
 def _free(item: msgspec.Struct) -> Iterator[str]:
     if isinstance(item, Variable):
         yield item.name
-    bound = item.variable if isinstance(item, Exists | Forall | ForEach) else None
+    bound = item.variable if isinstance(item, Exists | Forall | ForEach | Aggregate) else None
     yield from (name for part in children(item) for name in _free(part) if name != bound)

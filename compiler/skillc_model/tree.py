@@ -119,7 +119,7 @@ class While(msgspec.Struct, frozen=True, tag="while"):
 
     condition: Condition
     text: str
-    limit: int
+    limit: int | Expression
     child: Node
     source: Position
 

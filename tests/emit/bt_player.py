@@ -190,7 +190,8 @@ class Player:
     def _script_condition(self, node: Node) -> Outcome:
         name, operator, value = node.element.attrib["code"].split(" ")
         found = int(str(node.board[name]))
-        return Outcome({"==": found == int(value), "<": found < int(value)}[operator])
+        number = int(value) if value.isdecimal() else int(str(node.board[value]))
+        return Outcome({"==": found == number, "<": found < number}[operator])
 
     def _sub_tree(self, node: Node) -> Outcome | None:
         """Tick the tree; its entries are the caller's where they are mapped, so both boards are kept alike."""

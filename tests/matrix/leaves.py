@@ -12,7 +12,7 @@ from emit.bt_parts import Stage as Leaves
 from skillc_model.conditions import Arithmetic, Condition, Expression, IsA, Literal, Variable
 from skillc_model.skills import Compound, Implementation, Primitive, SkillLibrary
 from skillc_model.traversal import walk
-from skillc_model.tree import Call, Check, ForEach, If, Timeout, Wait, WaitUntil, While
+from skillc_model.tree import Call, Check, ForEach, If, Repeat, Timeout, Wait, WaitUntil, While
 from skillc_rdf.vocabulary.types import ClassType
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
 from skillc_runtime.execution.selection.python_targets import import_primitive
@@ -152,16 +152,20 @@ class LibraryLeaves(Leaves):
         for each in lets:
             if each.name == path[-1]:
                 return each.value
-        word = path[-1].rsplit("__", 1)[0]
-        return next(self._computed(word))
+        word, _, number = path[-1].rpartition("__")
+        return list(self._computed(word or path[-1]))[int(number or 1) - 1 if word in ("items", "most") else 0]
 
     def _computed(self, word: str) -> Iterator[Expression]:
         for each in self._nodes():
             match each:
                 case Call(arguments=arguments) if word in arguments and not isinstance(arguments[word], Variable):
                     yield arguments[word]
-                case ForEach(items=items) if word == "items":
+                case ForEach(items=items) if word == "items" and not isinstance(items, Variable):
                     yield items
+                case While(limit=limit) if word == "most" and not isinstance(limit, int | Variable):
+                    yield limit
+                case Repeat(count=count) if word == "rounds" and not isinstance(count, int | Variable):
+                    yield count
                 case Wait(seconds=seconds) | Timeout(seconds=seconds) if word == "milliseconds":
                     yield Arithmetic("*", seconds, Literal(1000.0))
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import msgspec
 
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
-from skillc_compiler.analysis.knowledge.evaluate import canonical_condition
+from skillc_compiler.analysis.knowledge.canonical import canonical_condition
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
 from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.program.typed import Call, Parameter, Program, Requirement, Skill

@@ -29,6 +29,7 @@ from skillc_compiler.program.typed import Body, Call, Implementation, Requiremen
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s
 from skillc_model.conditions import (
+    Aggregate,
     Arithmetic,
     Condition,
     Effect,
@@ -154,7 +155,7 @@ def _is_beyond(types: AliasTypes, condition: Condition) -> bool:
     """Whether a condition cannot be decided here: it is about all individuals, chains or computed values."""
     for part in walk(condition):
         match part:
-            case Exists() | Forall() | Invoke() | Arithmetic():
+            case Exists() | Forall() | Invoke() | Arithmetic() | Aggregate():
                 return True
             case Holds(relation=relation):
                 if types.is_computed(relation):

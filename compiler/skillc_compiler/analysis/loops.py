@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from functools import reduce
+from collections.abc import Callable
+from functools import partial, reduce
 from math import inf
 from typing import assert_never
 
 from skillc_compiler.analysis.exploration import EvalContext, Exploration, explore_sequence, havoc_concurrent
 from skillc_compiler.analysis.knowledge.assume import assume, unify
 from skillc_compiler.analysis.knowledge.state import State, join
+from skillc_compiler.analysis.members import enter, enter_with_member, keeps_members
 from skillc_compiler.analysis.paths import (
     EndStates,
     Path,
@@ -20,10 +22,9 @@ from skillc_compiler.analysis.paths import (
     widen,
 )
 from skillc_compiler.logic.intervals import interval_of, parameter_intervals
-from skillc_compiler.logic.rounds import count_rounds
 from skillc_compiler.program.typed import TypedNode
 from skillc_dsl import syntax as s
-from skillc_model.conditions import Expression, Individual, ListValue, Literal, Variable
+from skillc_model.conditions import Aggregate, Expression, Individual, ListValue, Literal, Variable
 from skillc_model.tree import MOST_ROUNDS
 
 MAX_ROUNDS = 6
@@ -38,8 +39,8 @@ def explore_loop(
 ) -> EndStates:
     """Return how a loop ends; an invalid number of rounds is reported elsewhere."""
     match written:
-        case s.While(limit=limit):
-            return _explore_while(run, node, count_rounds(limit), states, context)
+        case s.While():
+            return _explore_while(run, node, states, context)
         case s.For():
             return _explore_for(run, node, written, states, context)
         case _:
@@ -91,37 +92,40 @@ def explore_repeat(run: Exploration, node: TypedNode, states: StatePaths, contex
     return ends
 
 
-def _explore_while(
-    run: Exploration, node: TypedNode, limit: int, states: StatePaths, context: EvalContext
-) -> EndStates:
+def _explore_while(run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext) -> EndStates:
     """Explore a `while`: rounds while the condition holds; a failure if it still holds after the last one."""
     ends, later = EndStates(), dict(states)
-    for _ in range(min(limit, MAX_ROUNDS)):
+    least, most = _count(run, node, states, ends)
+    for number in range(min(most, MAX_ROUNDS)):
         going, out = _split_on_condition(run, node, states, context)
         add_states(ends.success, out)
+        if number >= least:
+            _add_still_going(node, going, ends)
         one = explore_sequence(run, node.children, going, context)
         ends.add_failures(one)
         states = widen(one.success)
         if not states:
             return ends
-        if limit > MAX_ROUNDS and all(state in later for state in states):
-            limit, states = MAX_ROUNDS, widen(later)
+        if most > MAX_ROUNDS and all(state in later for state in states):
+            most, states = MAX_ROUNDS, widen(later)
             break
         add_states(later, states)
-    if limit > MAX_ROUNDS:
+    if most > MAX_ROUNDS:
         after: dict[State, Path] = {}
         ends.add_failures(_explore_any_round(run, node, states, context, after))
         add_states(after, states)
         states = after
     going, out = _split_on_condition(run, node, states, context)
     add_states(ends.success, out)
-    for state, path in going.items():
-        add_state(
-            ends.failure,
-            state,
-            extend_path(path, node.conditions[0].span, "the condition still holds after the last round"),
-        )
+    _add_still_going(node, going, ends)
     return ends
+
+
+def _add_still_going(node: TypedNode, going: StatePaths, ends: EndStates) -> None:
+    """Add the failures of a `while` whose condition holds after its last round."""
+    for state, path in going.items():
+        event = "the condition still holds after the last round"
+        add_state(ends.failure, state, extend_path(path, node.conditions[0].span, event))
 
 
 def _explore_for(
@@ -138,17 +142,23 @@ def _explore_for(
             ends.success = _without_item(one.success, name)
             ends.add_failures(one)
         return ends
-    for _ in range(MAX_ROUNDS):
+    first, later = enter, enter
+    if isinstance(items, Aggregate):
+        run.types.classes[name] = items.cls
+        first = partial(enter_with_member, run, items)
+        later = first if keeps_members(run, node, items, states, context) else enter
+    begin = first
+    for number in range(MAX_ROUNDS):
         new = {state: path for state, path in states.items() if state not in ends.success or state in states}
-        one = explore_sequence(run, node.children, widen(new), context)
+        one = explore_sequence(run, node.children, begin(widen(new)), context)
         ends.add_failures(one)
-        states = _without_item(one.success, name)
-        if all(state in ends.success for state in states):
+        states, begin = _without_item(one.success, name), later
+        if (number or first is later) and all(state in ends.success for state in states):
             return ends
         add_states(ends.success, states)
-    later: dict[State, Path] = {}
-    ends.add_failures(_explore_any_round(run, node, states, context, later))
-    add_states(ends.success, _without_item(later, name))
+    further: dict[State, Path] = {}
+    ends.add_failures(_explore_any_round(run, node, states, context, further, later))
+    add_states(ends.success, _without_item(further, name))
     return ends
 
 
@@ -189,12 +199,18 @@ def _split_on_condition(
 
 
 def _explore_any_round(
-    run: Exploration, node: TypedNode, states: StatePaths, context: EvalContext, target: dict[State, Path]
+    run: Exploration,
+    node: TypedNode,
+    states: StatePaths,
+    context: EvalContext,
+    target: dict[State, Path],
+    begin: Callable[[StatePaths], StatePaths] = enter,
 ) -> EndStates:
     """Explore one round after any number of others; the states after its successes are added to `target`."""
     writes = run.writes(node)
     kept = _loop_invariant(run, node, states, context)
-    one = explore_sequence(run, node.children, _with_invariant(havoc_all(run.types, states, writes), kept), context)
+    starts = begin(_with_invariant(havoc_all(run.types, states, writes), kept))
+    one = explore_sequence(run, node.children, starts, context)
     ended = havoc_all(run.types, one.success, writes)
     add_states(target, ended if _is_retry(node) else _with_invariant(ended, kept))
     return one

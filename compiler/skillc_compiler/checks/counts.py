@@ -8,7 +8,7 @@ from skillc_compiler.logic.intervals import Interval, interval_of, parameter_int
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, TypedExpression, TypedNode
-from skillc_compiler.program.walk import all_nodes, all_values, nodes_in
+from skillc_compiler.program.walk import all_values, nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -28,10 +28,6 @@ YEAR_S = 366 * 24 * 3600.0
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each invalid count, time and number."""
-    for node in all_nodes(program):
-        if isinstance(node.written, s.While):
-            limit = node.written.limit
-            yield from _count((limit.value, limit.value), limit.span, limit.text)
     yield from _times(program)
     for value in all_values(program):
         yield from _number(value)
@@ -68,6 +64,8 @@ def _in_body(nodes: Iterable[TypedNode], known: Mapping[str, Interval]) -> Itera
             case s.Decorator(kind=kind, row=row, slots=slots):
                 for value, slot, written in zip(node.values, row.slots, slots, strict=True):
                     yield from _time(value, known, kind) if slot.kind == "time" else _rounds(value, known, written)
+            case s.While(limit=limit):
+                yield from _rounds(node.values[0], known, limit)
             case s.Wait():
                 yield from _time(node.values[0], known, "wait")
             case _:

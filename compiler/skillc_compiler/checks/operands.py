@@ -10,11 +10,12 @@ from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, TypedCondition, TypedExpression
 from skillc_compiler.program.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe_type, fits
 from skillc_compiler.program.walk import all_conditions, all_values
+from skillc_compiler.resolve.aggregates import aggregate_type
 from skillc_compiler.resolve.values import arithmetic_type
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 from skillc_dsl.units import TEMPERATURE
-from skillc_model.conditions import Arithmetic, Compare
+from skillc_model.conditions import Aggregate, Arithmetic, Compare
 
 NAMES = ("unlike-dimensions", "wrong-operands")
 TEMPERATURES = (
@@ -30,6 +31,8 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for value in all_values(program):
         if isinstance(value.meaning, Arithmetic):
             yield from _check_arithmetic(value, value.meaning)
+        if isinstance(value.meaning, Aggregate):
+            yield from _check_aggregate(value, value.meaning)
     for condition in all_conditions(program):
         if isinstance(condition.meaning, Compare):
             yield from _check_comparison(program, condition, condition.meaning)
@@ -39,6 +42,20 @@ def _check_arithmetic(value: TypedExpression, meaning: Arithmetic) -> Iterator[D
     left, right = (part.type for part in value.parts)
     if arithmetic_type(meaning.operator, left, right) is None:
         yield _problem(value.span, meaning.operator, left, right, value.parts)
+
+
+def _check_aggregate(value: TypedExpression, meaning: Aggregate) -> Iterator[Diagnostic]:
+    for each in value.parts:
+        if aggregate_type(meaning.function, each.type) is None:
+            ordered = meaning.function == "ordered"
+            takes = "`by` takes numbers or texts" if ordered else f"`{meaning.function}` takes numbers"
+            is_temperature = each.type == Measure(TEMPERATURE)
+            yield Diagnostic(
+                "wrong-operands",
+                each.span,
+                "temperatures are not added" if is_temperature else f"{takes}, and this is {describe_type(each.type)}",
+                help="write `mean`, or a difference" if is_temperature else "write a property that is a number",
+            )
 
 
 def _check_comparison(program: Program, condition: TypedCondition, meaning: Compare) -> Iterator[Diagnostic]:

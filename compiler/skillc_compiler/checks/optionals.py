@@ -111,4 +111,8 @@ def _in_step(node: TypedNode, guards: Guards) -> Iterator[tuple[TypedExpression,
 
 
 def _all(read: Iterator[TypedExpression], guards: Guards) -> Iterator[tuple[TypedExpression, Guards]]:
-    return ((part, guards) for value in read for part in values_in(value))
+    for value in read:
+        for part in values_in(value):
+            yield part, guards
+            for condition in part.conditions:
+                yield from _in_clause(condition, guards)

@@ -189,6 +189,8 @@ def _node_constraints(node: TypedNode) -> Iterator[TypeConstraint]:
         case s.Decorator(row=row):
             for value, slot in zip(node.values, row.slots, strict=True):
                 yield TypeConstraint(value, *_SLOTS[slot.kind])
+        case s.While():
+            yield TypeConstraint(node.values[0], *_SLOTS["count"])
         case s.Wait():
             yield from _time_constraint(node.values[0], "as time")
         case s.For():

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from skillc_compiler.program.typed import Parameter, Skill, TypedExpression
 from skillc_compiler.program.types import Type, type_of
+from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.homes import Homes
 from skillc_compiler.resolve.individuals import Individuals, most_specific_classes
 from skillc_compiler.resolve.names import KINDS, Kind, Names, bare_terms
@@ -46,6 +47,7 @@ def make_context(
     return FileContext(
         names=names,
         vocabulary=vocabulary,
+        resolve_condition=resolve_condition,
         skills=callees,
         implementations={name: skill.implementations for name, skill in (skills or {}).items()},
         individuals=most_specific_classes(vocabulary, individuals),

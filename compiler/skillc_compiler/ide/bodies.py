@@ -45,12 +45,11 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
                 yield from (each for value in values for each in self.value(known, value))
             case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
                 yield from self.condition(known, condition)
-            case s.If(condition=condition) | s.While(condition=condition):
+            case s.If(condition=condition):
                 yield from self.condition(known, condition)
-                inside = (*written.then, *(written.orelse or ())) if isinstance(written, s.If) else written.children
-                yield from self.nodes(home, known, inside)
-            case s.For():
-                yield from self._for(home, known, written)
+                yield from self.nodes(home, known, (*written.then, *(written.orelse or ())))
+            case s.While() | s.For():
+                yield from self._loop(home, known, written)
             case s.ApplyPosts(labels=labels):
                 for label in labels:
                     yield Occurrence(label.span, self.label(home, label.text))
@@ -74,11 +73,19 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
         own = f"{home.skill}.{home.implementation}"
         return LabelSymbol(home.skill if (home.skill, text) in self.labels else own, text)
 
-    def _for(self, home: BodyContext, known: dict[str, Symbol], written: s.For) -> Iterator[Occurrence]:
-        yield from self.value(known, written.items)
-        symbol = LocalSymbol("loop variable", written.span, written.variable.text)
-        yield from self.bound(known, written.variable, symbol)
+    def _loop(self, home: BodyContext, known: dict[str, Symbol], written: s.While | s.For) -> Iterator[Occurrence]:
+        if isinstance(written, s.While):
+            yield from self.condition(known, written.condition)
+            yield from self.value(known, written.limit)
+            yield from self.nodes(home, known, written.children)
+            return
+        symbol, items = LocalSymbol("loop variable", written.span, written.variable.text), written.items
         inner: dict[str, Symbol] = {written.variable.text: symbol, **known}
+        if isinstance(items, s.Every):
+            yield from self.members(inner, items.cls, items.where, items.by)
+        else:
+            yield from self.value(known, items)
+        yield from self.bound(known, written.variable, symbol)
         yield from self.nodes(home, inner, written.children)
         known.update({name: found for name, found in inner.items() if found != symbol})
 

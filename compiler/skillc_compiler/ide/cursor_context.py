@@ -12,6 +12,7 @@ from skillc_compiler.ide.visible import VisibleNames
 from skillc_compiler.program.typed import Implementation, Skill, Task, TypedNode
 from skillc_compiler.program.types import UNKNOWN, ListOf, Thing, Type, type_of
 from skillc_compiler.program.walk import nodes_in
+from skillc_compiler.resolve.aggregates import AGGREGATES
 from skillc_compiler.resolve.individuals import most_specific_classes
 from skillc_compiler.resolve.links import type_of_link
 from skillc_dsl import syntax as s
@@ -102,7 +103,8 @@ def _bound(step: TypedNode) -> Iterator[tuple[str, Type]]:
 def _quantified(tokens: Sequence[Token], visible: VisibleNames) -> Iterator[tuple[str, Type]]:
     """Yield the variables of quantifiers, and the sides of a relation that is being defined."""
     sides = ("LPAR", "COMMA") if tokens and tokens[0].type == "RELATION" else ()
-    for first, label, cls in zip(tokens, tokens[1:], tokens[2:], strict=False):
-        if first.type in ("EXISTS", "FORALL", *sides) and label.type == "LABEL":
+    for before, first, label, cls in zip((*tokens[:1], *tokens), tokens, tokens[1:], tokens[2:], strict=False):
+        is_aggregate = first.type == "LPAR" and before.value in AGGREGATES
+        if label.type == "LABEL" and (is_aggregate or first.type in ("EXISTS", "FORALL", "FOR", *sides)):
             iri = visible.term("class", cls.value)
             yield label.value.rstrip(":"), Thing(iri) if iri else UNKNOWN

@@ -88,6 +88,8 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
             case s.Arithmetic(left=left, right=right):
                 yield from self.value(known, left)
                 yield from self.value(known, right)
+            case s.Aggregate():
+                yield from self._aggregate(known, written)
             case _:
                 assert_never(written)
 
@@ -144,6 +146,21 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
         yield from self.condition(inner, written.body)
         if written.when is not None:
             yield from self.condition(inner, written.when)
+
+    def _aggregate(self, known: Locals, written: s.Aggregate) -> Iterator[Occurrence]:
+        symbol = LocalSymbol("variable", written.span, written.variable.text)
+        yield from self.bound(known, written.variable, symbol)
+        yield from self.members({**known, written.variable.text: symbol}, written.cls, written.where, written.value)
+
+    def members(
+        self, known: Locals, cls: s.Name, where: s.Condition | None, value: s.Value | None
+    ) -> Iterator[Occurrence]:
+        """Yield the occurrences in `Class where condition`, and in the value of each individual."""
+        yield from self.term("class", cls)
+        if where is not None:
+            yield from self.condition(known, where)
+        if value is not None:
+            yield from self.value(known, value)
 
     def bound(self, known: Locals, name: s.Name, symbol: LocalSymbol) -> Iterator[Occurrence]:
         """Yield the occurrence of a name that is bound here; if it is already in `known`, it refers to that symbol."""

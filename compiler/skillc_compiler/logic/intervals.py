@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from math import isnan
+from math import inf, isnan
 from typing import TypeAlias, assert_never
 
 from skillc_compiler.program.typed import Let, Parameter
-from skillc_model.conditions import Arithmetic, Expression, Individual, Invoke, ListValue, Literal, PropertyOf, Variable
+from skillc_model.conditions import (
+    Aggregate,
+    Arithmetic,
+    Expression,
+    Individual,
+    Invoke,
+    ListValue,
+    Literal,
+    PropertyOf,
+    Variable,
+)
 from skillc_model.rewriting import constant_number
 
 Interval: TypeAlias = tuple[float, float]
@@ -40,7 +50,9 @@ def interval_of(expression: Expression, known: Mapping[str, Interval]) -> Interv
         case Arithmetic(operator=operator, left=left, right=right):
             one, other = interval_of(left, known), interval_of(right, known)
             return _combine(operator, one, other) if one is not None and other is not None else None
-        case Individual() | PropertyOf() | Invoke() | ListValue():
+        case Aggregate(function="count"):
+            return 0.0, inf
+        case Individual() | PropertyOf() | Invoke() | ListValue() | Aggregate():
             return None
         case _:
             assert_never(expression)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import assert_never
 
-from skillc_compiler.logic.rounds import count_rounds
 from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.types import declared_as
 from skillc_dsl import syntax as s
@@ -23,8 +22,8 @@ def lower_node(node: TypedNode) -> t.Node:
             return _lower_block(node, written)
         case s.Decorator():
             return _lower_decorator(node, written)
-        case s.While(text=text, limit=limit):
-            return t.While(_condition(node), text, count_rounds(limit), _lower_as_one(node.children, node), source)
+        case s.While(text=text):
+            return t.While(_condition(node), text, _rounds(_value(node)), _lower_as_one(node.children, node), source)
         case s.For(variable=variable):
             return t.ForEach(variable.text, _value(node), _lower_as_one(node.children, node), source)
         case s.With():

@@ -30,9 +30,9 @@ from skillc_rdf.vocabulary.types import ValueType, Vocabulary
 
 
 class TypedExpression(msgspec.Struct, frozen=True):
-    """An expression: its meaning, its type, its place and its operands. `_` is a variable of that name.
+    """An expression: its meaning, its type, its place, its operands and the conditions in it.
 
-    `declared` is the place of the name that it refers to, if it is one.
+    `_` is a variable of that name. `declared` is the place of the name that it refers to, if it is one.
     """
 
     meaning: Expression
@@ -40,6 +40,7 @@ class TypedExpression(msgspec.Struct, frozen=True):
     span: Span
     parts: tuple[TypedExpression, ...] = ()
     declared: Span | None = None
+    conditions: tuple[TypedCondition, ...] = ()
 
     @property
     def known(self) -> Condition | None:

@@ -70,6 +70,20 @@ def all_conditions(program: Program) -> Iterator[TypedCondition]:
     for node in all_nodes(program):
         for condition in node.conditions:
             yield from conditions_in(condition)
+    for value in _values_outside_conditions(program):
+        yield from conditions_of(value)
+
+
+def _values_outside_conditions(program: Program) -> Iterator[TypedExpression]:
+    for skill in program.skills.values():
+        yield from skill_values(skill)
+    for implementation in program.implementations:
+        yield from implementation_values(implementation)
+    for event in all_events(program):
+        if event.measured:
+            yield event.measured.limit
+    for node in all_nodes(program):
+        yield from node_values(node)
 
 
 def all_events(program: Program) -> Iterator[VerifyEvent]:
@@ -80,25 +94,26 @@ def all_events(program: Program) -> Iterator[VerifyEvent]:
 
 
 def conditions_in(condition: TypedCondition) -> Iterator[TypedCondition]:
-    """Yield a condition and its parts."""
+    """Yield a condition, its parts, and the conditions in its values."""
     yield condition
     for part in condition.parts:
         yield from conditions_in(part)
+    for value in condition.values:
+        yield from conditions_of(value)
+
+
+def conditions_of(value: TypedExpression) -> Iterator[TypedCondition]:
+    """Yield the conditions in an expression and their parts."""
+    for each in values_in(value):
+        for condition in each.conditions:
+            yield from conditions_in(condition)
 
 
 def all_values(program: Program) -> Iterator[TypedExpression]:
     """Yield every expression and its operands."""
-    for skill in program.skills.values():
-        yield from _all(*skill_values(skill))
-    for implementation in program.implementations:
-        yield from _all(*implementation_values(implementation))
     for condition in all_conditions(program):
         yield from _all(*condition.values)
-    for event in all_events(program):
-        if event.measured:
-            yield from _all(event.measured.limit)
-    for node in all_nodes(program):
-        yield from _all(*node_values(node))
+    yield from _all(*_values_outside_conditions(program))
 
 
 def skill_values(skill: Skill) -> Iterator[TypedExpression]:

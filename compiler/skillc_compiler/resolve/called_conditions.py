@@ -15,11 +15,11 @@ MISSING = "a missing value is written `not a has property`, a missing individual
 def report_called_condition(context: FileContext, written: s.Value) -> bool:
     """Report a call of a relation, property, class or skill where a condition is expected; whether it is one."""
     names = context.names
-    if not isinstance(written, s.Invoke) or written.function.text in names.functions:
+    if not isinstance(written, s.Invoke | s.Aggregate) or written.function.text in names.functions:
         return False
     name = written.function.text
-    kind, meant = _term(names, written)
-    if not kind and context.skills.get(name) is not None:
+    kind, meant = _term(names, written) if isinstance(written, s.Invoke) else ("", "")
+    if not kind and name in names.skills:
         help_ = f"write `do {name}(..)` to run it, or the condition that it makes true"
         problem = Diagnostic("unknown-function", written.span, f"the skill `{name}` is not a condition", help_)
     elif kind:

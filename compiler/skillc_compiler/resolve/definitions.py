@@ -67,7 +67,8 @@ def _resolve(
         path = unit.file.path
         here = [declared[path], *(declared[other] for _, other in unit.imports)]
         functions = {name: vocabulary.functions[name] for there in here for name in there.functions}
-        context = FileContext(replace(names[path], vocabulary=vocabulary, functions=functions), vocabulary)
+        visible = replace(names[path], vocabulary=vocabulary, functions=functions)
+        context = FileContext(visible, vocabulary, resolve_condition)
         for written in unit.file.declarations:
             if isinstance(written, s.RelationDeclaration) and written.definition is not None:
                 iri = declared[path].terms["relation"][written.name.text]

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from msgspec.structs import replace
 
 from skillc_compiler.program.typed import TypedCondition, TypedExpression
 from skillc_compiler.program.types import Thing, Type, fits
-from skillc_compiler.program.walk import values_in
 from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl.source import Span
 from skillc_model.conditions import (
+    Aggregate,
     And,
     Arithmetic,
     Exists,
@@ -46,7 +46,7 @@ def say_of(
     make: Callable[[Sequence[TypedExpression]], TypedCondition],
 ) -> TypedCondition:
     """Return a condition of values in which values of relations stand: that there are such, and that it holds then."""
-    inside = [each for value in values for each in values_in(value) if is_link(context, each)]
+    inside = [each for value in values for each in _operands(value) if is_link(context, each)]
     if not inside:
         return make(values)
     link = inside[-1]  # has none in it: what is in a value comes after it
@@ -78,10 +78,20 @@ def _exists(link: TypedExpression, thing: TypedExpression, body: TypedCondition)
     return TypedCondition(Exists(thing.meaning.name, cls, both.meaning), body.span, parts=(both,))
 
 
+def _operands(value: TypedExpression) -> Iterator[TypedExpression]:
+    """Yield an expression and its operands, but not what is computed of each individual of a class."""
+    yield value
+    if not isinstance(value.meaning, Aggregate):
+        for part in value.parts:
+            yield from _operands(part)
+
+
 def _replace(value: TypedExpression, link: TypedExpression, thing: TypedExpression) -> TypedExpression:
     """Return the value with `thing` in place of that of the relation."""
     if value.meaning == link.meaning:
         return thing
+    if isinstance(value.meaning, Aggregate):
+        return value
     parts = tuple(_replace(part, link, thing) for part in value.parts)
     inner = [part.meaning for part in parts]
     match value.meaning:

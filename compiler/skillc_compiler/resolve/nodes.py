@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.types import INT, TEXT, UNKNOWN, ListOf, Measure
+from skillc_compiler.resolve.aggregates import resolve_every
 from skillc_compiler.resolve.calls import resolve_call
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
@@ -43,8 +44,9 @@ def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[T
             return _if(context, scope, written)
         case s.While(condition=condition, children=children):
             guard = resolve_condition(context, scope, condition)
+            limit = resolve_value(context, scope, written.limit, EXPECTED["count"])
             inner, after = _resolve_sequence(context, scope, children)
-            return TypedNode(written, conditions=(guard,), children=inner), _merge_scopes(scope, after)
+            return TypedNode(written, (limit,), (guard,), children=inner), _merge_scopes(scope, after)
         case s.For():
             return _for(context, scope, written)
         case s.Fail() | s.ApplyPosts():
@@ -105,7 +107,10 @@ def _ending(context: FileContext, scope: Scope, written: s.OnFailure | s.Finally
 
 
 def _for(context: FileContext, scope: Scope, written: s.For) -> tuple[TypedNode, Scope]:
-    items = resolve_value(context, scope, written.items, ExpectedType(ListOf(UNKNOWN)))
+    if isinstance(written.items, s.Every):
+        items = resolve_every(context, scope, written.variable, written.items, resolve_value)
+    else:
+        items = resolve_value(context, scope, written.items, ExpectedType(ListOf(UNKNOWN)))
     element = items.type.element if isinstance(items.type, ListOf) else UNKNOWN
     bound = context.bind(scope, written.variable, LocalName(element, "loop variable", written.variable.span))
     inner, after = _resolve_sequence(context, bound, written.children)

@@ -12,6 +12,7 @@ from msgspec import structs
 
 from skillc_compiler.program.typed import DefinedRelation, Implementation, ParsedFile, Program, Skill, Task
 from skillc_compiler.program.unknown import LostNames, find_lost, limit_candidates
+from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.declarations import (
     Bare,
     FileDeclarations,
@@ -159,7 +160,8 @@ def _contexts(
         own = sorted({name for there in here for name in there.functions})
         functions = {name: vocabulary.functions[name] for name in own}
         visible = replace(names[unit.file.path], vocabulary=vocabulary, functions=functions)
-        found[unit.file.path] = FileContext(memo.same("names", unit.file.path, visible), vocabulary)
+        known = memo.same("names", unit.file.path, visible)
+        found[unit.file.path] = FileContext(known, vocabulary, resolve_condition)
     return found
 
 

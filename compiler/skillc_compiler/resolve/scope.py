@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Literal, TypeAlias
 
 import msgspec
 from msgspec import structs
 from msgspec.structs import replace
 
-from skillc_compiler.program.typed import Skill
+from skillc_compiler.program.typed import Skill, TypedCondition
 from skillc_compiler.program.types import UNKNOWN, Type
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.names import Names
@@ -48,14 +48,19 @@ class Scope(msgspec.Struct, frozen=True):
         return replace(self, variables={**self.variables, name: variable})
 
 
+ResolveCondition: TypeAlias = Callable[["FileContext", Scope, s.Condition], TypedCondition]
+
+
 class FileContext(msgspec.Struct, frozen=True):
     """What is constant within a declaration: the file's names, the vocabulary, the skills.
 
-    `individuals` are those of the scene with the class of each, None if it has several; None if no scene is known.
+    `resolve_condition` resolves the conditions that stand in values. `individuals` are those of the scene with the
+    class of each, None if it has several; None if no scene is known.
     """
 
     names: Names
     vocabulary: Vocabulary
+    resolve_condition: ResolveCondition
     skills: NameTable[Skill] = msgspec.field(default_factory=dict)
     implementations: NameTable[Sequence[str]] = msgspec.field(default_factory=dict)
     individuals: Mapping[str, str | None] | None = None

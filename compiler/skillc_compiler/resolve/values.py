@@ -25,6 +25,7 @@ from skillc_compiler.program.types import (
     type_of,
 )
 from skillc_compiler.program.unknown import UnknownName
+from skillc_compiler.resolve.aggregates import resolve_aggregate
 from skillc_compiler.resolve.called_conditions import MISSING, NOTHING
 from skillc_compiler.resolve.links import type_of_link
 from skillc_compiler.resolve.scope import FileContext, Scope
@@ -72,6 +73,8 @@ def resolve_value(
             return _resolve_arithmetic(context, scope, written)
         case s.ListValue():
             return _resolve_list(context, scope, written, wanted)
+        case s.Aggregate():
+            return resolve_aggregate(context, scope, written, resolve_value)
         case _:
             assert_never(written)
 
@@ -248,9 +251,7 @@ def resolve_property(context: FileContext, of: TypedExpression, name: s.Name) ->
 _FUNCTIONS = MappingProxyType(
     {
         "range": "write `repeat 3 { .. }`, or `for x in LIST { .. }` with a parameter of a type such as `[Pose]`",
-        **dict.fromkeys(
-            ("len", "size", "length", "count"), "things are not counted; `exists x: Class (C)` asks for one"
-        ),
+        **dict.fromkeys(("len", "size", "length", "count"), "individuals are counted by `count(x: Class where C)`"),
         **dict.fromkeys(("sleep", "wait"), "write `wait 1 s` among the steps"),
         **dict.fromkeys(("print", "log", "printf"), "delete it: what happens in a run is recorded"),
     }

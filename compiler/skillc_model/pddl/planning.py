@@ -12,6 +12,7 @@ import msgspec
 from msgspec import structs
 
 from skillc_model.chains import unroll_for_any_scene
+from skillc_model.counting import write_out_changing_counts
 from skillc_model.definitions import expand_for_any_scene
 from skillc_model.foresight import foresee_effects
 from skillc_model.pddl.actions import PlannedSkill, make_actions
@@ -51,7 +52,8 @@ def make_planning_domain(
     that all exist and are of the classes that the skills require. The terms that the remaining skills change decide
     what is static, which decides what skills can be planned with, so the result is computed as a fixed point.
     """
-    library = unroll_for_any_scene(foresee_effects(expand_for_any_scene(library)))
+    library = expand_for_any_scene(write_out_changing_counts(library))
+    library = unroll_for_any_scene(foresee_effects(library))
     named, settled = find_mentions(library), individuals is not None
     if individuals is None:
         individuals = assumed_classes((each for found in named.values() for each in found), library.vocabulary)

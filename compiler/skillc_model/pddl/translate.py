@@ -8,6 +8,7 @@ from typing import Protocol, TypeAlias, assert_never
 import msgspec
 
 from skillc_model.conditions import (
+    Aggregate,
     And,
     Anything,
     Compare,
@@ -257,6 +258,10 @@ class Translator(msgspec.Struct, frozen=True):
                 pass
             case Compare(left=Literal(value=value), operator="==" | "!=" as operator, right=PropertyOf() as read):
                 pass
+            case Compare(left=Aggregate(function=function)) | Compare(right=Aggregate(function=function)):
+                changed = sorted(filter(self.symbols.affected, terms_read(condition)))
+                names = ", ".join(f"`{self.symbols.short(each)}`" for each in changed)
+                raise NeedsNumbers(f"computes `{function}` from {names}, which skills change")
             case _:
                 names = ", ".join(f"`{self.symbols.short(each)}`" for each in sorted(terms_read(condition)))
                 raise NeedsNumbers(f"compares {names}, which skills change, with something else than one value")

@@ -82,7 +82,13 @@ NODES = (
         "repeats while the condition holds; fails if the condition still holds after 10 rounds",
         Picture("guard", "↻"),
     ),
-    Node("for", reserved("for"), "for NAME in LIST { .. }", "once for each element", Picture("flow", "↻")),
+    Node(
+        "for",
+        (*reserved("for"), *words("where", since=2), *words("by", "trailing", since=2)),
+        "for NAME in LIST { .. }` or `for NAME: CLASS where C by VALUE { .. }",
+        "once for each element, or for each individual [of a class](#loops-over-individuals)",
+        Picture("flow", "↻"),
+    ),
     Node(
         "check", words("check"), "check(C)", "success if the condition holds now, else failure", Picture("guard", "✓")
     ),

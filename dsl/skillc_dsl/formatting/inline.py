@@ -42,6 +42,8 @@ class InlineFormatter:
             return self.tight(children)
         if branch.data in _CALLS:
             return self._call(children)
+        if branch.data == "aggregate":
+            return self._aggregate(children)
         if branch.data in ("parentheses", "list_value"):
             return self.bracketed(children)
         if branch.data == "quantified":
@@ -128,3 +130,11 @@ class InlineFormatter:
         brackets = self.bracketed(children[start : end + 1], "," if is_step else "")
         tail = [part for child in children[end + 1 :] for part in (d.Gap(), self.of(child))]
         return d.concatenate(head, brackets, *tail)
+
+    def _aggregate(self, children: Sequence[Branch]) -> d.Document:
+        """Return `name(x: Class where C, value)`."""
+        function, opening, *inner, closing = children
+        end = index_of(inner, "COMMA")
+        members, value = (inner, []) if end < 0 else (inner[:end], inner[end:])
+        brackets = self.bracketed((opening, Tree("members", members), *value, closing))
+        return d.concatenate(self.of(function), brackets)

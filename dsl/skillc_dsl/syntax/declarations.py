@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc_dsl.source import Span
-from skillc_dsl.syntax.conditions import Condition
+from skillc_dsl.syntax.conditions import Condition, Text
 from skillc_dsl.syntax.members import (
     Body,
     DeviceUse,
@@ -23,7 +23,7 @@ from skillc_dsl.syntax.members import (
     Senses,
     Verify,
 )
-from skillc_dsl.syntax.values import Name, Text, TypeName
+from skillc_dsl.syntax.names import Name, TypeName
 
 SkillMember: TypeAlias = Parameter | Requirement | Senses | Duration | DeviceUse | Pause | Flag
 ImplementationMember: TypeAlias = Refinement | Requirement | Duration | Let | Prefer | Body | RunPython | Verify

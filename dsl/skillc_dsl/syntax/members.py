@@ -7,9 +7,9 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc_dsl.source import Span
-from skillc_dsl.syntax.conditions import Condition
+from skillc_dsl.syntax.conditions import Condition, Number, Text, Value
+from skillc_dsl.syntax.names import Name, TypeName
 from skillc_dsl.syntax.nodes import Node
-from skillc_dsl.syntax.values import Name, Number, Text, TypeName, Value
 
 Direction: TypeAlias = Literal["in", "opt", "infer", "out"]
 RequirementKind: TypeAlias = Literal["pre", "hold", "post", "outcome"]

@@ -9,8 +9,8 @@ import msgspec
 from skillc_dsl.descriptions.nodes import DECORATOR_OF
 from skillc_dsl.descriptions.rows import Decorator as DecoratorRow
 from skillc_dsl.source import Span
-from skillc_dsl.syntax.conditions import Condition
-from skillc_dsl.syntax.values import Message, Name, Number, Value
+from skillc_dsl.syntax.conditions import Condition, Message, Value
+from skillc_dsl.syntax.names import Name
 
 
 class Block(msgspec.Struct, frozen=True):
@@ -65,16 +65,25 @@ class While(msgspec.Struct, frozen=True):
 
     condition: Condition
     text: str
-    limit: Number
+    limit: Value
     children: tuple[Node, ...]
     span: Span
 
 
+class Every(msgspec.Struct, frozen=True):
+    """`Class where condition by value`: the individuals of a class that fulfil a condition, in the order of a value."""
+
+    cls: Name
+    where: Condition | None
+    by: Value | None
+    span: Span
+
+
 class For(msgspec.Struct, frozen=True):
-    """`for variable in items { }`"""
+    """`for variable in items { }`, `for variable: Class where condition by value { }`"""
 
     variable: Name
-    items: Value
+    items: Value | Every
     children: tuple[Node, ...]
     span: Span
 

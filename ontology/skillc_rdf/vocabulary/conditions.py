@@ -54,7 +54,21 @@ class ListValue(msgspec.Struct, frozen=True, tag="list"):
     items: tuple[Expression, ...]
 
 
-Expression: TypeAlias = Literal | Variable | Individual | PropertyOf | Arithmetic | Invoke | ListValue
+class Aggregate(msgspec.Struct, frozen=True, tag="aggregate"):
+    """A number, or a list, of the individuals of a class of which a condition holds.
+
+    `count` is how many there are; `sum`, `min`, `max` and `mean` are of the value of each. Of no individual, the last
+    three have no value. `ordered` is the list of them in the order of their values; equal ones in that of IRIs.
+    """
+
+    function: OneOf["count", "sum", "min", "max", "mean", "ordered"]
+    variable: str
+    cls: str
+    where: Condition
+    value: Expression
+
+
+Expression: TypeAlias = Literal | Variable | Individual | PropertyOf | Arithmetic | Invoke | ListValue | Aggregate
 
 
 class Anything(msgspec.Struct, frozen=True, tag="anything"):

@@ -875,10 +875,10 @@ export interface components {
         Compare: {
             /** @enum {unknown} */
             type: "compare";
-            left: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"];
+            left: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
             /** @enum {unknown} */
             operator: "!=" | "<" | "<=" | "==" | ">" | ">=";
-            right: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"];
+            right: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
         };
         /**
          * Literal
@@ -896,7 +896,7 @@ export interface components {
         PropertyOf: {
             /** @enum {unknown} */
             type: "property";
-            of: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"];
+            of: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
             property: string;
         };
         /**
@@ -908,8 +908,8 @@ export interface components {
             type: "arithmetic";
             /** @enum {unknown} */
             operator: "*" | "+" | "-" | "/";
-            left: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"];
-            right: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"];
+            left: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
+            right: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
         };
         /**
          * Invoke
@@ -919,7 +919,7 @@ export interface components {
             /** @enum {unknown} */
             type: "invoke";
             function: string;
-            arguments: (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"])[];
+            arguments: (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"])[];
         };
         /**
          * ListValue
@@ -928,7 +928,24 @@ export interface components {
         ListValue: {
             /** @enum {unknown} */
             type: "list";
-            items: (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"])[];
+            items: (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"])[];
+        };
+        /**
+         * Aggregate
+         * @description A number, or a list, of the individuals of a class of which a condition holds.
+         *
+         *         `count` is how many there are; `sum`, `min`, `max` and `mean` are of the value of each. Of no individual, the last
+         *         three have no value. `ordered` is the list of them in the order of their values; equal ones in that of IRIs.
+         */
+        Aggregate: {
+            /** @enum {unknown} */
+            type: "aggregate";
+            /** @enum {unknown} */
+            function: "count" | "max" | "mean" | "min" | "ordered" | "sum";
+            variable: string;
+            cls: string;
+            where: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
+            value: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
         };
         /**
          * Same
@@ -1063,7 +1080,7 @@ export interface components {
         Retry: {
             /** @enum {unknown} */
             type: "retry";
-            count: number | (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"]);
+            count: number | (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"]);
             child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"];
             source: components["schemas"]["Position"];
         };
@@ -1074,7 +1091,7 @@ export interface components {
         Repeat: {
             /** @enum {unknown} */
             type: "repeat";
-            count: number | (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"]);
+            count: number | (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"]);
             child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"];
             source: components["schemas"]["Position"];
         };
@@ -1085,7 +1102,7 @@ export interface components {
         Timeout: {
             /** @enum {unknown} */
             type: "timeout";
-            seconds: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"];
+            seconds: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
             child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"];
             source: components["schemas"]["Position"];
         };
@@ -1126,7 +1143,7 @@ export interface components {
         Wait: {
             /** @enum {unknown} */
             type: "wait";
-            seconds: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"];
+            seconds: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1162,7 +1179,7 @@ export interface components {
             type: "while";
             condition: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
             text: string;
-            limit: number;
+            limit: number | (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"]);
             child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"];
             source: components["schemas"]["Position"];
         };
@@ -1174,7 +1191,7 @@ export interface components {
             /** @enum {unknown} */
             type: "for";
             variable: string;
-            items: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"];
+            items: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
             child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"];
             source: components["schemas"]["Position"];
         };
@@ -1206,7 +1223,7 @@ export interface components {
          */
         NamedValue: {
             name: string;
-            value: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"];
+            value: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
             type: (components["schemas"]["ClassType"] | components["schemas"]["NumberType"] | components["schemas"]["VectorType"] | components["schemas"]["DirectionType"] | components["schemas"]["PlainType"] | components["schemas"]["ListType"]) | null;
         };
         /**
@@ -1283,7 +1300,7 @@ export interface components {
             skill: string;
             implementation: string | null;
             arguments: {
-                [key: string]: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"];
+                [key: string]: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
             };
             out: string | null;
             source: components["schemas"]["Position"];

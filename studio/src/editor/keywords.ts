@@ -2,7 +2,7 @@
 
 // prettier-ignore
 export const KEYWORDS: ReadonlySet<string> = new Set([
-  "_", "after", "all", "and", "any", "anywhere", "apply", "as", "before", "between", "check",
+  "_", "after", "all", "and", "any", "anywhere", "apply", "as", "before", "between", "by", "check",
   "class", "disjoint", "do", "duration", "else", "endless", "enum", "eventually", "exists",
   "expect", "fail", "failure", "fallback", "false", "finally", "for", "forall", "function",
   "functional", "given", "goal", "has", "hold", "if", "impl", "implies", "import", "in", "infer",
@@ -11,7 +11,7 @@ export const KEYWORDS: ReadonlySet<string> = new Set([
   "pre", "prefer", "prefix", "property", "python", "race", "range", "reactive", "refine",
   "relation", "repeat", "retry", "run", "scene", "scoped", "sel", "sensed", "senses", "seq",
   "shares", "skill", "start", "steps", "sub", "symmetric", "task", "test", "timeout", "transitive",
-  "true", "try", "until", "use", "uses", "verify", "wait", "when", "while", "with",
+  "true", "try", "until", "use", "uses", "verify", "wait", "when", "where", "while", "with",
 ]);
 
 // prettier-ignore

@@ -11,10 +11,10 @@ from skillc.errors import RequestError
 from skillc.services.library.files import LibraryFiles
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
+from skillc_dsl.syntax.conditions import Quantity
 from skillc_dsl.syntax.declarations import ImplementationDeclaration, SkillDeclaration
 from skillc_dsl.syntax.members import Parameter as WrittenParameter
 from skillc_dsl.syntax.members import Refinement
-from skillc_dsl.syntax.values import Quantity
 from skillc_dsl.units import UNITS, from_si, to_si
 from skillc_model.conditions import Literal
 from skillc_model.skills import Implementation, Parameter, SkillLibrary

@@ -6,7 +6,8 @@ from collections.abc import Iterable
 
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
 from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
-from skillc_compiler.analysis.knowledge.evaluate import canonical_condition, evaluate
+from skillc_compiler.analysis.knowledge.canonical import canonical_condition
+from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, Side, State
 from skillc_model.conditions import And, Anything, Condition, Holds, Individual, Not, Or, Same, Variable
 from skillc_model.rewriting import substitute

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, is_any_individual, same_individual
-from skillc_compiler.analysis.knowledge.evaluate import canonical_condition, evaluate
+from skillc_compiler.analysis.knowledge.canonical import canonical_condition
+from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.havoc import OTHER, havoc
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
 from skillc_compiler.analysis.knowledge.writes import PropertyWrite, RelationWrite, Write

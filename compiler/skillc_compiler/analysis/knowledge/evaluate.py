@@ -7,17 +7,18 @@ from typing import assert_never
 
 from msgspec.structs import replace
 
-from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, same_individual
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
+from skillc_compiler.analysis.knowledge.canonical import canonical_condition
 from skillc_compiler.analysis.knowledge.quantifiers import (
     implies,
     is_ruled_out,
     known_individuals,
-    normalise_quantifier,
     possible_witnesses,
 )
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
-from skillc_compiler.logic.bounds import MIRRORED, Bound, are_disjoint, compare_constants
+from skillc_compiler.logic.bounds import Bound, are_disjoint, compare_constants
 from skillc_model.conditions import (
+    Aggregate,
     And,
     Anything,
     Compare,
@@ -44,31 +45,6 @@ from skillc_model.rewriting import substitute
 def evaluate(types: AliasTypes, state: State, condition: Condition) -> bool | None:
     """Return whether the condition holds in every world that agrees with the state; None if open."""
     return _evaluate(types, state, canonical_condition(types, state, condition))
-
-
-def canonical_condition(types: AliasTypes, state: State, condition: Condition) -> Condition:
-    """Return the canonical form of a condition: one name for each individual and each relation."""
-    if state.aliases:
-        condition = substitute(condition, state.aliases)
-    match condition:
-        case Holds(relation=relation) if types.is_written_out(relation):
-            return canonical_condition(types, state, write_out(condition, types.vocabulary))
-        case Holds(subject=subject, relation=relation, object=object_):
-            name, turned = types.axioms.canonical.get(relation, (relation, False))
-            return Holds(object_, name, subject) if turned else Holds(subject, name, object_)
-        case Not(body=body):
-            return Not(canonical_condition(types, state, body))
-        case And(parts=parts):
-            return And(tuple(canonical_condition(types, state, part) for part in parts))
-        case Or(parts=parts):
-            return Or(tuple(canonical_condition(types, state, part) for part in parts))
-        case Same(left=Variable() | Individual() as left, right=Variable() | Individual() as right):
-            return same_individual(left, right)
-        case Compare(left=left, operator=sign, right=right) if _is_constant(left) and not _is_constant(right):
-            return Compare(right, MIRRORED[sign], left)
-        case Exists() | Forall():
-            return normalise_quantifier(types, condition, lambda body: canonical_condition(types, state, body))
-    return condition
 
 
 def _evaluate(types: AliasTypes, state: State, condition: Condition) -> bool | None:
@@ -237,6 +213,8 @@ def _evaluate_comparison(types: AliasTypes, state: State, asked: Compare) -> boo
         return asked.operator in ("==", "<=", ">=")
     if _is_missing(state, asked.left):
         return False
+    if isinstance(asked.left, Aggregate) and isinstance(asked.right, Literal) and _is_none(types, state, asked.left):
+        return compare_constants(asked.operator, 0, asked.right.value)
     if not _is_single(types, asked.left):
         return None
     for fact, true in state.facts.items():
@@ -245,6 +223,12 @@ def _evaluate_comparison(types: AliasTypes, state: State, asked: Compare) -> boo
             if answer is not None:
                 return answer
     return None
+
+
+def _is_none(types: AliasTypes, state: State, counted: Aggregate) -> bool:
+    """Whether this is the number of individuals of which it is known that there are none."""
+    some = Exists(counted.variable, counted.cls, counted.where)
+    return counted.function == "count" and evaluate(types, state, some) is False
 
 
 def _is_missing(state: State, value: Expression) -> bool:
@@ -281,7 +265,3 @@ def _infer_comparison(known: Compare, true: bool, asked: Compare) -> bool | None
     if are_disjoint(one, other):
         return False
     return True if are_disjoint(one, other.opposite()) else None
-
-
-def _is_constant(expression: Expression) -> bool:
-    return isinstance(expression, Literal)

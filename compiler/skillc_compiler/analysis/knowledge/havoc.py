@@ -14,8 +14,9 @@ from skillc_compiler.analysis.knowledge.alias_types import (
     is_any_individual,
     same_individual,
 )
+from skillc_compiler.analysis.knowledge.canonical import canonical_condition
 from skillc_compiler.analysis.knowledge.changes import Pattern, matches, may_become_true, may_become_untrue
-from skillc_compiler.analysis.knowledge.evaluate import canonical_condition, evaluate
+from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, Side, State
 from skillc_compiler.analysis.knowledge.writes import (
     OnceWrite,
@@ -27,6 +28,7 @@ from skillc_compiler.analysis.knowledge.writes import (
     may_undo,
 )
 from skillc_model.conditions import (
+    Aggregate,
     And,
     Anything,
     Compare,
@@ -215,7 +217,7 @@ def _reads(types: AliasTypes, fact: Condition, relations: frozenset[str]) -> boo
 
 @lru_cache(maxsize=4096)
 def _values_read(fact: Condition) -> tuple[tuple[IndividualTerm | None, str], ...]:
-    bound = {each.variable for each in walk(fact) if isinstance(each, Exists | Forall)}
+    bound = {each.variable for each in walk(fact) if isinstance(each, Exists | Forall | Aggregate)}
     found: list[tuple[IndividualTerm | None, str]] = []
     for each in walk(fact):
         match each:
@@ -243,7 +245,8 @@ def _relations_in(fact: Condition) -> tuple[Holds, ...]:
         case And(parts=parts) | Or(parts=parts):
             pass
         case _:
-            parts = ()
+            inside = (each for each in walk(fact) if isinstance(each, Aggregate))
+            parts = tuple(substitute(each.where, {each.variable: any_individual(each.cls)}) for each in inside)
     return tuple(found for part in parts for found in _relations_in(part))
 
 

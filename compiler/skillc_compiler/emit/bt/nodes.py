@@ -104,8 +104,11 @@ class NodeWriter(TreeWriter):
                 otherwise = [] if node.orelse else [Element("AlwaysSuccess")]
                 return with_children(Element("IfThenElse"), test, *branches, *otherwise)
             case While(child=child, limit=limit, source=source):
+                before: list[Element] = []
+                most = limit if isinstance(limit, int) else self.value("most", limit, before, "int")
                 test = self.test("while", node.condition, node.text, source)
-                return run_while(test, self.node(child), limit, self.entry("done"), self.entry("rounds"))
+                loop = run_while(test, self.node(child), most, self.entry("done"), self.entry("rounds"))
+                return run_after(before, loop)
             case ForEach():
                 return self._for_each(node)
             case Check(condition=condition, text=text, source=source):

@@ -7,6 +7,7 @@ from xml.etree.ElementTree import Element
 
 from skillc_compiler.emit.bt.body import run_after, with_children
 from skillc_compiler.emit.bt.ports import INT_MAX
+from skillc_model.tree import MOST_ROUNDS
 
 NOT_YET, WORKED, FAILED = 0, 1, 2
 
@@ -52,16 +53,17 @@ def run_finally(block: Element, last: Element, entry: str, source: str) -> Eleme
     return with_children(Element("Sequence", _description=source), start, *ended, _is(entry, WORKED))
 
 
-def run_while(condition: Element, child: Element, limit: int, done: str, rounds: str) -> Element:
+def run_while(condition: Element, child: Element, limit: int | str, done: str, rounds: str) -> Element:
     """Repeat the child while the condition holds; the loop fails if it still holds after `limit` rounds.
 
-    A round also fails when the condition is false, which ends the loop; `done` distinguishes this from a failed child.
+    A `limit` that is computed is the entry with it, in braces. A round also fails when the condition is false, which
+    ends the loop; `done` distinguishes this from a failed child.
     """
     condition.set("_onFailure", f"{done} := {WORKED}")
-    counted = Element("ScriptCondition", code=f"{rounds} < {limit}", _onSuccess=f"{rounds} := {rounds} + 1")
-    loop = with_children(
-        Element("Repeat", num_cycles=format_rounds(limit + 1)), make_sequence(condition, counted, child)
-    )
+    most = str(limit).strip("{}")
+    counted = Element("ScriptCondition", code=f"{rounds} < {most}", _onSuccess=f"{rounds} := {rounds} + 1")
+    cycles = format_rounds((limit if isinstance(limit, int) else MOST_ROUNDS) + 1)
+    loop = with_children(Element("Repeat", num_cycles=cycles), make_sequence(condition, counted, child))
     ended = with_children(Element("Fallback"), loop, _is(done, WORKED))
     return make_sequence(Element("Script", code=reset_script([done, rounds])), ended)
 

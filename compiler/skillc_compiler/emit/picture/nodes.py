@@ -61,9 +61,10 @@ class NodeDrawer(msgspec.Struct, frozen=True):
                     "finally", children=(self.box(block), PictureBox("flow", "→", "finally", (), self._all(last)))
                 )
             case s.While(text=text, limit=limit, children=children):
-                return _box("while", text, f"max {limit.text}", children=self._all(children))
+                return _box("while", text, f"max {self.places.written(limit.span)}", children=self._all(children))
             case s.For(variable=variable, items=items, children=children):
-                head = f"{variable.text} in {self.places.written(items.span)}"
+                between = ":" if isinstance(items, s.Every) else " in"
+                head = f"{variable.text}{between} {self.places.written(items.span)}"
                 return _box("for", head, children=self._all(children))
             case _:
                 assert_never(node)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal, cast
 
 from skillc_dsl import syntax as s
-from skillc_dsl.parsing.building.places import Child, MemberPart, keyword_at
+from skillc_dsl.parsing.building.places import Child, MemberPart, find_part, keyword_at
 from skillc_dsl.parsing.building.values import ValueBuilder
 from skillc_dsl.parsing.tokens import Token
 
@@ -45,6 +45,22 @@ class ConditionBuilder(ValueBuilder):
     def conditional(self, children: list[Child]) -> MemberPart:
         """`body when condition`"""
         return self.part("conditional", children)
+
+    def aggregate(self, children: list[Child]) -> s.Aggregate:
+        """`sum(x: Class where condition, value)`"""
+        function, variable, cls = self.as_name(children[0]), self.label(children[2]), self.as_name(children[3])
+        last = children[-2] if keyword_at(children, len(children) - 3) == "," else None
+        value = None if last is None else self.value(last)
+        return s.Aggregate(function, variable, cls, self.filter(children), value, self.over(children))
+
+    def where(self, children: list[Child]) -> MemberPart:
+        """`where condition`"""
+        return self.part("where", children)
+
+    def filter(self, children: list[Child]) -> s.Condition | None:
+        """Return the condition after `where` among these parts, or None."""
+        where = find_part(children, "where")
+        return None if where is None else self.condition(where.children[1])
 
     def compare(self, children: list[Child]) -> s.Compare:
         """`left == right` and its like"""

@@ -106,7 +106,9 @@ class MemberBuilder(NodeBuilder):
         if isinstance(value, s.Quantity):
             self.complain(value.span, f"`{word}` takes a number without a unit", f"such as `{example}`")
             value = s.Number(value.value, f"{value.value:g}", value.span)
-        return self.as_number(value)
+        if not isinstance(value, s.Number):
+            raise TypeError(f"a number was expected, not {value!r}")
+        return value
 
     def run(self, children: list[Child]) -> s.RunPython:
         """`run python "module:Class"`"""

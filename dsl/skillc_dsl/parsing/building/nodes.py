@@ -76,13 +76,23 @@ class NodeBuilder(ConditionBuilder):
     def while_(self, children: list[Child]) -> s.While:
         """`while C max N { }`"""
         condition = self.condition(children[1])
-        text, limit = self.written(condition.span), self.as_number(children[3])
+        text, limit = self.written(condition.span), self.value(children[3])
         return s.While(condition, text, limit, self.nodes(children), self.over(children))
 
     def for_(self, children: list[Child]) -> s.For:
-        """`for x in EXPR { }`"""
-        variable, items = self.as_name(children[1]), self.value(children[3])
-        return s.For(variable, items, self.nodes(children[4:]), self.over(children))
+        """`for x in EXPR { }`, `for x: Class where C by EXPR { }`"""
+        start = next(at for at, child in enumerate(children) if isinstance(child, Token) and child.type == "LBRACE")
+        over, inner = self.over(children), self.nodes(children[start:])
+        if isinstance(children[1], s.Name):
+            return s.For(children[1], self.value(children[3]), inner, over)
+        by = find_part(children, "by")
+        value = self.value(by.children[1]) if by is not None else None
+        every = s.Every(self.as_name(children[2]), self.filter(children), value, self.over(children[2:start]))
+        return s.For(self.label(children[1]), every, inner, over)
+
+    def by(self, children: list[Child]) -> MemberPart:
+        """`by EXPR` in a loop"""
+        return self.part("by", children)
 
     def check(self, children: list[Child]) -> s.CheckNode:
         """`check(C)`"""
@@ -134,12 +144,6 @@ class NodeBuilder(ConditionBuilder):
     def nodes(self, children: list[Child] | tuple[Child, ...]) -> tuple[s.Node, ...]:
         """Return the nodes among `children`."""
         return tuple(child for child in children if isinstance(child, s.Node))
-
-    def as_number(self, child: Child) -> s.Number:
-        """Return a child that the grammar guarantees to be a number."""
-        if not isinstance(child, s.Number):
-            raise TypeError(f"a number was expected, not {child!r}")
-        return child
 
 
 def _without_handler(children: list[Child]) -> list[Child]:

@@ -47,7 +47,7 @@ FORMS = (
         rf"(?P<a>{_WHOLE})\s+in\s+\[(?P<b>{_VALUE}),\s*(?P<c>{_VALUE})\]",
         r"(\g<a> == \g<b> or \g<a> == \g<c>)",
     ),
-    inner(rf"\b(?P<a>{_NAME})\((?=\w+:\s)", None, r"a skill is not a condition: `do \g<a>(..)` runs it", "TRUE"),
+    inner(rf"\b(?P<a>{_NAME})\(\w+:\s.*", None, r"a skill is not a condition: `do \g<a>(..)` runs it", "TRUE"),
     inner(rf"\bhas\s*\(\s*(?P<a>{_NAME})\s*,\s*(?P<b>{_NAME})\s*\)", r"\g<a> has \g<b>"),
     inner(rf"\bexists\s*\(\s*(?P<a>{_NAME})\.(?P<b>{_NAME})\s*\)", r"\g<a> has \g<b>"),
     inner(rf"(?P<a>{_NAME})\.(?P<b>{_NAME})\s+exists\b", r"\g<a> has \g<b>"),

@@ -127,6 +127,8 @@ FORMS = (
     leading(r"(?:var|const|val|auto|def|set)\s+(?P<a>\w+)\s*:?=", r"let \g<a> =", where="LET"),
     leading(r"(?P<a>\w+)\s*=", r"let \g<a> =", where="LET"),
     inner(r":=", "=", where="EQUAL"),
-    leading(rf"goal\s+(?P<a>{_NAME})\(", r"do \g<a>(", r"a skill is not a condition: write `do \g<a>(`"),
+    leading(
+        rf"goal\s+(?P<a>{_NAME})\((?P<b>\w+:\s.*)", r"do \g<a>(\g<b>", r"a skill is not a condition: write `do \g<a>(`"
+    ),
     leading(rf"(?:(?:run|call|execute|start)\s+)?(?={_NAME}\s*\()", "do ", where="DO"),
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from skillc_model.conditions import Condition
+from skillc_model.counting import write_out_changing_counts, write_out_counts
 from skillc_model.definitions import Expansion, expand_library, find_changing, passes_on
 from skillc_model.read_write import terms_read
 from skillc_model.skills import Implementation, Skill, SkillLibrary
@@ -24,7 +25,11 @@ LONG_CHAINS = LeftOut(
 def expand_definitions(
     library: SkillLibrary, state: WorldState, goal: Condition
 ) -> tuple[SkillLibrary, Condition, tuple[LeftOut, ...]]:
-    """Return a library and a goal that read no defined relation which skills change, and what is left out of them."""
+    """Return a library and a goal that read no defined relation which skills change, and what is left out of them.
+
+    Nor do they compare small numbers of individuals.
+    """
+    library, goal = _write_out_counts(LibraryKey(library)), write_out_counts(goal)
     changing = _find_changing(LibraryKey(library))
     if not changing:
         return library, goal, ()
@@ -55,6 +60,11 @@ def _is_read(iri: str, read: frozenset[str], changing: dict[str, Definition]) ->
         before = reading
         reading = reading.union(*(terms_read(changing[each].condition) for each in reading & changing.keys()))
     return iri in reading
+
+
+@lru_cache(maxsize=16)
+def _write_out_counts(key: LibraryKey) -> SkillLibrary:
+    return write_out_changing_counts(key.library)
 
 
 @lru_cache(maxsize=64)

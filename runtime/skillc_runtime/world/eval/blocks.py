@@ -16,7 +16,7 @@ from skillc_model.conditions import Arithmetic, Condition, HasProperty, Holds, I
 from skillc_model.traversal import free_variables, walk
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.cancellation import check_current
-from skillc_runtime.world.eval.expressions import Bindings
+from skillc_runtime.world.eval.bindings import Bindings
 from skillc_runtime.world.eval.links import Link, find_links
 from skillc_runtime.world.eval.scope import ConditionTest, Scope
 from skillc_runtime.world.state.world_state import WorldState

@@ -26,7 +26,8 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
-from skillc_runtime.world.eval.expressions import Bindings, bound_value, compile_expression
+from skillc_runtime.world.eval.bindings import Bindings, bound_value
+from skillc_runtime.world.eval.functions import make_function
 from skillc_runtime.world.eval.identity_cache import IdentityCache
 from skillc_runtime.world.eval.quantifiers import compile_quantified
 from skillc_runtime.world.eval.scope import ConditionTest
@@ -123,7 +124,8 @@ _ORDER: dict[str, Callable[..., bool]] = {
 
 def _compare(left: Expression, sign: str, right: Expression) -> ConditionTest:
     """Return the test for a comparison: false if a value is missing; of several values, one that compares is enough."""
-    one, other, compare = compile_expression(left), compile_expression(right), _ORDER[sign]
+    one, other = (make_function(side, compile_condition) for side in (left, right))
+    compare = _ORDER[sign]
     several = isinstance(left, PropertyOf), isinstance(right, PropertyOf)
 
     def test(state: WorldState, bindings: Bindings) -> bool:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import assert_never
 
 from skillc_model.conditions import (
+    Aggregate,
     And,
     Anything,
     Arithmetic,
@@ -29,7 +30,7 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
-from skillc_model.format_condition import format_relation
+from skillc_model.format_condition import format_expression, format_relation
 from skillc_rdf.vocabulary.types import ValueType, Vocabulary, local_name
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import Bindings, compile_expression, describe_missing_value, type_of
@@ -196,6 +197,8 @@ class _Explainer:
                 return name
             case Invoke(function, _):
                 return f"{function}(..)"
+            case Aggregate():
+                return format_expression(expression, self._state.vocabulary)
             case Literal() | Individual() | Arithmetic() | ListValue():
                 return ""
             case _:

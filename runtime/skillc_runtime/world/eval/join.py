@@ -9,8 +9,8 @@ import msgspec
 
 from skillc_model.conditions import Condition, Holds, Term, Variable
 from skillc_model.traversal import conjuncts, free_variables
+from skillc_runtime.world.eval.bindings import Bindings, iri_of
 from skillc_runtime.world.eval.conditions import compile_condition
-from skillc_runtime.world.eval.expressions import Bindings, iri_of
 from skillc_runtime.world.eval.scope import ConditionTest
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState

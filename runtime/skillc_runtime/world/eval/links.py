@@ -8,7 +8,7 @@ from typing import TypeGuard
 import msgspec
 
 from skillc_model.conditions import Anything, Condition, Holds, Individual, Term, Variable
-from skillc_runtime.world.eval.expressions import Bindings, iri_of
+from skillc_runtime.world.eval.bindings import Bindings, iri_of
 from skillc_runtime.world.state.world_state import WorldState
 
 

@@ -9,8 +9,8 @@ from skillc_model.blocks import make_block
 from skillc_model.conditions import Condition, Exists, Forall
 from skillc_model.traversal import free_variables
 from skillc_runtime.cancellation import check_current
+from skillc_runtime.world.eval.bindings import Bindings
 from skillc_runtime.world.eval.blocks import compile_block
-from skillc_runtime.world.eval.expressions import Bindings
 from skillc_runtime.world.eval.links import find_links
 from skillc_runtime.world.eval.scope import ConditionTest, Scope, contains_quantifier, remember
 from skillc_runtime.world.state.world_state import WorldState

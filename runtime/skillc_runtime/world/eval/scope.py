@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from skillc_model.conditions import Condition, Exists, Forall
 from skillc_model.traversal import free_variables_in_order, walk
-from skillc_runtime.world.eval.expressions import Bindings
+from skillc_runtime.world.eval.bindings import Bindings
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 

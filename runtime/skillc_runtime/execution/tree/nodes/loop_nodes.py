@@ -6,6 +6,7 @@ from typing import ClassVar
 
 from skillc_dsl.position import Position
 from skillc_model import tree
+from skillc_model.conditions import Expression
 from skillc_model.tree import MOST_ROUNDS
 from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.context import TreeContext
@@ -61,6 +62,16 @@ class LoopNode(Node):
         raise NotImplementedError
 
 
+def evaluate_rounds(written: int | Expression, kind: str, context: TreeContext, frame: Frame) -> int:
+    """Return the number of rounds of a loop. Raises ValueError if it is none."""
+    if isinstance(written, int):
+        return written
+    count = value_of(written, context.state, frame)
+    if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= MOST_ROUNDS:
+        raise ValueError(f"`{kind}` needs a whole number of rounds from 1 to a million, not {count!r}")
+    return count
+
+
 class CountedNode(LoopNode):
     """A loop whose number of rounds is computed when it starts."""
 
@@ -79,12 +90,7 @@ class CountedNode(LoopNode):
 
     def evaluate_count(self) -> int:
         """Return the number of rounds. Raises ValueError if it is none."""
-        if isinstance(self._written, int):
-            return self._written
-        count = value_of(self._written, self.context.state, self.frame)
-        if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= MOST_ROUNDS:
-            raise ValueError(f"`{self.kind}` needs a whole number of rounds from 1 to a million, not {count!r}")
-        return count
+        return evaluate_rounds(self._written, self.kind, self.context, self.frame)
 
 
 class RetryNode(CountedNode):
@@ -144,24 +150,28 @@ class WhileNode(LoopNode):
     """Repeats the child while the condition is true; fails if it is still true after `limit` rounds."""
 
     kind: ClassVar[str] = "while"
-    __slots__ = ("frame", "node")
+    __slots__ = ("_limit", "frame", "node")
 
     def __init__(self, context: TreeContext, node: tree.While, child: Node, scope: LexicalScope) -> None:
         super().__init__(context, node.source, child, f"while {node.text}")
-        self.node = node
-        self.frame = scope.frame
+        self.node, self.frame, self._limit = node, scope.frame, 0
 
     def foresee(self, freed: Holders) -> Status:
+        limit = evaluate_rounds(self.node.limit, self.kind, self.context, self.frame)
         if not evaluate(self.node.condition, self.context.state, self.frame):
             return SUCCESS
-        return FAILURE if self.node.limit == 0 else self.foresee_round(freed, is_only=False)
+        return FAILURE if limit == 0 else self.foresee_round(freed, is_only=False)
+
+    def on_start(self) -> Status:
+        self._limit = evaluate_rounds(self.node.limit, self.kind, self.context, self.frame)
+        return super().on_start()
 
     def next_round(self) -> Status:
         if not evaluate(self.node.condition, self.context.state, self.frame):
             return self.succeed()
-        if self.rounds < self.node.limit:
+        if self.rounds < self._limit:
             return self.start_round()
-        message = f"`{self.node.text}` still holds after {self.node.limit} rounds"
+        message = f"`{self.node.text}` still holds after {self._limit} rounds"
         return self.fail(Failure(kind="body", message=message, source=self.source))
 
     def on_child_ended(self, status: Status) -> Status:
