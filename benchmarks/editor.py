@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import shutil
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import count
 from pathlib import Path
@@ -20,9 +20,11 @@ from time import process_time
 from _one_file import one_file
 
 from skillc.lsp import diagnostics as problems
-from skillc.lsp.libraries import Libraries
+from skillc.lsp.libraries import FileView, Libraries
 from skillc.services.library.files import SHIPPED
 from skillc_compiler.ide import highlighting
+from skillc_compiler.ide.annotations.hints import Hint, find_hints
+from skillc_compiler.ide.annotations.lenses import find_lenses
 from skillc_compiler.ide.completion import complete
 from skillc_compiler.ide.descriptions import find_hover
 from skillc_dsl.parsing.making import make_parser
@@ -58,12 +60,18 @@ def measure(text: str, file: Path) -> None:
         view = libraries.view(uri)
         highlighting.highlight_words(view.analysis, view.path)
 
+    def show_hints(view: FileView) -> Iterator[Hint]:
+        rows = range(1, text.count("\n") + 2)
+        return find_hints(view.analysis, view.path, rows, libraries.choices(view, rows))
+
     middle = text[: text.index("target: above")].count("\n") + 1
     parser = make_parser(grammar_text())
     bare = median(_seconds(lambda: parser.parse(text)) for _ in range(EDITS))
     answers: list[tuple[str, Callable[[], object]]] = [
         ("problems after an edit", find_problems),
         ("colours, then", highlight),
+        ("hints of all lines, then", lambda: list(show_hints(libraries.view(uri)))),
+        ("lenses, then", lambda: list(find_lenses(libraries.view(uri).analysis, "all.skill"))),
         ("completion, then", lambda: complete(libraries.view(uri).analysis, "all.skill", middle, 16)),
         ("hover, then", lambda: find_hover(libraries.view(uri).analysis, "all.skill", middle, 10)),
     ]

@@ -14,6 +14,7 @@ from pytest_lsp import ClientServerConfig, LanguageClient, client_capabilities, 
 from editor.desk import Desk
 
 SERVER = [sys.executable, "-c", "from skillc.cli.main import main; main(['lsp', '--stdio'])"]
+COMMANDS = ["skillc.run", "skillc.plan", "skillc.test", "skillc.showReferences"]
 _numbers = itertools.count()
 
 
@@ -38,6 +39,7 @@ async def client(lsp_client: LanguageClient, tmp_path_factory: pytest.TempPathFa
     lsp_client.initialize_result = await lsp_client.initialize_session(
         types.InitializeParams(
             capabilities=client_capabilities("visual-studio-code"),
+            initialization_options={"commands": COMMANDS},
             workspace_folders=[types.WorkspaceFolder(folder.as_uri(), "tests")],
         )
     )

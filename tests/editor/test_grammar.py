@@ -39,5 +39,12 @@ def test_the_lock_file_names_no_registry() -> None:
 
 
 def test_the_client_stays_small() -> None:
-    lines = (EDITORS / "vscode" / "src" / "extension.ts").read_text("utf-8").split("\n")
-    assert 0 < len(lines) < 60
+    files = sorted((EDITORS / "vscode" / "src").glob("*.ts"))
+    assert files
+    assert all(len(each.read_text("utf-8").split("\n")) <= 60 for each in files)
+
+
+def test_the_client_carries_out_the_commands_of_all_lenses() -> None:
+    named = (EDITORS / "vscode" / "src" / "commands.ts").read_text("utf-8")
+    commands = {"skillc.showReferences", *(f"skillc.{kind}" for kind in ("run", "plan", "test"))}
+    assert all(f'"{each}"' in named for each in commands)

@@ -13,10 +13,11 @@ from pygls.uris import from_fs_path, to_fs_path
 
 from skillc.lsp import files
 from skillc.lsp.files import Root
-from skillc.lsp.scenes import find_problems, read_scenes
+from skillc.lsp.scenes import find_choices, find_problems, read_scenes
 from skillc.services.library.files import LibraryFiles, edition_of
 from skillc.services.library.libraries import load_vocabulary_with
 from skillc_compiler.ide.analysis import Analysis, AnalysisInput, analyse
+from skillc_compiler.ide.annotations.hints import Choices
 from skillc_compiler.resolve.files import Parser
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import normalise_text
@@ -158,6 +159,10 @@ class Libraries:
         """Return the diagnostics of the vocabularies and scenes of a library."""
         of_scenes = self.problems_of_scenes(root)
         return (*self.problems_of_vocabularies(root), *of_scenes, *self._around(root).diagnostics)
+
+    def choices(self, view: FileView, lines: range) -> Choices:
+        """Return how the calls in the tasks and tests of some lines of a file go in their scenes."""
+        return find_choices(self._scenes[view.root], view.analysis, view.path, lines)
 
     def is_symbolic(self, root: Root) -> bool:
         """Whether the tasks of a library run in cells without bodies."""

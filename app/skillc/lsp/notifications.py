@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from lsprotocol import types
 
 from skillc.lsp.session import Session
 from skillc_ontology import catalogue
 
 _WATCHED = ("**/*.skill", *(f"**/*{ending}" for ending in catalogue.ENDINGS), "**/skillc.toml")
+
+
+def on_initialize(session: Session, params: types.InitializeParams) -> None:
+    """Note which commands the editor carries out."""
+    options = params.initialization_options
+    named = options.get("commands") if isinstance(options, Mapping) else getattr(options, "commands", None)
+    session.commands = frozenset(each for each in named or () if isinstance(each, str))
 
 
 def on_initialized(session: Session, params: types.InitializedParams) -> None:

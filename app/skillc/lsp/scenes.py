@@ -12,6 +12,7 @@ import msgspec
 from skillc.services.check.library_checks import check_with_scenes
 from skillc.services.library.files import LibraryFiles
 from skillc_compiler.ide.analysis import Analysis
+from skillc_compiler.ide.annotations.hints import CallChoice, Choices
 from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import unpack
@@ -59,14 +60,35 @@ def find_problems(scenes: TaskScenes | None, analysis: Analysis, memo: Memo) -> 
     return tuple(each for each in found if not _is_shipped(each.span.path))
 
 
+def find_choices(scenes: TaskScenes | None, analysis: Analysis, path: str, lines: range) -> Choices:
+    """Return how the calls in the tasks and tests of some lines go in their scenes; none if the library has errors."""
+    if scenes is None or not any(each.span.path == path and each.body for each in analysis.program.tasks):
+        return {}
+    if not analysis.compiled.ok:
+        return {}
+    from skillc.services.tasks.call_choices import foresee_choices, start_of
+    from skillc_model.declared import act_as_declared
+
+    library, found = analysis.compiled.value, dict[tuple[int, int], CallChoice]()
+    for each in (*library.tasks.values(), *library.tests.values()):
+        scene = scenes.valid.get(scenes.files.get(each.name, Path()))
+        is_near = each.source.path == path and each.source.line < lines.stop
+        if scene is not None and is_near and each.body is not None and not each.parameters:
+            acting = act_as_declared(library) if each.name in library.tests else library
+            choices = foresee_choices(each.body, acting, start_of(each, scene.state))
+            found |= {(choice.line, choice.column): choice for choice in choices}
+    return found
+
+
 def read_scene_texts(found: Iterable[Diagnostic], buffers: Mapping[Path, str]) -> dict[str, str]:
     """Return the texts of the scenes and manifests that diagnostics point into, by the diagnostics' paths."""
     paths = {span.path for each in found for span in (each.span, *(label.span for label in each.labels))}
     wanted = sorted(path for path in paths if path.endswith((*catalogue.ENDINGS, ".toml")) and Path(path).is_file())
-    return {path: _text(Path(path), buffers) for path in wanted}
+    return {path: read_text(Path(path), buffers) for path in wanted}
 
 
-def _text(file: Path, buffers: Mapping[Path, str]) -> str:
+def read_text(file: Path, buffers: Mapping[Path, str]) -> str:
+    """Return the text of a scene, vocabulary or manifest: that in the editor, or on disk."""
     return buffers[file] if file in buffers else unpack(file.read_bytes()).decode("utf-8-sig", errors="replace")
 
 

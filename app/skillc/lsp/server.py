@@ -13,6 +13,7 @@ from pygls.lsp.server import LanguageServer
 
 from skillc.errors import OutputError
 from skillc.lsp import edits as writing
+from skillc.lsp import hints, lenses
 from skillc.lsp import notifications as documents
 from skillc.lsp import queries as reading
 from skillc.lsp.files import is_rdf
@@ -24,6 +25,7 @@ Handler: TypeAlias = Callable[[Session, Any], object]
 _LEGEND = types.SemanticTokensLegend(list(reading.TOKEN_KINDS), ["declaration"])
 _FIXES = [types.CodeActionKind.QuickFix, writing.FIX_ALL]
 HANDLERS: tuple[tuple[str, Handler, object], ...] = (
+    (types.INITIALIZE, documents.on_initialize, None),
     (types.INITIALIZED, documents.on_initialized, None),
     (types.SHUTDOWN, documents.on_shutdown, None),
     (types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS, documents.on_folders_changed, None),
@@ -40,6 +42,8 @@ HANDLERS: tuple[tuple[str, Handler, object], ...] = (
     (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, reading.list_document_symbols, None),
     (types.WORKSPACE_SYMBOL, reading.list_workspace_symbols, None),
     (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, reading.encode_semantic_tokens, _LEGEND),
+    (types.TEXT_DOCUMENT_CODE_LENS, lenses.show_lenses, None),
+    (types.TEXT_DOCUMENT_INLAY_HINT, hints.show_hints, None),
     (types.TEXT_DOCUMENT_FOLDING_RANGE, reading.find_folds, None),
     (types.TEXT_DOCUMENT_SIGNATURE_HELP, reading.show_signature, types.SignatureHelpOptions(["(", ","])),
     (
@@ -59,6 +63,7 @@ FOR_TURTLE = (
     types.TEXT_DOCUMENT_DID_SAVE,
     types.TEXT_DOCUMENT_DID_CLOSE,
     types.TEXT_DOCUMENT_CODE_ACTION,
+    types.TEXT_DOCUMENT_INLAY_HINT,
 )
 """The requests that are also answered for scenes and vocabularies."""
 

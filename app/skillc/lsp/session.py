@@ -67,10 +67,14 @@ class PositionParams(Protocol):
 
 @dataclass
 class Session:
-    """The state of a session; `over` once the editor has asked for a shutdown."""
+    """The state of a session; `over` once the editor has asked for a shutdown.
+
+    `commands` are those that the editor carries out: the list `commands` in its initialization options.
+    """
 
     server: LanguageServer
     over: bool = False
+    commands: frozenset[str] = frozenset()
     libraries: Libraries = field(default_factory=Libraries)
     _published: dict[Root, Published] = field(default_factory=dict)
     _failures: dict[str, str] = field(default_factory=dict)

@@ -1,20 +1,28 @@
 // Starts `skillc lsp` for `.skill` files and forwards the requests of the editor to it.
 import * as path from "node:path";
 import { commands, type ExtensionContext, window, workspace } from "vscode";
+import { LENS_COMMANDS, registerLensCommands } from "./commands";
 import { LanguageClient, type LanguageClientOptions, type ServerOptions } from "vscode-languageclient/node";
 
 let client: LanguageClient | undefined;
 
-function server(): ServerOptions {
+/** The command that starts the language server, with its path. */
+function configured(): string[] {
   const [command, ...args] = workspace.getConfiguration("skillc").get<string[]>("command") ?? ["skillc", "lsp"];
   const cwd = workspace.workspaceFolders?.[0]?.uri.fsPath;
   const isPath = command.includes("/") || command.includes(path.sep);
-  return { command: isPath && cwd ? path.resolve(cwd, command) : command, args, options: { cwd } };
+  return [isPath && cwd ? path.resolve(cwd, command) : command, ...args];
+}
+
+function server(): ServerOptions {
+  const [command, ...args] = configured();
+  return { command, args, options: { cwd: workspace.workspaceFolders?.[0]?.uri.fsPath } };
 }
 
 async function start(): Promise<void> {
   const options: LanguageClientOptions = {
     documentSelector: [{ language: "skill" }, { scheme: "file", pattern: "**/*.ttl" }],
+    initializationOptions: { commands: LENS_COMMANDS },
   };
   client = new LanguageClient("skillc", "skillc", server(), options);
   try {
@@ -39,6 +47,7 @@ async function restart(): Promise<void> {
 export async function activate(context: ExtensionContext): Promise<void> {
   context.subscriptions.push(
     commands.registerCommand("skillc.restart", restart),
+    ...registerLensCommands(() => configured().slice(0, -1), () => client),
     workspace.onDidChangeConfiguration((event) => (event.affectsConfiguration("skillc.command") ? restart() : undefined)),
   );
   await start();

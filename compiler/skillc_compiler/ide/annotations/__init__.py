@@ -1,0 +1,1 @@
+"""What editors show beside a text: hints in its lines, and commands above its declarations."""
