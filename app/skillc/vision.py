@@ -1,10 +1,13 @@
-"""Dirt in images: which cells of a flat surface are clean, dirty, or not seen."""
+"""What images show: which cells of a flat surface are clean, dirty, or not seen; and which parts are good."""
 
 from skillc_runtime.vision.cell_map import CLEAN, DIRTY, UNSEEN, CellMap
+from skillc_runtime.vision.classify_part import ClassifiedPart, classify_part, classify_parts
 from skillc_runtime.vision.inspect_image import inspect_image
 from skillc_runtime.vision.inspected_surface import InspectedSurface, Markers, SurfaceLook
+from skillc_runtime.vision.label_pose import NotDecided
 from skillc_runtime.vision.lens import Lens
 from skillc_runtime.vision.locate import LocatedSurface, NotLocated
+from skillc_runtime.vision.part_look import PartLook
 from skillc_runtime.vision.picture import draw_cells, read_image, write_image
 
 __all__ = [
@@ -12,12 +15,17 @@ __all__ = [
     "DIRTY",
     "UNSEEN",
     "CellMap",
+    "ClassifiedPart",
     "InspectedSurface",
     "Lens",
     "LocatedSurface",
     "Markers",
+    "NotDecided",
     "NotLocated",
+    "PartLook",
     "SurfaceLook",
+    "classify_part",
+    "classify_parts",
     "draw_cells",
     "inspect_image",
     "read_image",

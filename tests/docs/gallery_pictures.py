@@ -65,6 +65,7 @@ TASKS = (
     TaskPicture("sorting:sort_parts", 0.32),
     TaskPicture("sorting:sort_seen_parts", 0.14),
     TaskPicture("sorting:sort_shapes", 0.54),
+    TaskPicture("sorting:sort_inspected", 0.3),
 )
 ROBOTS = (
     ("clean_whiteboard", 0.66, 0.53),

@@ -8,6 +8,7 @@ import pytest
 from backends.kinematic_runs import library, prepare
 from skillc.services.library.files import SHIPPED
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.backends.simulation.cameras.image_camera import ImageCamera
 from skillc_runtime.evaluation.report.handlings import find_handlings, find_targets, measure_placements
 from skillc_runtime.evaluation.report.run_trace import HandTrace
 from skillc_runtime.execution.execute import execute_task
@@ -56,6 +57,24 @@ def test_all_parts_lie_in_their_boxes_and_where_they_are_believed_to_be(
         assert is_inside(truth.body_pose(box).inverse() @ really, size(state, box)), part
         away = pose(state, part).position - really.position
         assert 1e3 * np.linalg.norm(away[:2]) <= PLACED_MM, part
+
+
+def test_parts_go_where_pixels_say_and_pixels_are_right() -> None:
+    pytest.importorskip("cv2")
+    compiled = library("sorting")
+    prepared = prepare(compiled, "sort_inspected", SHIPPED / "sorting" / "inspected.ttl")
+    cell = SimulatedCell(WorldModel(prepared.assignment.state), seed=2)
+    camera = cell.camera()
+    if not isinstance(camera, ImageCamera):
+        pytest.skip("no GL library draws off screen")
+    execution = execute_task(prepared, compiled, cell)
+    assert (execution.status, execution.verified, execution.false_claims) == ("succeeded", True, ()), execution.failure
+    state, truth = cell.world.snapshot(), cell.ground_truth
+    defects = {part: face.defect for part, face in camera.true_faces.items()}
+    assert sorted(defects.values()) == ["", "spot"]
+    for part, defect in defects.items():
+        box = f"http://example.org/lab#{'Scrap' if defect else 'Rack'}"
+        assert is_inside(truth.body_pose(box).inverse() @ truth.body_pose(part), size(state, box)), part
 
 
 def is_inside(in_box: Pose, extent: np.ndarray) -> bool:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
+from skillc_runtime.devices.device_map import NoSuchDevice
 from skillc_runtime.motion.layout import Patch
 from skillc_runtime.world.state.facts import Evidence
 
+if TYPE_CHECKING:
+    from skillc_runtime.vision.classify_part import ClassifiedPart
+
 
 class Camera(Protocol):
-    """A camera that inspects surfaces."""
+    """A camera that inspects surfaces and parts."""
 
     @property
     def evidence(self) -> Evidence:
@@ -26,6 +30,13 @@ class Camera(Protocol):
         Empty for a camera that only tells a share.
         """
         return ()
+
+    def classify(self, part: str) -> ClassifiedPart:
+        """Return what an image that is taken now shows of a part, by IRI.
+
+        NoSuchDevice, with the reason, if it does not decide, or if this camera takes no images.
+        """
+        raise NoSuchDevice("the inspection camera takes no images, without which nothing is known of parts")
 
     def rubbed_share(self, surface: str, seconds: float) -> float:
         """Return the share of a surface that was rubbed for at least `seconds`.

@@ -87,7 +87,7 @@ def judge_cells(
     dirty = (seen > 0) & (mean * seen >= DIRTY_AMOUNT)
     clean = (clear >= LEAST_SEEN) & (mean < DIRTY_AMOUNT)
     state = np.where(dirty, DIRTY, np.where(clean, CLEAN, UNSEEN)).astype(np.uint8)
-    sure = _normal(np.abs(mean - DIRTY_AMOUNT) / np.maximum(deviation, 1e-6))
+    sure = standard_normal(np.abs(mean - DIRTY_AMOUNT) / np.maximum(deviation, 1e-6))
     shown = np.where(seen > 0, np.clip(mean, 0.0, 1.0), np.nan)
     return CellMap(state, shown, np.where(state == UNSEEN, 0.0, sure), *centres, located)
 
@@ -97,7 +97,7 @@ def _means(values: Array) -> Array:
     return np.asarray(values.reshape(rows // SPOTS, SPOTS, columns // SPOTS, SPOTS).mean(axis=(1, 3)))
 
 
-def _normal(deviations: Array) -> Array:
+def standard_normal(deviations: Array) -> Array:
     """Return the standard normal distribution function at values >= 0.
 
     Abramowitz & Stegun, Handbook of Mathematical Functions, 26.2.17; error below 1e-7.

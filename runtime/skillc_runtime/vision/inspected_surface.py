@@ -79,8 +79,14 @@ def square(side_m: float) -> Array:
 
 def linear(encoded: Array | NDArray[np.uint8] | Rgb) -> Array:
     """Return the light, from 0 to 1, of values of sRGB from 0 to 255 (IEC 61966-2-1)."""
+    if isinstance(encoded, np.ndarray) and encoded.dtype == np.uint8:
+        return np.asarray(_LIGHT[encoded])
     share = np.asarray(encoded, dtype=float) / 255.0
     return np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
+
+
+_LIGHT = linear(np.arange(256.0))
+"""The light of each value of a pixel."""
 
 
 def encode(light: Array) -> Array:

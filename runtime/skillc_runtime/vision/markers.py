@@ -25,15 +25,21 @@ def find_markers(image: Image, markers: Markers) -> dict[int, Array]:
 
     Keys are 0 to 3, in the order of the markers. A marker that is seen twice counts as not seen.
     """
+    found = [(number - markers.first, at) for number, at in detect_markers(image, _dictionary())]
+    numbers = [number for number, _ in found]
+    return {number: at for number, at in found if 0 <= number < 4 and numbers.count(number) == 1}
+
+
+def detect_markers(image: Image, dictionary: Any) -> list[tuple[int, Array]]:
+    """Return number and corners (4, 2) in pixels, column and row, of each marker of a dictionary of OpenCV."""
     cv2 = load_opencv()
-    detector = cv2.aruco.ArucoDetector(_dictionary(), cv2.aruco.DetectorParameters())
+    detector = cv2.aruco.ArucoDetector(dictionary, cv2.aruco.DetectorParameters())
     corners, found, _ = detector.detectMarkers(cv2.cvtColor(image, cv2.COLOR_RGB2GRAY))
     # Corners are refined in light: encoded values would move each edge into the black.
     grey = linear(image).mean(axis=2).astype(np.float32)
     corners = [cv2.cornerSubPix(grey, each.reshape(4, 1, 2), (WINDOW, WINDOW), (-1, -1), ENOUGH) for each in corners]
-    numbers = [] if found is None else (np.asarray(found).ravel() - markers.first).tolist()
-    seen = [(number, np.asarray(at, dtype=float).reshape(4, 2)) for number, at in zip(numbers, corners, strict=True)]
-    return {number: at for number, at in seen if 0 <= number < 4 and numbers.count(number) == 1}
+    numbers = [] if found is None else np.asarray(found).ravel().tolist()
+    return [(number, np.asarray(at, dtype=float).reshape(4, 2)) for number, at in zip(numbers, corners, strict=True)]
 
 
 def draw_marker(number: int, pixels_per_module: int) -> Image:

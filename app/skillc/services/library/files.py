@@ -186,7 +186,8 @@ def edition_of(root: Path, project: Project | None) -> int:
     """Return the edition that the library in a folder is written in; shipped ones are of the newest."""
     if project:
         return project.manifest.edition
-    return NEWEST if root.resolve().is_relative_to(SHIPPED) else FIRST
+    there = root.resolve()
+    return NEWEST if there == SHIPPED.parent or there.is_relative_to(SHIPPED) else FIRST
 
 
 def _library(

@@ -79,7 +79,8 @@ def _values(name: str, template: Template) -> dict[str, str | tuple[str, ...]]:
     skill = "".join(part.capitalize() for part in name.split("_"))
     texts = {key: getattr(template, key).format(skill=skill) for key in ("summary", "skills", "scene", "change")}
     steps = sorted(step.format(skill=skill) for step in template.steps)
-    return {"skill": skill, "steps": json.dumps(steps), "own_files": template.own_files, **texts}
+    files = {"own_files": template.own_files, "extras": template.extras}
+    return {"skill": skill, "steps": json.dumps(steps), **files, **texts}
 
 
 def _write(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:

@@ -20,7 +20,7 @@ class Template:
     """A template: a summary, what its skills, its scene and a first change are, and the skills of its plan, sorted.
 
     `{skill}` in a text stands for the name of the project as the name of a skill. `own_files` are files that no other
-    template has.
+    template has, `extras` what it needs beside `run` and `planner`.
     """
 
     name: str
@@ -30,6 +30,7 @@ class Template:
     change: str
     steps: tuple[str, ...]
     own_files: tuple[str, ...] = ()
+    extras: tuple[str, ...] = ()
 
 
 TEMPLATES = (
@@ -64,6 +65,15 @@ TEMPLATES = (
         "robot, pin, block and where they are",
         "raise `contact:placeRange`, how far the hole may be from where it is believed to be",
         ("Insert", "Pick"),
+    ),
+    Template(
+        "inspect",
+        "a camera looks at parts, and an arm puts good ones into a rack and the others into the scrap",
+        "the classes of the parts and boxes",
+        "robot, cameras, tray, kinds of parts, parts, boxes and where they are",
+        "set `skillc:defectRate` of a part to 1, or add a kind of parts with its own codes and colour",
+        ("InspectPart",),
+        extras=("vision",),
     ),
     Template(
         "blank",

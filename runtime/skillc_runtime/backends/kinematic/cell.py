@@ -93,7 +93,7 @@ class KinematicCell(ModelledCell[KinematicArm, KinematicGripper]):
         model.geom_conaffinity[links] &= ~met
 
     def _make_inspection_camera(self) -> SimulatedCamera:
-        return SimulatedCamera(self.coverage, EXACT_INSPECTION, 0)
+        return SimulatedCamera(self.coverage, EXACT_INSPECTION, 0, "only the back end mujoco renders them")
 
     def _make_cameras(self) -> dict[str, SimulatedPoseCamera]:
         names = self.scene.names

@@ -15,6 +15,7 @@ from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
 from skillc_runtime.backends.mujoco.parts import Drive, HalfStep, SlipWatch
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.simulation.arms.brakes import Brakes
+from skillc_runtime.backends.simulation.cameras.camera import SimulatedCamera
 from skillc_runtime.backends.simulation.cameras.image_camera import ImageCamera
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_checkpoint
@@ -122,12 +123,12 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         spec = self.scene.image_camera
         if spec is None:
             return super()._make_inspection_camera()
+        seed = self.variation.seed
         try:
-            seed = self.variation.seed
             return ImageCamera(spec, self.drawing, self.coverage, self.scene.names, self._world, seed)
         except (RenderingError, ModuleNotFoundError) as error:
             _log.warning("no image is rendered, and Inspect reads the map of the simulator (idealised): %s", error)
-            return super()._make_inspection_camera()
+            return SimulatedCamera(self.coverage, self.scene.inspection, seed, str(error))
 
     def _prepare(self) -> None:
         self.physics.prepare()

@@ -345,7 +345,7 @@ class ModelledCell(ABC, Generic[A, G]):
         gripper.step(self._timestep)
 
     def _make_inspection_camera(self) -> Camera:
-        """Return the camera that inspects surfaces; its errors follow from the seed."""
+        """Return the camera that inspects surfaces and parts; its errors follow from the seed."""
         return SimulatedCamera(self.coverage, self.scene.inspection, self.variation.seed)
 
     def _make_cameras(self) -> dict[str, SimulatedPoseCamera]:

@@ -32,7 +32,7 @@ from skillc_runtime.world.space.shape.shapes import (
     solids_of,
 )
 from skillc_runtime.world.space.shape.solids import Size, Solid, centre_of
-from skillc_runtime.world.state.data_sheet import SheetError, number_of, text_of
+from skillc_runtime.world.state.data_sheet import SheetError, number_of, text_of, triple_of
 from skillc_runtime.world.state.terms import (
     AREA,
     ARM_DEVICE,
@@ -214,29 +214,14 @@ def _mass_kg(state: WorldState, individual: str, solids: tuple[Solid, ...]) -> f
 
 
 def _centre(state: WorldState, individual: str, solids: tuple[Solid, ...]) -> Array:
-    stated = _triple(state, individual, CENTRE_OF_MASS)
+    stated = triple_of(state, individual, CENTRE_OF_MASS)
     return centre_of(solids) if stated is None else np.array(stated)
 
 
 def _colour(state: WorldState, individual: str) -> Colour:
-    stated = _triple(state, individual, COLOUR)
+    stated = triple_of(state, individual, COLOUR)
     if stated is not None:
         return (*stated, 1.0)
     if state.is_a(individual, MANIPULATABLE):
         return GOODS
     return WOOD if state.is_a(individual, FURNITURE) else PLASTIC
-
-
-def _triple(state: WorldState, individual: str, name: str) -> Size | None:
-    """Return the three numbers of a text, None if there is none; SheetError if it is anything else."""
-    text = state.value(individual, name)
-    if text is None:
-        return None
-    try:
-        x, y, z = map(float, str(text).split())
-    except ValueError as error:
-        short = state.vocabulary.short
-        raise SheetError(
-            f"{short(individual)} has the {short(name)} {text!r}; it is three numbers separated by spaces"
-        ) from error
-    return x, y, z

@@ -139,6 +139,21 @@ def text_of(state: WorldState, individual: str, property_: str) -> str:
     raise SheetError(f"{short(individual)} has no {short(property_)} in the world model")
 
 
+def triple_of(state: WorldState, individual: str, name: str) -> tuple[float, float, float] | None:
+    """Return the three numbers of a text, None if there is none; SheetError if it is anything else."""
+    text = state.value(individual, name)
+    if text is None:
+        return None
+    try:
+        x, y, z = map(float, str(text).split())
+    except ValueError as error:
+        short = state.vocabulary.short
+        raise SheetError(
+            f"{short(individual)} has the {short(name)} {text!r}; it is three numbers separated by spaces"
+        ) from error
+    return x, y, z
+
+
 def _numbers(text: str, what: str) -> Array:
     try:
         return np.array([float(part) for part in text.split()])

@@ -8,9 +8,11 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from skillc_runtime.devices.device_map import NoSuchDevice
 from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.motion.coverage import CoverageMap
+from skillc_runtime.vision.classify_part import ClassifiedPart
 from skillc_runtime.world.state.data_sheet import DataSheet, number_of, sheet_of
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.terms import INSPECTION_CAMERA, INSPECTION_SHEET, SKILLC
@@ -18,6 +20,9 @@ from skillc_runtime.world.state.world_state import WorldState
 
 USUAL_SHEET = SKILLC + "inspection-camera-sheet"
 """The data sheet of the camera in a scene that has no inspection camera."""
+
+
+NO_IMAGES = "the scene has no skillc:InspectionCamera with a skillc:ImageSheet"
 
 
 class InspectionSpec(msgspec.Struct, frozen=True):
@@ -39,8 +44,11 @@ EXACT_INSPECTION = InspectionSpec()
 class SimulatedCamera(Camera):
     """Knows the true coverage of each surface by IRI, which the cell updates."""
 
-    def __init__(self, coverage: Mapping[str, CoverageMap], spec: InspectionSpec, seed: int) -> None:
-        self._coverage, self._spec = coverage, spec
+    def __init__(
+        self, coverage: Mapping[str, CoverageMap], spec: InspectionSpec, seed: int, no_images: str = NO_IMAGES
+    ) -> None:
+        """`no_images` says why it takes no images."""
+        self._coverage, self._spec, self._no_images = coverage, spec, no_images
         self._rng = rng_for(spec.individual, seed)
 
     @property
@@ -51,6 +59,10 @@ class SimulatedCamera(Camera):
     def inspect(self, surface: str) -> float:
         """Return the share of the surface that is seen to be wiped; KeyError if there is no such surface."""
         return self.rubbed_share(surface, 0.0)
+
+    def classify(self, part: str) -> ClassifiedPart:
+        """Raise NoSuchDevice: without images nothing is known of parts."""
+        raise NoSuchDevice(f"parts are classified by images, and none is rendered: {self._no_images}")
 
     def rubbed_share(self, surface: str, seconds: float) -> float:
         """Return the share that is seen to have been under a pressed tool for at least `seconds`.

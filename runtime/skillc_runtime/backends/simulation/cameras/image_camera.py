@@ -1,4 +1,4 @@
-"""A simulated camera that takes images: what it says of a surface comes from pixels alone."""
+"""A simulated camera that takes images: what it says of a surface or a part comes from pixels alone."""
 
 from __future__ import annotations
 
@@ -12,11 +12,13 @@ from numpy.typing import NDArray
 
 from skillc_runtime.backends.simulation.cameras.image_camera_spec import ImageCameraSpec
 from skillc_runtime.backends.simulation.cameras.light_drawn import draw_light
+from skillc_runtime.backends.simulation.cameras.part_faces import draw_faces
 from skillc_runtime.backends.simulation.cameras.photo_model import (
     add_camera,
     add_sheets,
     amounts_to_pixels,
     dirt_texture,
+    face_texture,
     light_up,
 )
 from skillc_runtime.backends.simulation.cameras.photographer import expose, find_pixels_of, render, set_offscreen
@@ -28,11 +30,14 @@ from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.layout import Patch
 from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.vision.cell_map import CellMap
+from skillc_runtime.vision.classify_part import ClassifiedPart, classify_part
 from skillc_runtime.vision.dirty_parts import find_dirty_parts
 from skillc_runtime.vision.inspect_image import inspect_image
+from skillc_runtime.vision.label_pose import NotDecided
 from skillc_runtime.vision.locate import NotLocated
 from skillc_runtime.vision.opencv import load_opencv
 from skillc_runtime.world.space.frames import pose
+from skillc_runtime.world.space.part_looks import face_of, read_looks
 from skillc_runtime.world.state.model import WorldModel
 
 PIXELS_PER_CELL = 4
@@ -68,6 +73,7 @@ class ImageCamera(Camera):
         self._light = draw_light(spec.individual, seed)
         self._before: dict[str, Array] = {}
         self._seen: dict[str, CellMap] = {}
+        self.true_faces = draw_faces(spec.parts, seed)
         self._model = self._build()
         self._data: Any = mujoco.MjData(self._model)
         self._size = spec.lens.width, spec.lens.height
@@ -94,7 +100,7 @@ class ImageCamera(Camera):
         if surface not in self._spec.surfaces:
             short = state.vocabulary.short(surface)
             raise NoSuchDevice(f"{short} has no markers, without which no image is judged: state skillc:markerSize")
-        photo = self.take_photo(surface)
+        photo = self.take_photo(pose(state, surface))
         believed = photo.camera.inverse() @ pose(state, surface)
         try:
             return inspect_image(photo.image, self._spec.lens, self._spec.surfaces[surface], believed, photo.hidden)
@@ -102,13 +108,24 @@ class ImageCamera(Camera):
             short = state.vocabulary.short(surface)
             raise NoSuchDevice(f"the image does not show where {short} is: {error}") from error
 
-    def take_photo(self, surface: str) -> Photo:
-        """Return an image of the cell as it is now, and what hides a surface, by IRI."""
+    def classify(self, part: str) -> ClassifiedPart:
+        """Return what an image that is taken now shows of a part, by IRI; NoSuchDevice if it does not decide."""
+        state = self._world.snapshot()
+        looks, face = read_looks(state, part), face_of(state, part)
+        photo = self.take_photo(face, part)
+        try:
+            return classify_part(photo.image, self._spec.lens, looks, photo.camera.inverse() @ face, photo.hidden)
+        except NotDecided as error:
+            short = state.vocabulary.short
+            raise NoSuchDevice(f"the image does not show what {short(part)} is: {error}") from error
+
+    def take_photo(self, looked_at: Pose, part: str = "") -> Photo:
+        """Return an image of the cell as it is now, and what hides a plane at a pose in the world or a part, by IRI."""
         self._paint()
         self._place(self._drawing.posture())
         light = render(self._model, self._data, self._size)
         image = expose(light, self._light.colour, self._spec, self._rng)
-        return Photo(image, self._find_known(pose(self._world.snapshot(), surface)), self._spec.pose)
+        return Photo(image, self._find_known(looked_at, part), self._spec.pose)
 
     def true_amounts(self, surface: str) -> Array:
         """Return how much dirt really is in the pixels (rows, columns) of a surface's texture, lowest row first."""
@@ -128,8 +145,11 @@ class ImageCamera(Camera):
         true = {each: self._coverage[each].world.inverse() for each in self._spec.surfaces}
         add_sheets(described, self._names, true, self._spec, PIXELS_PER_CELL)
         add_camera(described, self._spec, self.true_pose)
-        middle = np.mean([each.position for each in true.values()], axis=0) if true else self.true_pose.position
+        state = self._world.snapshot()
+        seen = [*(each.position for each in true.values()), *(pose(state, each).position for each in self.true_faces)]
+        middle = np.mean(seen, axis=0) if seen else self.true_pose.position
         sheets = [dirt_texture(self._names[each]) for each in true]
+        sheets += [face_texture(self._names[each]) for each in self.true_faces]
         light_up(described, self._light, self._spec.ring_light, middle, sheets)
         model = described.compile()
         set_offscreen(model, (self._spec.lens.width, self._spec.lens.height))
@@ -150,14 +170,18 @@ class ImageCamera(Camera):
         mujoco.mj_comPos(self._model, data)
         mujoco.mj_camlight(self._model, data)
 
-    def _find_known(self, surface: Pose) -> NDArray[np.bool_]:
-        """Return which pixels (h, w) show known things that rise above a surface, believed in the world, with a rim.
+    def _find_known(self, surface: Pose, part: str) -> NDArray[np.bool_]:
+        """Return which pixels (h, w) show known things that rise above a plane, at a pose in the world, with a rim.
 
-        They are seen from where the camera is believed to be; the rim is for its error. Arms measure their joints; what
-        is not in the world model is not known.
+        A part does not hide its own face. They are seen from where the camera is believed to be; the rim is for its
+        error. Arms measure their joints; what is not in the world model is not known.
         """
-        model, things = self._model, self._drawing.individuals.values()
-        roots = {int(model.body(each.body).rootid[0]) for each in things if each.kind != "surface"}
+        model, things = self._model, self._drawing.individuals
+        roots = {
+            int(model.body(each.body).rootid[0])
+            for thing, each in things.items()
+            if each.kind != "surface" and thing != part
+        }
         high = {
             int(model.body_rootid[model.geom_bodyid[each]]) for each in range(model.ngeom) if self._rises(each, surface)
         }

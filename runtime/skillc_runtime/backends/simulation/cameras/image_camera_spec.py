@@ -1,4 +1,4 @@
-"""The specification of a camera that takes images of surfaces, read from the facts."""
+"""The specification of a camera that takes images of surfaces and parts, read from the facts."""
 
 from __future__ import annotations
 
@@ -10,14 +10,25 @@ import numpy as np
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.vision.inspected_surface import InspectedSurface, Markers
 from skillc_runtime.vision.lens import Lens
+from skillc_runtime.vision.part_look import PartLook
 from skillc_runtime.world.space.frames import moves_with, pose, size
+from skillc_runtime.world.space.part_looks import read_looks
 from skillc_runtime.world.state.data_sheet import DataSheet, SheetError, number_of, sheet_of
-from skillc_runtime.world.state.terms import INSPECTION_CAMERA, MOBILE_ROBOT, SKILLC, SURFACE
+from skillc_runtime.world.state.terms import INSPECTION_CAMERA, MANIPULATABLE, MOBILE_ROBOT, SKILLC, SURFACE
 from skillc_runtime.world.state.world_state import WorldState
 
-IMAGE_SHEET, MARKER_SIZE, FIRST_MARKER, DIRT_REMOVAL = (
-    SKILLC + name for name in ("ImageSheet", "markerSize", "firstMarker", "dirtRemoval")
+IMAGE_SHEET, MARKER_SIZE, FIRST_MARKER, DIRT_REMOVAL, LABEL_CODE, DEFECT_RATE = (
+    SKILLC + name for name in ("ImageSheet", "markerSize", "firstMarker", "dirtRemoval", "labelCode", "defectRate")
 )
+
+
+class PrintedPart(msgspec.Struct, frozen=True):
+    """A part that really has a label: how good ones of its kind look, its code, and how likely it has a defect."""
+
+    look: PartLook
+    height_m: float
+    code: int
+    defect_rate: float
 
 
 class ImageCameraSpec(msgspec.Struct, frozen=True):
@@ -26,7 +37,7 @@ class ImageCameraSpec(msgspec.Struct, frozen=True):
     It is really up to `mount_m` along and `mount_rad` about each axis from there. A pixel is full at `full_well`
     electrons and is read with a noise of `read_noise`. A lamp at it is `ring_light` times as bright as all other light
     above what is looked at. surfaces: those with markers, by IRI; removal_s: for each of
-    them, the time in s under a pressed tool in which its dirt falls to 1/e.
+    them, the time in s under a pressed tool in which its dirt falls to 1/e. parts: those with labels, by IRI.
     """
 
     individual: str
@@ -39,6 +50,7 @@ class ImageCameraSpec(msgspec.Struct, frozen=True):
     ring_light: float
     surfaces: Mapping[str, InspectedSurface]
     removal_s: Mapping[str, float]
+    parts: Mapping[str, PrintedPart]
 
 
 def read_image_camera(state: WorldState) -> ImageCameraSpec | None:
@@ -66,6 +78,7 @@ def read_image_camera(state: WorldState) -> ImageCameraSpec | None:
         ring_light=number_of(state, sheet.individual, SKILLC + "ringLight", default=0.0),
         surfaces={each: _surface(state, each) for each in marked},
         removal_s={each: number_of(state, each, DIRT_REMOVAL) for each in marked},
+        parts={each: _printed(state, each) for each in _labelled(state)},
     )
 
 
@@ -79,3 +92,18 @@ def _surface(state: WorldState, surface: str) -> InspectedSurface:
     first = round(number_of(state, surface, FIRST_MARKER, default=0.0))
     markers = Markers(number_of(state, surface, MARKER_SIZE), first)
     return InspectedSurface(np.array(size(state, surface)[:2]), markers=markers)
+
+
+def _labelled(state: WorldState) -> list[str]:
+    return sorted(each for each in state.instances(MANIPULATABLE) if state.value(each, LABEL_CODE) is not None)
+
+
+def _printed(state: WorldState, part: str) -> PrintedPart:
+    code = round(number_of(state, part, LABEL_CODE))
+    look = next((each for each in read_looks(state, part) if each.codes[0] <= code <= each.codes[1]), None)
+    if look is None:
+        raise SheetError(
+            f"{state.vocabulary.short(part)} has a label with the code {code}, which no skillc:PartKind has"
+        )
+    rate = number_of(state, part, DEFECT_RATE, default=0.0)
+    return PrintedPart(look, float(size(state, part)[2]), code, rate)

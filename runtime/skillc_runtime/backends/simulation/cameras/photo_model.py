@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from skillc_runtime.backends.simulation.cameras.image_camera_spec import ImageCameraSpec
+from skillc_runtime.backends.simulation.cameras.image_camera_spec import ImageCameraSpec, PrintedPart
 from skillc_runtime.backends.simulation.cameras.light_drawn import DrawnLight
+from skillc_runtime.backends.simulation.cameras.part_faces import TrueFace
+from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.motion.pose import Array, Pose, quaternion_from_rotation
 from skillc_runtime.vision.inspected_surface import InspectedSurface, SurfaceLook, linear, marker_centres
 from skillc_runtime.vision.markers import draw_marker
@@ -31,6 +34,11 @@ MODULE_PIXELS, INK = 16, 0.04
 def dirt_texture(surface: str) -> str:
     """Return the name of the texture of a surface's dirt, by the surface's name in the model."""
     return f"photo/dirt/{surface}"
+
+
+def face_texture(part: str) -> str:
+    """Return the name of the texture of a part's face, by the part's name in the model."""
+    return f"photo/face/{part}"
 
 
 def add_sheets(spec: Any, names: dict[str, str], true: dict[str, Pose], camera: ImageCameraSpec, pixels: int) -> None:
@@ -66,8 +74,23 @@ def amounts_to_pixels(amount: Array, look: SurfaceLook) -> NDArray[np.uint8]:
     return to_pixels(clean + amount[..., None] * (dirt - clean))
 
 
-def _add_sheet(spec: Any, name: str, pose: Pose, size: Array, pixels: NDArray[np.uint8]) -> None:
-    """Add a flat mesh of size (2,) in m with a texture (rows, columns, 3), lowest row first, without contacts."""
+def add_faces(
+    spec: Any, faces: Mapping[str, TrueFace], names: Mapping[str, str], parts: Mapping[str, PrintedPart]
+) -> None:
+    """Lay sheets with the faces of parts, all by IRI, on their upper sides; they move with the parts."""
+    for part, face in faces.items():
+        look, top = parts[part].look, Pose(np.array([0.0, 0.0, parts[part].height_m / 2]), np.eye(3))
+        block = spec.body(part_name(names[part], "block"))
+        _add_sheet(spec, face_texture(names[part]), top, np.array(look.size), to_pixels(face.reflectance), block)
+
+
+def _add_sheet(
+    spec: Any, name: str, pose: Pose, size: Array, pixels: NDArray[np.uint8], parent: Any | None = None
+) -> None:
+    """Add a flat mesh of size (2,) in m with a texture (rows, columns, 3), lowest row first, without contacts.
+
+    parent: the body in whose frame its pose is; the world unless stated.
+    """
     texture = spec.add_texture(name=name, type=mujoco.mjtTexture.mjTEXTURE_2D)
     texture.height, texture.width, texture.nchannel = *pixels.shape[:2], 3
     texture.data = pixels.tobytes()
@@ -85,9 +108,11 @@ def _add_sheet(spec: Any, name: str, pose: Pose, size: Array, pixels: NDArray[np
     mesh.usernormal = np.tile([0.0, 0.0, 1.0], u.size).tolist()
     mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
     place = pose @ Pose(np.array([0.0, 0.0, ABOVE_M]), np.eye(3))
-    geom = spec.worldbody.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, material=name)
+    carrier = spec.worldbody if parent is None else parent
+    geom = carrier.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, material=name)
     geom.pos, geom.quat = place.position, quaternion_from_rotation(place.rotation)
     geom.contype = geom.conaffinity = 0
+    geom.mass = 0.0
 
 
 def light_up(spec: Any, drawn: DrawnLight, ring: float, middle: Array, mirroring: list[str]) -> None:

@@ -8,11 +8,14 @@ from typing import Any
 
 import mujoco
 
+from skillc_runtime.backends.simulation.cameras.part_faces import draw_faces
+from skillc_runtime.backends.simulation.cameras.photo_model import add_faces
 from skillc_runtime.backends.simulation.model.model_builder import describe_model
 from skillc_runtime.backends.simulation.names import base_body_name, box_geom_name, part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation.variation import Variation
 from skillc_runtime.devices.drawing import DrawnIndividual, Posture
+from skillc_runtime.vision.opencv import has_opencv
 
 
 def find_drawn(scene: SceneSpec) -> Iterator[tuple[str, DrawnIndividual]]:
@@ -68,5 +71,9 @@ class ModelDrawing:
         return Posture(data.qpos.copy(), data.mocap_pos.copy(), data.mocap_quat.copy())
 
     def describe_model(self) -> Any:
-        """Return a new `mujoco.MjSpec` of the model, to be changed and compiled."""
-        return describe_model(self._scene, self._variation)
+        """Return a new `mujoco.MjSpec` of the model with the faces of parts, to be changed and compiled."""
+        described, camera = describe_model(self._scene, self._variation), self._scene.image_camera
+        if camera is not None and camera.parts and has_opencv():
+            faces = draw_faces(camera.parts, self._variation.seed)
+            add_faces(described, faces, self._scene.names, camera.parts)
+        return described
