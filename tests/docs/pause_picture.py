@@ -34,7 +34,7 @@ def draw() -> str:
     pressing_since: list[float] = []
 
     def pause_in_contact(run: TaskRun, now: float) -> Sequence[Command]:
-        if run.state == "running" and run.tree is not None and run.tree.is_pressing:
+        if run.state == "running" and run.tree is not None and run.tree.active.is_pressing:
             pressing_since.append(now)
             return (PauseRun(),) if now - pressing_since[0] > PRESSED_S else ()
         since = [event.time for event in monitor.events if isinstance(event, StateChanged)]

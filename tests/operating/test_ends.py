@@ -130,7 +130,7 @@ def test_an_arm_does_not_move_after_a_stop_in_contact(tmp_path: Path) -> None:
 
     def stop_in_contact(run: TaskRun, now: float) -> Sequence[Command]:
         cells[:] = [run._context.backend]
-        pressing = run.tree is not None and run.tree.is_pressing
+        pressing = run.tree is not None and run.tree.active.is_pressing
         return (Stop("enough"),) if pressing else ()
 
     ran = run(RunSpec(task="clean_desk"), Monitor(stop_in_contact))

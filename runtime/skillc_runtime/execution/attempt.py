@@ -177,7 +177,7 @@ class Attempt:
 
     def _tell_prompts(self) -> None:
         """Emit what operators are asked, if that has changed."""
-        if (prompts := self.tree.prompts) != self._asked:
+        if (prompts := self.tree.active.prompts) != self._asked:
             self._asked = prompts
             for listener in self._context.listeners:
                 listener(PromptsChanged(time=self._context.backend.clock.now, prompts=self._asked))

@@ -36,7 +36,7 @@ def try_command(
             context.failures.forget(attempts[-1].steps_with_status("failure"))
             return prepared
         case commands.AnswerPrompt(choice=choice, prompt=number):
-            prompt = find_prompt(tree.prompts if tree else (), number, choice)
+            prompt = find_prompt(tree.active.prompts if tree else (), number, choice)
             assert tree is not None, "a skill that runs asks"
             tree.answer(prompt.id, choice)
         case commands.Replan() if not isinstance(assignment.objective, AchieveGoal):

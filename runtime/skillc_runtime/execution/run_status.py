@@ -107,12 +107,12 @@ class RunStatus:
     @property
     def prompts(self) -> tuple[Prompt, ...]:
         """What its skills ask operators."""
-        return self._attempt.tree.prompts if self._attempt is not None else ()
+        return self._attempt.tree.active.prompts if self._attempt is not None else ()
 
     @property
     def stands(self) -> bool:
         """Whether it is paused or waits for approval, or all that goes on is that operators are asked."""
-        return self.waits_for_person or (self._attempt is not None and self._attempt.tree.only_asks)
+        return self.waits_for_person or (self._attempt is not None and self._attempt.tree.active.only_ask)
 
     @property
     def waits_for_facts(self) -> bool:

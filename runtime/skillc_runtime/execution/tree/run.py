@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from skillc_model import tree
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.cell import Cell, WatchdogTimeout
-from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.success_facts import Claim
 from skillc_runtime.execution.tree.active_path import ActivePath
@@ -20,8 +19,9 @@ from skillc_runtime.execution.tree.errors import make_error
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.lexical_scope import CallFailures, LexicalScope
 from skillc_runtime.execution.tree.locks import DeviceLocks
-from skillc_runtime.execution.tree.node import FAILURE, RUNNING, Node
+from skillc_runtime.execution.tree.node import FAILURE, RUNNING
 from skillc_runtime.execution.tree.pause import PrimitivePause
+from skillc_runtime.execution.tree.reading import collect_claims, collect_outcome, find_active_calls
 from skillc_runtime.execution.tree.undo_stack import UndoStack
 from skillc_runtime.primitives.fact_monitor import FactMonitor
 from skillc_runtime.primitives.planned_postures import PlannedPosture
@@ -58,7 +58,7 @@ class TreeRun:
     """Runs the body of a task, the body of a plan, or a single call.
 
     `status` is IDLE before the first tick, then RUNNING, and at the end SUCCESS, FAILURE or HALTED; `failure` is the
-    reason. Scoped skills that run outside any `with` are undone when the run ends.
+    reason. `active` are the primitives that go on. Scoped skills that run outside any `with` are undone at the end.
     """
 
     def __init__(
@@ -82,6 +82,7 @@ class TreeRun:
         self._context = TreeContext(
             library, cell, emit, locks or DeviceLocks(), inputs.nodes, gate, spec, inputs.postures
         )
+        self.active = self._context.active
         self._undo = UndoStack()
         self._stop_listening = cell.world.subscribe(self._emit_world_change) if listeners else None
         self._root = build_node(body, self._context, LexicalScope(self._undo, failures=inputs.failures))
@@ -118,21 +119,6 @@ class TreeRun:
         return self._pause.contact
 
     @property
-    def is_pressing(self) -> bool:
-        """Whether a primitive presses on something."""
-        return self._context.active.is_pressing
-
-    @property
-    def prompts(self) -> tuple[Prompt, ...]:
-        """What its skills ask operators."""
-        return self._context.active.prompts
-
-    @property
-    def only_asks(self) -> bool:
-        """Whether all that goes on is that operators are asked."""
-        return self._context.active.only_ask
-
-    @property
     def is_still(self) -> bool:
         """Whether the run is paused and the devices that it has used have come to rest; pushes may go on."""
         return self._pause.is_still
@@ -158,12 +144,12 @@ class TreeRun:
     @property
     def outcome(self) -> NodeOutcome:
         """The tree with the current status of each node."""
-        return _collect_outcome(self._root)
+        return collect_outcome(self._root)
 
     @property
     def active_calls(self) -> tuple[CallNode, ...]:
         """The innermost calls that run or wait, in the order of the tree."""
-        return tuple(_find_active_calls(self._root))
+        return tuple(find_active_calls(self._root))
 
     def holds_back(self, call: CallNode) -> bool:
         """Tell whether a call waits at the gate, and has not started."""
@@ -172,7 +158,7 @@ class TreeRun:
     @property
     def claims(self) -> tuple[Claim, ...]:
         """The posts of the outermost calls that succeeded, with the values of their variables."""
-        return tuple(_collect_claims(self._root))
+        return tuple(collect_claims(self._root))
 
     @property
     def broken_calls(self) -> tuple[BrokenCall, ...]:
@@ -246,7 +232,7 @@ class TreeRun:
 
     def answer(self, prompt: int, choice: str) -> None:
         """Give the skill with a prompt of `prompts` what an operator has chosen."""
-        self._guard(lambda: self._context.active.answer(prompt, choice))
+        self._guard(lambda: self.active.answer(prompt, choice))
 
     def pause(self) -> None:
         """Pause the active primitives and the run's own time; withdraw tools that approach again after a pause."""
@@ -310,34 +296,3 @@ class TreeRun:
     def _emit_world_change(self, event: ChangeEvent) -> None:
         self._context.time = self._context.cell.now  # others change the world between ticks
         self._listeners(make_change_event(event, self._context.time))
-
-
-def _collect_outcome(node: Node) -> NodeOutcome:
-    """Return the status of a node and of all its descendants, during or after the run."""
-    return NodeOutcome(
-        id=node.id,
-        name=node.name,
-        kind=node.kind,
-        status=node.status.value,
-        source=node.source,
-        started=node.started,
-        ended=node.ended,
-        failure=node.failure,
-        rejected=tuple(node.rejected) if isinstance(node, CallNode) else (),
-        children=tuple(_collect_outcome(child) for child in node.children),
-    )
-
-
-def _find_active_calls(node: Node) -> Iterator[CallNode]:
-    below = [call for child in node.children if child.status is RUNNING for call in _find_active_calls(child)]
-    yield from below or ((node,) if isinstance(node, CallNode) and node.status is RUNNING else ())
-
-
-def _collect_claims(node: Node) -> Iterator[Claim]:
-    if not isinstance(node, CallNode):
-        for child in node.children:
-            yield from _collect_claims(child)
-    elif node.activation is not None and node.status is Status.SUCCESS:
-        frame = dict(node.activation.frame)
-        yield from ((post.condition, frame) for post in node.activation.implementation.post)
-        yield from ((each.condition, frame) for each in node.activation.find_true_outcomes())

@@ -9,7 +9,8 @@ from skillc_model import tree
 from skillc_model.skills import Implementation, PausePolicy
 from skillc_runtime.execution.selection.select import combine_rejections, ranked_implementations
 from skillc_runtime.execution.tree.active_path import ActivePath
-from skillc_runtime.execution.tree.calls.activation import Activation, BuildNode, activate, foresee_activation
+from skillc_runtime.execution.tree.calls.activating import BuildNode, activate, foresee_activation
+from skillc_runtime.execution.tree.calls.activation import Activation
 from skillc_runtime.execution.tree.calls.argument_origins import EnclosingBody
 from skillc_runtime.execution.tree.calls.call_decision import bind_call, evaluate_arguments
 from skillc_runtime.execution.tree.calls.call_failures import make_call_failure, reject_implementation
