@@ -64,6 +64,13 @@ class Sensor(Actor):
         self.chance.world.commit([change], "measured", "sensed")
 
 
+class Judge(Actor):
+    """Finds one of the outcomes that may come."""
+
+    def finish(self) -> None:
+        self.outcome = self.chance.random.choice(sorted(self.outcomes))
+
+
 def items(state: WorldState) -> list[str]:
     """A vocabulary function: some items."""
     return sorted(state.instances(NS + "Item"))[:2]
@@ -73,6 +80,7 @@ def world(vocabulary: Vocabulary, random: Random) -> WorldModel:
     """Return a world of items and spots with some facts about them."""
     changes: list[Change] = [AddIndividual(item, (NS + random.choice(("Item", "Heavy")),)) for item in ITEMS]
     changes += [AddIndividual(spot, (NS + "Spot",)) for spot in SPOTS]
+    changes += [AddIndividual(value, (cls,)) for value, cls in vocabulary.enumerated.items()]
     for item in ITEMS:
         pairs = [("at", random.choice(SPOTS)), ("near", random.choice(ITEMS)), ("follows", random.choice(ITEMS))]
         changes += [AddRelation(item, NS + name, other) for name, other in pairs if random.random() < 0.6]
@@ -80,4 +88,6 @@ def world(vocabulary: Vocabulary, random: Random) -> WorldModel:
             changes.append(SetProperty(item, NS + "on", random.random() < 0.5))
         if random.random() < 0.7:
             changes.append(SetProperty(item, NS + "level", float(random.randint(1, 4))))
+        if random.random() < 0.6:
+            changes.append(AddRelation(item, NS + "grade", random.choice(sorted(vocabulary.enumerated))))
     return WorldModel(WorldState.empty(vocabulary).with_changes(changes))

@@ -16,9 +16,29 @@ relation follows(Item, Item)  transitive
 relation holds(Spot, Item)  inverse at
 property on(Item): Bool
 property level(Item): Number
+enum Grade { Good, Bad, Odd }
+property grade(Item): Grade
+relation isIn(x: Item, s: Spot) = x at s or exists y: Item (y near x and y at s)
+relation leads(x: Item, y: Item) = x near y or exists z: Item (x follows z and z leads y)
 function items() -> [Item] = python "analysis.actors:items"
 """
 PLAIN = "    in a: Item\n    in b: Item\n    in s: Spot\n    in t: Spot\n"
+JUDGES = f"""
+skill Judge {{
+{PLAIN}    senses a.grade
+    outcome good: a.grade == Good
+    outcome bad: a.grade == Bad
+    outcome odd: a.grade == Odd and a at s
+    noplan
+}}
+impl one of Judge {{ run python "analysis.actors:Judge" }}
+skill Guess {{
+{PLAIN}    outcome on: a.on == true and b at s
+    outcome off: a.on == false and not b at s
+    noplan
+}}
+impl one of Guess {{ run python "analysis.actors:Judge" }}
+"""
 PRIMITIVES, COMPOUNDS = 5, 3
 
 
@@ -39,12 +59,13 @@ class Writer:
         text += "skill Any {\n    infer any a: Item\n    in s: Spot\n    pre a.on == true\n    pre not a at s\n"
         text += f"    post {self.literal('a', 'a', 's', 's')}\n    noplan\n}}\n"
         text += 'impl one of Any { run python "analysis.actors:Actor" }\n'
+        text += JUDGES + self.spread()
         text += self.primitive("Setup", "    scoped\n")
         return text + "".join(self.compound(n) for n in range(COMPOUNDS))
 
     def primitive(self, name: str, more: str = "") -> str:
         """Write a skill with two implementations that chance plays."""
-        posts = {self.literal() for _ in range(self.random.randint(0, 2))}
+        posts = {self.promise() for _ in range(self.random.randint(0, 2))}
         head = f"skill {name} {{\n{PLAIN}{self.needs()}{more}" + "".join(f"    post {post}\n" for post in sorted(posts))
         fallback = "    fallback\n" if self.random.random() < 0.2 else ""
         impls = "".join(
@@ -56,13 +77,31 @@ class Writer:
     def compound(self, number: int) -> str:
         """Write a skill with a body of calls of primitives and of compounds before it."""
         labels = [f"p{n}" for n in range(self.random.randint(0, 2))]
-        posts = "".join(f"    post {label}: {self.literal()}\n" for label in labels)
-        callable_ = [f"P{n}" for n in range(PRIMITIVES)] + ["Sense", "Setup"] + [f"C{n}" for n in range(number)] * 2
+        posts = "".join(f"    post {label}: {self.promise()}\n" for label in labels)
+        more = ["Sense", "Setup", "Judge", "Guess", "Spread"]
+        callable_ = [f"P{n}" for n in range(PRIMITIVES)] + more + [f"C{n}" for n in range(number)] * 2
         body = Body(self, callable_, labels).node(4)
         lines = "".join(f"    verify {self.property(callable_)}\n" for _ in range(2))
         count = f"    opt n: Int = {self.random.randint(1, 3)}  range 1 .. 3\n"
         head = f"skill C{number} {{\n{PLAIN}{count}{self.needs()}{posts}    noplan\n}}\n"
         return f"{head}impl body of C{number} {{\n    do {body}\n{lines}}}\n"
+
+    def spread(self) -> str:
+        """Write a primitive with an effect on many, which compounds often promise as well."""
+        text = f"skill Spread {{\n{PLAIN}    post {self.effect_on_many()}\n    noplan\n}}\n"
+        return text + 'impl one of Spread { run python "analysis.actors:Actor" }\n'
+
+    def promise(self) -> str:
+        """Write a postcondition."""
+        return self.effect_on_many() if self.random.random() < 0.2 else self.literal()
+
+    def effect_on_many(self) -> str:
+        """Write an effect on all individuals of a class that fulfil a condition; one library has few of them."""
+        return self.random.choice((
+            "forall x: Item (x.on == true when x at s)", "forall x: Item (x at t when x at s and x.on == true)",
+            "forall x: Heavy (not x near a when x.level > 2)", "forall x: Item (x.grade == Bad when x near a)",
+            "forall x: Item (not x at s when x isIn s)", "forall x: Item (x.level == 1)",
+        ))  # fmt: skip
 
     def needs(self) -> str:
         """Write preconditions and holds."""
@@ -82,8 +121,13 @@ class Writer:
             f"{one} at {spot}", f"not {one} at {spot}", f"{one} touches {spot}", f"not {one} touches {spot}",
             f"{one} near {other}", f"not {one} near {other}", f"{one} follows {other}", f"{spot} holds {one}",
             f"not {one} at _", f"{one}.on == true", f"{one}.on == false", f"{one}.level == {self.random.randint(1, 4)}",
+            f"{one}.grade == {self.grade()}", f"not {one}.grade == {self.grade()}",
         )  # fmt: skip
         return self.random.choice(forms)
+
+    def grade(self) -> str:
+        """Write a value of the enumeration."""
+        return self.random.choice(("Good", "Bad", "Odd"))
 
     def condition(self, a: str = "a", b: str = "b") -> str:
         """Write a condition."""
@@ -91,7 +135,9 @@ class Writer:
         more = (
             f"{a} == {b}", f"not {a} == {b}", f"{a} is Heavy", f"{b} has level", f"{a}.level > 2", f"{b} at _",
             "_ at s", "exists x: Item (x at s)", f"not {one}" if not one.startswith("not") else one,
-            f"({one} or {b}.on == true)", f"({one} and {a}.level <= 3)",
+            f"({one} or {b}.on == true)", f"({one} and {a}.level <= 3)", f"{a} has grade", f"not {b} has grade",
+            f"{a} isIn s", f"not {b} isIn s", f"{a} leads {b}", f"not {a} leads {b}", f"{a}.at == s",
+            f"{a}.at == {b}.at", f"({a}.grade == Good or {a}.grade == Odd)", f"{a} isIn s implies {b} isIn s",
         )  # fmt: skip
         return self.random.choice((one, one, one, *more, self.quantified(a), self.quantified(b)))
 
@@ -103,6 +149,8 @@ class Writer:
             "exists x: Item (x at s and x.on == true)", "forall x: Item (x at s implies x.on == true)",
             f"forall x: Heavy (x.level > 2 or x near {a})", "exists x: Item (exists y: Spot (x at y and not y == s))",
             f"exists x: Item (x follows {a} and not x == {a})", f"not exists x: Item ({a} near x and x is Heavy)",
+            f"forall x: Item (x isIn s implies x.grade == Good or x == {a})", "forall x: Item (x has grade)",
+            f"exists x: Item (x.grade == Bad and not x leads {a})", "not exists x: Item (x at s and x.on == false)",
         ))  # fmt: skip
 
 
@@ -141,8 +189,10 @@ class Body:
                 otherwise = f" else {self.nodes(depth, 1, 2)}" if random.random() < 0.5 else ""
                 return f"if {self.condition()} {self.nodes(depth, 1, 2)}{otherwise}"
             case "handled":
-                word = random.choice(("on failure", "finally"))
-                return f"seq {self.nodes(depth, 1, 3)} {word} {self.nodes(depth, 1, 2)}"
+                block = random.choice(("seq", "seq", "sel", "par all", f"with Setup({self.arguments()})"))
+                ends = random.choice((("on failure",), ("finally",), ("on failure", "finally")))
+                last = "".join(f" {word} {self.nodes(depth, 1, 2)}" for word in ends)
+                return f"{block} {self.nodes(depth, 1, 3)}{last}"
             case _:
                 return f"with Setup({self.arguments()}) {self.nodes(depth, 1, 2)}"
 
@@ -155,15 +205,28 @@ class Body:
         """Write a loop."""
         random = self.writer.random
         kind = random.choice(
-            ("repeat 2", "repeat 9", "retry 9", "repeat n", "retry n", f"while {self.condition()} max 2", "for")
+            (
+                "repeat 2",
+                "repeat 9",
+                "retry 9",
+                "repeat n",
+                "retry n",
+                f"while {self.condition()} max 2",
+                "while",
+                "for",
+                "of",
+            )
         )
-        if kind != "for":
+        if kind == "while":
+            kind = f"while {self.condition()} max {random.randint(1, 9)}"
+        if kind not in ("for", "of"):
             return f"{kind} {self.nodes(depth, 1, 2)}"
         variable, outer = f"x{self.left}", self.items
         self.items = (*outer, variable, variable)
         inner = self.nodes(depth, 1, 2)
         self.items = outer
-        return f"for {variable} in items() {inner}"
+        several = "items()" if kind == "for" else f"[{', '.join(random.choices(outer, k=random.randint(1, 3)))}]"
+        return f"for {variable} in {several} {inner}"
 
     def leaf(self) -> str:
         """Write a node without children."""

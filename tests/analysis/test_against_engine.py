@@ -1,6 +1,6 @@
 """What is proved of random bodies is never contradicted by the engine that runs them.
 
-10 libraries by default; `PROOF_EXAMPLES` in the environment makes it more.
+10 libraries with 3 compounds each by default; `COMPOUNDS` in the environment is the number of compounds.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from random import Random
 import pytest
 
 from analysis.actors import ITEMS, SPOTS, Chance, world
-from analysis.plays import Writer
+from analysis.plays import COMPOUNDS, Writer
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
     BrokenHold,
@@ -34,7 +34,6 @@ from skillc_compiler.resolve.files import read_sources
 from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.position import Position
-from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 from skillc_model import tree
 from skillc_model.conditions import Condition, Given, Holds, Individual, Variable
@@ -48,7 +47,7 @@ from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.world_state import WorldState
 
-EXAMPLES = int(os.environ.get("PROOF_EXAMPLES", "10"))
+LIBRARIES = int(os.environ.get("COMPOUNDS", "30")) // COMPOUNDS
 RUNS, TICKS = 6, 60
 
 
@@ -88,22 +87,26 @@ def understood(text: str) -> Program:
     return program.value
 
 
-def is_sound(program: Program, implementation: Implementation, run: Exploration) -> bool:
-    """Whether what is proved of an implementation is reported: there is no error in it nor in what it calls."""
-    found = find_all(program, Memo())
+def marks_of(prover: Prover) -> Marks:
+    """Return what is not free of errors in a program."""
+    found = find_all(prover.program, prover.memo)
     below = (problem for one in load_checks() if one.NEEDS < Need.BODY for problem in found[one.__name__])
-    marks = Marks(program, below)
+    return Marks(prover.program, below)
+
+
+def is_sound(marks: Marks, implementation: Implementation, run: Exploration) -> bool:
+    """Whether what is proved of an implementation is reported: there is no error in it nor in what it calls."""
     about = Diagnostic("a-claim", implementation.name_span, "something is proved")
     return marks.allow(Need.BODY, about) and can_start(run.types, implementation)
 
 
-def claims_of(prover: Prover, implementation: Implementation, body: TypedNode) -> Claims:
+def claims_of(prover: Prover, marks: Marks, implementation: Implementation, body: TypedNode) -> Claims:
     """Explore a body and return everything that is claimed of it."""
     run = prover.new_exploration(implementation, body)
     prover.leaks(implementation)
     ends = run.explore(run, body, {initial_state(run.types, implementation): None}, EvalContext())
     findings = prover.proofs[implementation.key].findings
-    if not is_sound(prover.program, implementation, run):
+    if not is_sound(marks, implementation, run):
         return Claims(implementation, run, ends, set(), set(), set(), set(), [])
     unproved = {f.post.span for f in findings if isinstance(f, UnprovedPost)}
     broken = {f.hold.span for f in findings if isinstance(f, BrokenHold)}
@@ -129,12 +132,15 @@ def claims_of(prover: Prover, implementation: Implementation, body: TypedNode) -
 @pytest.mark.parametrize("block", range(10))
 def test_what_is_proved_holds_when_it_runs(block: int) -> None:
     started = 0
-    for seed in range(block, EXAMPLES, 10):
+    for seed in range(block, LIBRARIES, 10):
         text = Writer(Random(seed)).library()
         program = understood(text)
         prover = Prover(program)
+        marks = marks_of(prover)
         claims = [
-            claims_of(prover, one, one.body) for one in program.implementations if isinstance(one.body, TypedNode)
+            claims_of(prover, marks, one, one.body)
+            for one in program.implementations
+            if isinstance(one.body, TypedNode)
         ]
         assert claims
         library = lower_program(program, ())

@@ -97,10 +97,26 @@ def _may_shift(types: AliasTypes, state: State, write: Write, each: ForEach) -> 
     """Whether a write may change which individuals fulfil the condition of an effect on many."""
     types.classes[OTHER] = each.cls
     condition = canonical_condition(types, state, substitute(each.when, {each.variable: Variable(OTHER)}))
+    if not _may_read(types, condition, write):
+        return False
     known: dict[Condition, bool] = {fact: true for fact, true in state.facts.items() if isinstance(fact, Same | IsA)}
     return any(
         condition not in havoc(types, State({**known, condition: true}), (write,)).facts for true in (True, False)
     )
+
+
+def _may_read(types: AliasTypes, condition: Condition, write: Write) -> bool:
+    """Whether a condition reads anything of what a write is on, or something computed."""
+    relations, properties = _relations_read(condition), {iri for _, iri in _values_read(condition)}
+    if _reads(types, condition, frozenset()) or any(map(types.is_computed, relations)):
+        return True
+    match write:
+        case PropertyWrite(property=iri):
+            return iri in properties
+        case RelationWrite():
+            name, _ = types.axioms.canonical.get(write.relation, (write.relation, False))
+            return not relations.isdisjoint(types.axioms.affected.get(name, frozenset({name})))
+    return False
 
 
 def _havoc_others(types: AliasTypes, state: State, write: RelationWrite | PropertyWrite) -> State:
