@@ -22,15 +22,26 @@ PLAIN_METACLASSES = frozenset(("abc.ABCMeta", "type"))
 
 def inspect_class(of: Defined) -> ClassInfo:
     """Return what the source text determines about a class."""
-    lineage = _lineage(of, frozenset())
+    lineage = lineage_of(of)
     known = tuple(each for each in lineage if isinstance(each, Defined))
     unusual = any(_is_decorated(each) or _has_custom_creation(each) for each in known)
     return ClassInfo(
         constructor=None if unusual else _constructor(lineage),
-        ancestors=tuple(_qualified_name(each) for each in known),
+        ancestors=tuple(qualified_name(each) for each in known),
         complete=len(known) == len(lineage) and not any(map(_is_decorated, known)),
         methods=dict(_methods(lineage)),
     )
+
+
+def lineage_of(of: Defined) -> Lineage:
+    """Return a class and its bases, in method resolution order."""
+    return _lineage(of, frozenset())
+
+
+def find_method(of: Defined, name: str) -> Function | None:
+    """Return a method that a class defines itself; None if something else may take its place."""
+    found = dict(_members(of.node)).get(name)
+    return found if isinstance(found, Function) else None
 
 
 def _lineage(of: Defined, around: frozenset[str]) -> Lineage:
@@ -41,15 +52,16 @@ def _lineage(of: Defined, around: frozenset[str]) -> Lineage:
         if dotted_name(of.module, base.value if isinstance(base, ast.Subscript) else base) in NEUTRAL:
             continue
         match resolve_expression(of.module, base):
-            case Defined(node=ast.ClassDef()) as parent if _qualified_name(parent) not in around:
-                found += _lineage(parent, around | {_qualified_name(of)})
+            case Defined(node=ast.ClassDef()) as parent if qualified_name(parent) not in around:
+                found += _lineage(parent, around | {qualified_name(of)})
             case _:
                 found.append(UNCLEAR)
-    names = [each if isinstance(each, Unclear) else _qualified_name(each) for each in found]
+    names = [each if isinstance(each, Unclear) else qualified_name(each) for each in found]
     return tuple(each for index, each in enumerate(found) if names[index] not in names[index + 1 :])
 
 
-def _qualified_name(of: Defined) -> str:
+def qualified_name(of: Defined) -> str:
+    """Return "module:Class"."""
     return f"{of.module.name}:{of.node.name}"
 
 
@@ -88,7 +100,7 @@ def _methods(lineage: Lineage) -> Iterator[tuple[str, Method | None]]:
         for name, member in dict(_members(each.node)).items():
             if name not in seen:
                 found = inspect_method(each.module, member) if isinstance(member, Function) else None
-                yield name, Method(_qualified_name(each), found) if found else None
+                yield name, Method(qualified_name(each), found) if found else None
             seen.add(name)
 
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from skillc_compiler.program.typed import Program
 from skillc_compiler.python.classes import inspect_class
+from skillc_compiler.python.contracts import Contract, read_contract
 from skillc_compiler.python.info import TargetInfo
 from skillc_compiler.python.modules import Defined, Definition, Function, Modules, find_definition, resolve_expression
 from skillc_compiler.python.signatures import inspect_function
@@ -33,6 +34,7 @@ class Targets:
         self._modules = Modules()
         self.read = cache(self._read)
         self.method_returns = cache(self._method_returns)
+        self.contract = cache(self._contract)
 
     def _read(self, module: str, name: str) -> TargetInfo:
         """Return what "module:name" is, as far as the source text of the modules determines it."""
@@ -41,6 +43,13 @@ class Targets:
     def _method_returns(self, module: str, name: str, method: str) -> frozenset[str]:
         """Return the last name of every value that a method may return; empty if the text does not determine it."""
         return _returns(find_definition(self._modules[module], name), method, frozenset())
+
+    def _contract(self, module: str, name: str) -> Contract:
+        """Return what the text of a primitive says of its `tick` and of its outputs."""
+        found = find_definition(self._modules[module], name)
+        return (
+            read_contract(found) if isinstance(found, Defined) and isinstance(found.node, ast.ClassDef) else Contract()
+        )
 
 
 class NamedPython(NamedTuple):

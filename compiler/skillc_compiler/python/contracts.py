@@ -1,0 +1,171 @@
+"""Whether a primitive keeps its contract, as far as its text says: what `tick` returns, which outputs it sets."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import msgspec
+
+from skillc_compiler.python.classes import Lineage, find_method, lineage_of, qualified_name
+from skillc_compiler.python.endings import always_raises, open_end, own_nodes, returned
+from skillc_compiler.python.modules import Defined, Function, Module, dotted_name, resolve_expression
+from skillc_compiler.python.signatures import PLAIN_DECORATORS
+
+PRIMITIVE = "skillc_runtime.primitives.primitive:Primitive"
+STAND_IN = "skillc_runtime.primitives.stand_in:StandIn"
+ALLOWED = ("RUNNING", "SUCCESS")
+NEVER_RETURN = frozenset(
+    ("typing.assert_never", "typing_extensions.assert_never", "sys.exit", "os.abort", "exit", "quit")
+)
+NO_STATUS = frozenset(("None", "bool", "int", "float", "str", "bytes", "list", "dict", "tuple", "set"))
+
+
+class Breach(msgspec.Struct, frozen=True):
+    """A place in a Python file at which a class does not do what is expected, and what it does; columns from 1."""
+
+    path: str
+    line: int
+    column: int
+    end_column: int
+    what: str
+
+
+class Contract(msgspec.Struct, frozen=True):
+    """What the text of a primitive says: what is wrong with its `tick`, and what it sets.
+
+    `outputs` are the names of the outputs that it may set, None if the text does not determine them; `place` is where
+    its class begins.
+    """
+
+    breach: Breach | None = None
+    outputs: frozenset[str] | None = None
+    place: Breach | None = None
+
+
+def read_contract(of: Defined) -> Contract:
+    """Return what the text of a class determines; nothing of a placeholder or of a class that is no primitive."""
+    lineage = lineage_of(of)
+    known = [each for each in lineage if isinstance(each, Defined)]
+    names = [qualified_name(each) for each in known]
+    if len(known) < len(lineage) or PRIMITIVE not in names or STAND_IN in names:
+        return Contract()
+    own = [each for each, name in zip(known, names, strict=True) if name != PRIMITIVE]
+    return Contract(_breach_of_tick(own, lineage), _outputs(own), _breach(of, of.node, ""))
+
+
+def _breach_of_tick(own: Sequence[Defined], lineage: Lineage) -> Breach | None:
+    for cls in own:
+        function = find_method(cls, "tick")
+        if function is not None:
+            return next(_breaches(cls, function, lineage), None)
+    return None
+
+
+def _breaches(cls: Defined, function: Function, lineage: Lineage) -> Iterator[Breach]:
+    """Yield what is wrong with a `tick`: its annotation, what it returns, where it ends without a status."""
+    if any(
+        dotted_name(cls.module, each) not in PLAIN_DECORATORS - {"abc.abstractmethod"}
+        for each in function.decorator_list
+    ):
+        return
+    if function.returns is not None and _annotated(function.returns) in NO_STATUS:
+        yield _breach(cls, function, f"is annotated to return `{ast.unparse(function.returns)}`")
+    if any(isinstance(node, ast.Yield | ast.YieldFrom) for node in own_nodes(function)):
+        yield _breach(cls, function, "is a generator, as it has a `yield`")
+        return
+    for line, value in returned(function):
+        wrong = "nothing" if value is None else _no_status(value)
+        if wrong:
+            yield _breach(cls, line, f"returns {wrong}")
+    end = open_end(function, lambda call: _never_returns(cls.module, lineage, call))
+    if end is not None:
+        yield _breach(cls, end, "can end without `return`")
+
+
+def _annotated(returns: ast.expr) -> str:
+    return str(returns.value) if isinstance(returns, ast.Constant) else ast.unparse(returns).partition("[")[0]
+
+
+def _no_status(value: ast.expr) -> str:
+    """Return the text of a value that is certainly neither RUNNING nor SUCCESS; empty if it may be one of them."""
+    match value:
+        case ast.Constant() | ast.JoinedStr() | ast.List() | ast.Tuple() | ast.Dict() | ast.Set() | ast.Compare():
+            return f"`{ast.unparse(value)}`"
+        case ast.UnaryOp(op=ast.Not()):
+            return f"`{ast.unparse(value)}`"
+        case ast.Attribute(value=ast.Name(id="Status") | ast.Attribute(attr="Status"), attr=name) if (
+            name not in ALLOWED
+        ):
+            return f"`{ast.unparse(value)}`"
+        case _:
+            return ""
+
+
+def _never_returns(module: Module, lineage: Lineage, call: ast.Call, depth: int = 3) -> bool:
+    """Whether a call never returns: it is known for that, or a function or method that always raises."""
+    if dotted_name(module, call.func) in NEVER_RETURN or not depth:
+        return bool(depth)
+
+    def inner(other: ast.Call) -> bool:
+        return _never_returns(module, lineage, other, depth - 1)
+
+    match call.func:
+        case ast.Attribute(value=ast.Name(id="self"), attr=name):
+            found = (find_method(each, name) for each in lineage if isinstance(each, Defined))
+            method = next((each for each in found if each is not None), None)
+            return method is not None and always_raises(method, inner)
+        case ast.Name() | ast.Attribute():
+            target = resolve_expression(module, call.func)
+            return (
+                isinstance(target, Defined) and isinstance(target.node, Function) and always_raises(target.node, inner)
+            )
+        case _:
+            return False
+
+
+def _outputs(own: Sequence[Defined]) -> frozenset[str] | None:
+    """Return the outputs that classes may set; None if something else may set them."""
+    found: set[str] = set()
+    for cls in own:
+        around = {child: node for node in ast.walk(cls.node) for child in ast.iter_child_nodes(node)}
+        for node in ast.walk(cls.node):
+            if isinstance(node, ast.Call) and any(isinstance(a, ast.Name) and a.id == "self" for a in node.args):
+                return None
+            if isinstance(node, ast.Attribute) and node.attr == "outputs":
+                keys = _keys_set(node, around)
+                if keys is None:
+                    return None
+                found |= keys
+    return frozenset(found)
+
+
+def _keys_set(node: ast.Attribute, around: dict[ast.AST, ast.AST]) -> set[str] | None:
+    """Return the keys that one use of `outputs` sets; None if that is not clear."""
+    match around.get(node):
+        case ast.Subscript(value=value, slice=ast.Constant(value=str() as key)) if value is node:
+            return {key}
+        case ast.Assign(value=ast.Dict(keys=keys)) if all(isinstance(key, ast.Constant) for key in keys):
+            return {str(key.value) for key in keys if isinstance(key, ast.Constant)}
+        case ast.Attribute(attr="update") as method:
+            match around.get(method):
+                case ast.Call(args=[], keywords=given) if all(each.arg for each in given):
+                    return {each.arg for each in given if each.arg}
+                case ast.Call(args=[ast.Dict(keys=keys)], keywords=[]) if all(
+                    isinstance(k, ast.Constant) for k in keys
+                ):
+                    return {str(key.value) for key in keys if isinstance(key, ast.Constant)}
+            return None
+        case ast.Attribute(attr="get" | "pop" | "keys" | "items" | "values" | "clear") | ast.Compare():
+            return set()
+        case _:
+            return None
+
+
+def _breach(cls: Defined, node: ast.stmt, what: str) -> Breach:
+    """Return what is wrong at a statement, or at its first line if it has several."""
+    file, column = cls.module.file, node.col_offset + 1
+    single = node.end_lineno == node.lineno and node.end_col_offset is not None
+    end = node.end_col_offset + 1 if single and node.end_col_offset is not None else column + 1
+    return Breach(str(file) if isinstance(file, Path) else "", node.lineno, column, end, what)

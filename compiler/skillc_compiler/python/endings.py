@@ -1,0 +1,120 @@
+"""How a function can end: what it returns, and whether it can end without returning anything."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TypeAlias
+
+from skillc_compiler.python.modules import Function
+
+NeverReturns: TypeAlias = Callable[[ast.Call], bool]
+"""Whether a call never returns, since what it calls always raises."""
+
+
+def open_end(function: Function, never_returns: NeverReturns) -> ast.stmt | None:
+    """Return the last statement if a function may end after it without `return`; None if it may not."""
+    return function.body[-1] if _goes_on(function.body, never_returns) else None
+
+
+def returned(function: Function) -> Iterator[tuple[ast.Return, ast.expr | None]]:
+    """Yield each value that a function may return, None for a bare `return`."""
+    for node in own_nodes(function):
+        if isinstance(node, ast.Return):
+            for value in _alternatives(node.value) if node.value is not None else (None,):
+                yield node, value
+
+
+def own_nodes(function: Function) -> Iterator[ast.AST]:
+    """Yield the nodes of a function, without those of functions and classes inside it."""
+    waiting: list[ast.AST] = list(function.body)
+    while waiting:
+        node = waiting.pop(0)
+        yield node
+        if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef | ast.Lambda):
+            waiting += ast.iter_child_nodes(node)
+
+
+def always_raises(function: Function, never_returns: NeverReturns) -> bool:
+    """Whether a function returns nothing and does not end by itself."""
+    return not _goes_on(function.body, never_returns) and not any(
+        isinstance(node, ast.Return | ast.Yield | ast.YieldFrom) for node in own_nodes(function)
+    )
+
+
+def _alternatives(value: ast.expr) -> Iterator[ast.expr]:
+    if isinstance(value, ast.IfExp):
+        yield from _alternatives(value.body)
+        yield from _alternatives(value.orelse)
+    else:
+        yield value
+
+
+def _goes_on(body: Sequence[ast.stmt], never_returns: NeverReturns) -> bool:
+    """Whether what follows statements may be reached."""
+    return all(_passes(statement, never_returns) for statement in body)
+
+
+def _passes(statement: ast.stmt, never_returns: NeverReturns) -> bool:
+    match statement:
+        case ast.Return() | ast.Raise() | ast.Break() | ast.Continue():
+            return False
+        case ast.Expr(value=ast.Call() as call):
+            return not never_returns(call)
+        case ast.Assert(test=ast.Constant(value=False)):
+            return False
+        case ast.If(test=test, body=body, orelse=orelse):
+            branches = (body,) if _is_true(test) else (body, orelse)
+            return any(_goes_on(each, never_returns) for each in branches)
+        case ast.While(test=test):
+            return not _is_true(test) or _has_break(statement.body)
+        case ast.Try() | ast.TryStar():
+            return _passes_try(statement, never_returns)
+        case ast.With(items=items, body=body) | ast.AsyncWith(items=items, body=body):
+            return any(map(_may_suppress, items)) or _goes_on(body, never_returns)
+        case ast.Match(cases=cases):
+            # Without a case for all others, the cases are taken for all that there are.
+            return any(_goes_on(each.body, never_returns) for each in cases)
+        case _:
+            return True
+
+
+def _passes_try(statement: ast.Try | ast.TryStar, never_returns: NeverReturns) -> bool:
+    if not _goes_on(statement.finalbody, never_returns):
+        return False
+    ways = ([*statement.body, *statement.orelse], *(handler.body for handler in statement.handlers))
+    return any(_goes_on(way, never_returns) for way in ways)
+
+
+def _may_suppress(item: ast.withitem) -> bool:
+    match item.context_expr:
+        case ast.Call(func=ast.Name(id="suppress") | ast.Attribute(attr="suppress")):
+            return True
+        case _:
+            return False
+
+
+def _has_break(body: Iterable[ast.stmt]) -> bool:
+    """Whether a loop may be left by a `break` of its own."""
+    for statement in body:
+        if isinstance(statement, ast.Break):
+            return True
+        if _has_break(_inside(statement)):
+            return True
+    return False
+
+
+def _inside(statement: ast.stmt) -> Iterator[ast.stmt]:
+    """Yield the statements inside another one to which its `break` belongs."""
+    if isinstance(statement, ast.For | ast.AsyncFor | ast.While):
+        yield from statement.orelse
+    elif not isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+        for node in ast.iter_child_nodes(statement):
+            if isinstance(node, ast.stmt):
+                yield node
+            elif isinstance(node, ast.ExceptHandler | ast.match_case):
+                yield from node.body
+
+
+def _is_true(test: ast.expr) -> bool:
+    return isinstance(test, ast.Constant) and bool(test.value)
