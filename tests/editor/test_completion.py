@@ -151,13 +151,42 @@ async def test_a_fault_above_does_not_hide_what_fits(desk: Desk, broken: str) ->
     assert "isClean" in await desk.completions("press.skill", text)
 
 
-async def test_a_skill_that_is_not_imported_brings_its_import(desk: Desk) -> None:
-    desk.library(motion=MOTION)
-    text = with_line(PRESS, "do seq {", "        Insp|")
-    found = await desk.client.text_document_completion_async(types.CompletionParams(*desk.at("press.skill", text)))
+HIDDEN = [
+    ("do seq {", "        Insp|", "Inspect", 'import "inspection.skill"\n', (3, 0)),
+    ("do seq {", "        Wip|", "Wipe", 'import "wiping/wipe.skill"\n', (3, 0)),
+    ("infer at", "    in x: Arm|", "ArmDevice", ", rparts", (0, 26)),
+    ("infer at", "    in x: Hol|", "PanelHolder", 'import "things.skill"\n', (3, 0)),
+    ("infer at", "    pre panel hel|", "heldBy", 'import "things.skill"\n', (3, 0)),
+    ("infer at", "    pre panel.siz|", "size", 'import "things.skill"\n', (3, 0)),
+    ("do seq {", "        Move(arm, target: pl|", "place_pose", 'import "handling.skill"\n', (3, 0)),
+]
+THINGS = """use skiros, wiping
+class PanelHolder < Location
+relation heldBy(WipeableSurface, PanelHolder)
+property size(WipeableSurface): Length
+"""
+
+
+@pytest.mark.parametrize(("after", "line", "label", "text", "at"), HIDDEN, ids=[label for _, _, label, _, _ in HIDDEN])
+async def test_what_a_file_does_not_see_brings_the_line_that_shows_it(
+    desk: Desk, after: str, line: str, label: str, text: str, at: tuple[int, int]
+) -> None:
+    desk.library(motion=MOTION, things=THINGS)
+    written = with_line(PRESS, after, line)
+    found = await desk.client.text_document_completion_async(types.CompletionParams(*desk.at("press.skill", written)))
     assert isinstance(found, types.CompletionList)
-    by_label = {item.label: item for item in found.items}
-    assert not by_label["Move"].additional_text_edits
-    (edit,) = by_label["Inspect"].additional_text_edits or ()
-    assert edit.new_text == 'import "inspection.skill"\n'
-    assert edit.range == types.Range(types.Position(3, 0), types.Position(3, 0))
+    (item,) = [each for each in found.items if each.label == label]
+    (edit,) = item.additional_text_edits or ()
+    assert edit.new_text == text
+    assert edit.range == types.Range(types.Position(*at), types.Position(*at))
+    seen = [each for each in found.items if each.label in ("Move", "Panel", "fixedTo", "isClean", "above")]
+    assert seen and not any(each.additional_text_edits for each in seen)
+
+
+async def test_a_term_is_qualified_where_its_vocabulary_would_make_names_ambiguous(desk: Desk) -> None:
+    text = "use skiros\nclass ArmDevice < Product\nskill Go {\n    in arm: ArmDevice\n    in x: |\n}\n"
+    document, position = desk.at("own.skill", text)
+    found = await desk.client.text_document_completion_async(types.CompletionParams(document, position))
+    assert isinstance(found, types.CompletionList)
+    (item,) = [each for each in found.items if each.label.endswith("GripperEffector")]
+    assert item.label == "rparts:GripperEffector" and not item.additional_text_edits

@@ -15,7 +15,7 @@ from skillc.lsp.positions import PositionConverter
 from skillc.lsp.scenes import read_scene_texts
 from skillc.lsp.session import Session
 from skillc_compiler.ide.completion import complete
-from skillc_compiler.ide.imports import make_import
+from skillc_compiler.ide.imports import make_import, make_use
 from skillc_compiler.ide.offers import Offer
 from skillc_compiler.ide.rename import NotRenamable, find_renamable
 from skillc_compiler.ide.rename import rename as renamed
@@ -55,8 +55,9 @@ def offer_completions(session: Session, params: types.CompletionParams) -> types
     place = at.lines.range(found.replaced)
     items = [_item(offer, order, place) for order, offer in enumerate(found.offers)]
     for item, offer in zip(items, found.offers, strict=True):
-        if offer.imports:
-            line = make_import(at.view.analysis, at.view.path, offer.imports)
+        make, what = (make_import, offer.imports) if offer.imports else (make_use, offer.uses)
+        if what:
+            line = make(at.view.analysis, at.view.path, what)
             item.additional_text_edits = [types.TextEdit(at.lines.range(line.span), line.text)]
     return types.CompletionList(False, items)
 

@@ -16,7 +16,7 @@ from skillc_compiler.ide.descriptions import describe_keyword
 from skillc_compiler.ide.expectation import find_expected_type, find_ranges
 from skillc_compiler.ide.offers import Offer
 from skillc_compiler.ide.term_pages import format_bare_type
-from skillc_compiler.program.types import Measure, Thing
+from skillc_compiler.program.types import UNKNOWN, Measure, Thing, Type
 from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl.descriptions.constructs import CONSTRUCTS
 from skillc_dsl.editions import NEWEST
@@ -112,15 +112,15 @@ def _names(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterato
         case ("RELATION",), _ if "EQUAL" in types:
             yield from _in_members(analysis, around, cursor)
         case (head,), (last,) if last in _CLASS_LISTS.get(head, ()):
-            yield from offers.offer_classes(around)
+            yield from _classes(analysis, around, cursor)
         case ("RELATION",), ("INVERSE" | "SUB",):
             yield from offers.offer_all_relations(around)
         case ("PROPERTY" | "FUNCTION",), ("COLON" | "LABEL" | "ARROW" | "LSQB",):
-            yield from _types(around)
+            yield from _types(analysis, around, cursor)
         case ("PROPERTY" | "FUNCTION",), ("OF",):
             yield from offers.offer_dimensions()
         case ("TASK",), ("LABEL",) if "LBRACE" not in types:
-            yield from _types(around)
+            yield from _types(analysis, around, cursor)
         case ("SKILL" | "IMPL" | "TASK" | "TEST",), _:
             yield from _in_members(analysis, around, cursor)
 
@@ -134,13 +134,13 @@ def _in_members(analysis: Analysis, around: CursorContext, cursor: InCode) -> It
         case (*_, "LABEL", _, "OF") | (*_, "LABEL", "LSQB", _, "OF"):
             yield from offers.offer_dimensions()
         case (*_, ("IN" | "OPT" | "INFER" | "ANY" | "OUT"), "LABEL") | (*_, "LABEL", "LSQB"):
-            yield from _types(around)
+            yield from _types(analysis, around, cursor)
         case (*_, "REFINE", "LABEL"):
-            yield from _narrower(around, before[-1].value.rstrip(":"))
+            yield from _narrower(analysis, around, cursor, before[-1].value.rstrip(":"))
         case (*_, "REFINE"):
             yield from _refinable(analysis, around, before)
         case (*_, "IS") | (*_, ("EXISTS" | "FORALL"), "LABEL"):
-            yield from offers.offer_classes(around)
+            yield from _classes(analysis, around, cursor)
         case (*_, ("USES" | "SHARES")):
             yield from offers.offer_parameters(analysis, around.skill.parameters if around.skill else ())
         case (*_, "GIVEN"):
@@ -150,6 +150,7 @@ def _in_members(analysis: Analysis, around: CursorContext, cursor: InCode) -> It
             yield from offers.offer_parts_of_failure()
         case (*_, ("DOT" | "HAS")):
             yield from offers.offer_properties(around, around.type_of(before[:-1]))
+            yield from offers.offer_hidden_terms(analysis, cursor.word.path, "property", around.type_of(before[:-1]))
         case _:
             yield from _in_lines(analysis, around, cursor)
 
@@ -188,7 +189,7 @@ def _in_values(analysis: Analysis, around: CursorContext, cursor: InCode) -> Ite
     if call and types[-1] in ("LPAR", "COMMA") and call.name in analysis.program.skills:
         return offers.offer_arguments(analysis, around, call.name, call.passed)
     if cursor.fits("NAME", "UNDERSCORE"):
-        return offers.offer_relations(around, around.type_of(before))
+        return _relations(analysis, around, cursor)
     if cursor.fits("UNDERSCORE") and not cursor.fits("UNDERSCORE", "SENSED"):
         return _in_range(around, before)
     if cursor.fits("NAME", "LSQB"):
@@ -196,8 +197,20 @@ def _in_values(analysis: Analysis, around: CursorContext, cursor: InCode) -> Ite
     if types[0] == "SKILL" and types[-1] in ("EQUAL", "RANGE", "DOTS"):
         return offers.offer_constants(around, find_expected_type(around, analysis.program.skills, before))
     if cursor.fits("NAME", "DOT"):
-        return offers.offer_values(around, find_expected_type(around, analysis.program.skills, before))
+        return _values(analysis, around, cursor)
     return iter(())
+
+
+def _relations(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:
+    subject = around.type_of(cursor.before)
+    yield from offers.offer_relations(around, subject)
+    yield from offers.offer_hidden_terms(analysis, cursor.word.path, "relation", subject)
+
+
+def _values(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:
+    wanted = find_expected_type(around, analysis.program.skills, cursor.before)
+    yield from offers.offer_values(around, wanted)
+    yield from offers.offer_unimported_functions(analysis, cursor.word.path, wanted)
 
 
 def _in_range(around: CursorContext, before: Sequence[Token]) -> Iterator[Offer]:
@@ -213,18 +226,23 @@ def _called(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterat
     yield from offers.offer_unimported_skills(analysis, cursor.word.path, scoped=scoped)
 
 
-def _types(around: CursorContext) -> Iterator[Offer]:
-    yield from offers.offer_classes(around)
+def _classes(analysis: Analysis, around: CursorContext, cursor: InCode, below: Type = UNKNOWN) -> Iterator[Offer]:
+    yield from offers.offer_classes(around, below)
+    yield from offers.offer_hidden_terms(analysis, cursor.word.path, "class", below)
+
+
+def _types(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:
+    yield from _classes(analysis, around, cursor)
     yield from offers.offer_built_in_types()
 
 
-def _narrower(around: CursorContext, name: str) -> Iterator[Offer]:
+def _narrower(analysis: Analysis, around: CursorContext, cursor: InCode, name: str) -> Iterator[Offer]:
     """Offer the types that may refine a parameter."""
     parameter = around.skill.parameter(name) if around.skill else None
     if parameter is None:
-        yield from _types(around)
+        yield from _types(analysis, around, cursor)
     elif isinstance(parameter.type, Thing):
-        yield from offers.offer_classes(around, parameter.type)
+        yield from _classes(analysis, around, cursor, parameter.type)
     else:
         yield Offer(format_bare_type(parameter.declared), "type", "built in", rank=1)
 

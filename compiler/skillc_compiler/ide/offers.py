@@ -10,7 +10,7 @@ import msgspec
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.cursor_context import CursorContext
 from skillc_compiler.ide.descriptions import format_parameter
-from skillc_compiler.ide.imports import find_importable
+from skillc_compiler.ide.imports import find_hidden_terms, find_importable
 from skillc_compiler.ide.term_pages import FAILURE, format_bare_type, format_function_head
 from skillc_compiler.program.typed import Parameter
 from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, describe_type, fits, type_of
@@ -19,7 +19,7 @@ from skillc_compiler.resolve.type_names import BUILT_IN
 from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl import syntax as s
 from skillc_dsl.units import DIMENSIONS
-from skillc_rdf.vocabulary.types import THING, PropertyTerm, RelationTerm, local_name, value_name
+from skillc_rdf.vocabulary.types import THING, PropertyTerm, RelationTerm, Vocabulary, local_name, value_name
 
 OfferKind: TypeAlias = Literal[
     "keyword", "class", "type", "relation", "property", "function", "skill", "implementation", "parameter", "variable",
@@ -30,7 +30,7 @@ OfferKind: TypeAlias = Literal[
 class Offer(msgspec.Struct, frozen=True):
     """A candidate: the text to show and, if it differs, the text to insert. Lower ranks are shown first.
 
-    `imports` is the file that must be imported for it, empty if none.
+    `imports` is the file that must be imported for it, `uses` the vocabulary that must be used, empty if none.
     """
 
     text: str
@@ -40,6 +40,7 @@ class Offer(msgspec.Struct, frozen=True):
     written: str = ""
     rank: int = 0
     imports: str = ""
+    uses: str = ""
 
     @property
     def inserted(self) -> str:
@@ -157,6 +158,8 @@ def offer_skills(analysis: Analysis, around: CursorContext, scoped: bool = False
 def offer_unimported_skills(analysis: Analysis, path: str, scoped: bool = False) -> Iterator[Offer]:
     """Offer the skills of files that are not imported yet."""
     for skill, file in find_importable(analysis, path):
+        if not isinstance(skill, s.SkillDeclaration):
+            continue
         flags = [member.flag for member in skill.members if isinstance(member, s.Flag)]
         if not scoped or "scoped" in flags:
             yield Offer(skill.name.text, "skill", f"import {file}", skill.doc, rank=7, imports=file)
@@ -180,6 +183,36 @@ def offer_uncertain_skills(analysis: Analysis, around: CursorContext) -> Iterato
 def offer_parts_of_failure() -> Iterator[Offer]:
     """Offer what is told of a failure."""
     return (Offer(name, "property", "Text", about) for name, about in FAILURE.items())
+
+
+def offer_unimported_functions(analysis: Analysis, path: str, wanted: ExpectedType) -> Iterator[Offer]:
+    """Offer the functions of files that are not imported yet, whose results are of the wanted built-in type."""
+    for function, file in find_importable(analysis, path):
+        if isinstance(function, s.FunctionDeclaration) and isinstance(function.result, s.Name) and not wanted.values:
+            result = BUILT_IN.get(function.result.text)
+            if result is not None and fits(analysis.program.vocabulary, type_of(result), wanted.type):
+                yield Offer(function.name.text, "function", f"import {file}", function.doc, rank=7, imports=file)
+
+
+def offer_hidden_terms(analysis: Analysis, path: str, kind: Kind, of: Type = UNKNOWN) -> Iterator[Offer]:
+    """Offer the terms that a file does not see yet: classes below a type, relations and properties that it can have."""
+    vocabulary = analysis.program.vocabulary
+    for hidden in find_hidden_terms(analysis, path, kind):
+        comment, homes = _about(vocabulary, kind, hidden.iri)
+        if not any(fits(vocabulary, *((home, of) if kind == "class" else (of, home))) for home in homes):
+            continue
+        how = f"import {hidden.imports}" if hidden.imports else f"use {hidden.uses}" if hidden.uses else ""
+        yield Offer(hidden.written, kind, how, comment, rank=8, imports=hidden.imports, uses=hidden.uses)
+
+
+def _about(vocabulary: Vocabulary, kind: Kind, iri: str) -> tuple[str, tuple[Type, ...]]:
+    """Return the documentation of a term, and the type that it is, or those that can have it."""
+    if kind == "class":
+        return vocabulary.classes[iri].comment, (Thing(iri),)
+    if kind == "relation":
+        relation = vocabulary.relations[iri]
+        return relation.comment, tuple(Thing(each.domain) for each in relation.signatures)
+    return vocabulary.properties[iri].comment, tuple(map(Thing, vocabulary.properties[iri].domains))
 
 
 def offer_parameters(analysis: Analysis, of: Iterable[Parameter]) -> Iterator[Offer]:

@@ -1,5 +1,10 @@
 // What the language server does for the editor: problems, completion, hover, go to the definition, and formatting.
-import type { CompletionContext, CompletionResult } from "@codemirror/autocomplete";
+import {
+  type Completion,
+  type CompletionContext,
+  type CompletionResult,
+  pickedCompletion,
+} from "@codemirror/autocomplete";
 import type { Diagnostic } from "@codemirror/lint";
 import { Prec, type Extension, type Text } from "@codemirror/state";
 import { EditorView, hoverTooltip, keymap } from "@codemirror/view";
@@ -39,10 +44,29 @@ export function completionsOf(server: LanguageServer) {
     const items = Array.isArray(found) ? found : (found?.items ?? []);
     const options = items.map((each) => ({
       label: each.label,
-      apply: each.textEdit?.newText ?? each.insertText ?? each.label,
+      apply: applied(each),
       ...(each.detail === undefined ? {} : { detail: each.detail }),
     }));
     return options.length === 0 ? null : { from: word?.from ?? context.pos, options, validFor: /^[\w:-]*$/ };
+  };
+}
+
+/** Return what choosing a completion does: its text, and the lines elsewhere that it needs, such as an `import`. */
+function applied(
+  item: LspCompletion,
+): string | ((view: EditorView, chosen: Completion, from: number, to: number) => void) {
+  const text = item.textEdit?.newText ?? item.insertText ?? item.label;
+  const more = item.additionalTextEdits ?? [];
+  if (more.length === 0) return text;
+  return (view, chosen, from, to) => {
+    const changes = view.state.changes([{ from, to, insert: text }, ...changesOf(view.state.doc, more)]);
+    const selection = { anchor: changes.mapPos(to, 1) };
+    view.dispatch({
+      changes,
+      selection,
+      userEvent: "input.complete",
+      annotations: pickedCompletion.of(chosen),
+    });
   };
 }
 

@@ -26,6 +26,7 @@ export interface LspCompletion {
   documentation?: string | { value: string };
   insertText?: string;
   textEdit?: LspEdit;
+  additionalTextEdits?: LspEdit[];
 }
 
 interface Message {
