@@ -12,10 +12,12 @@ from unittest.mock import patch
 import pytest
 from shipped import shelf, vocabulary
 
+from skillc.errors import DiagnosticsError
 from skillc.services.check.checking import CheckRequest, check_paths
 from skillc.services.check.known_checks import check_with
 from skillc.services.library.check_inputs import CheckInputs
 from skillc.services.library.files import find_library
+from skillc.services.pddl_import.importing import import_pddl
 from skillc.services.testing.suite import find_suites, run_suite
 from skillc_compiler.goals.parsing import parse_goal
 from skillc_compiler.manual import Page, load_pages, page_names, parse_page
@@ -76,6 +78,8 @@ def problems(page: Page, text: str) -> list[str]:
             return in_project(text)
         case "test":
             return in_tests(text)
+        case "pddl":
+            return in_domain(text)
         case _:
             return in_skill_file(page.name, text)
 
@@ -100,6 +104,17 @@ def in_project(text: str) -> list[str]:
         Path(folder, "grasping").mkdir()
         Path(folder, "grasping/skillc.toml").write_text('name = "grasping"\n', "utf-8")
         return [d.name for d in check_paths(CheckRequest((Path(folder),))).diagnostics]
+
+
+def in_domain(text: str) -> list[str]:
+    """Return the names of the problems of a domain in PDDL that is imported."""
+    with TemporaryDirectory() as folder:
+        domain = Path(folder, "domain.pddl")
+        domain.write_text(text, "utf-8")
+        try:
+            return [d.name for d in import_pddl(domain, None, Path(folder, "example")).warnings]
+        except DiagnosticsError as error:
+            return [d.name for d in error.diagnostics]
 
 
 def in_tests(text: str) -> list[str]:

@@ -95,7 +95,7 @@ BROKEN_PIPE = 141
 """The exit code that shells give to a process ended by SIGPIPE."""
 
 SECTIONS = {
-    "Projects": ("new", "add", "tasks", "lock"),
+    "Projects": ("new", "add", "import", "tasks", "lock"),
     "Skills": ("check", "test", "fix", "fmt", "explain", "graph", "doc", "compile", "shapes", "ontology"),
     "Tasks": ("plan", "run", "why", "diff", "replay", "report", "trials", "learn", "demo"),
     "Scenes": ("world", "scene", "connect"),

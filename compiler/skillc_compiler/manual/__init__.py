@@ -36,12 +36,12 @@ FAMILIES = (
     *("text", "quantities", "scenes", "properties", "implementations", "data flow", "planning", "ontology", "names"),
     *("logic", "projects", "tests"),
 )
-FINDERS = ("compiler", "vocabulary", "scene", "check", "formatter", "goal", "project", "test")
+FINDERS = ("compiler", "vocabulary", "scene", "check", "formatter", "goal", "pddl", "project", "test")
 _FOLDER = Path(__file__).parent
 _PAGE = re.compile(
     r"---\nfamily: (?P<family>.+)\nfound-by: (?P<found_by>.+)\n---\n\n"
     r"# (?P<name>[a-z-]+)\n\n(?P<title>.+)\.\n\n(?P<prose>(?:(?!```).*\n)*?(?!```).+)\n\n"
-    r"```(?P<language>skill|turtle|toml) bad\n(?P<bad>(?:(?!```).*\n)+)```\n\n"
+    r"```(?P<language>skill|turtle|toml|lisp) bad\n(?P<bad>(?:(?!```).*\n)+)```\n\n"
     r"```(?P=language) good\n(?P<good>(?:(?!```).*\n)+)```\n"
 )
 

@@ -52,7 +52,7 @@ def create_library(folder: Path, template: str = DEFAULT) -> tuple[Path, ...]:
         raise RequestError(f"{folder} already exists; choose another name or remove it")
     texts = _texts(folder.name, chosen)
     try:
-        return _write(texts, folder)
+        return write_folder(texts, folder)
     except OSError as error:
         raise ServiceError(f"cannot create {folder}: {error.strerror}; nothing was written") from error
 
@@ -83,7 +83,7 @@ def _values(name: str, template: Template) -> dict[str, str | tuple[str, ...]]:
     return {"skill": skill, "steps": json.dumps(steps), **files, **texts}
 
 
-def _write(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:
+def write_folder(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:
     """Write the files into a new folder and return their paths; with an OSError nothing remains.
 
     They are written into a temporary folder beside it, which is renamed.
