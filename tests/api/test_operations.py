@@ -23,7 +23,7 @@ CELLS = (
     "skillc.load_library('contact').draw('PressButton')",
     "skillc.plan('contact:press_button')",
     "skillc.open_scene('ur5e_whiteboard').query('SELECT ?x { ?x skiros:contain lab:Eraser-1 }')",
-    "run = skillc.run('contact:press_button', backend='kinematic', out='run'); run",
+    "run = skillc.run('contact:press_button', backend='kinematic', out='run', film_quality='draft'); run",
     "run.figures[0]",
     "run.film",
     "skillc.open_scene('ur5e_whiteboard')",

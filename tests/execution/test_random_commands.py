@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from execution import random_runs
 from execution.random_runs import DRAWN, Drawn
 
-RUNS = int(os.environ.get("SKILLC_RUNS", "150"))
+RUNS = int(os.environ.get("SKILLC_RUNS", "75"))
 PHASES = (Phase.explicit, Phase.reuse, Phase.generate)
 QUIET = (HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much)
 

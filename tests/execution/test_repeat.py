@@ -35,17 +35,10 @@ def check(drawn: Drawn) -> None:
     assert (actors.postures(again) == actors.postures(ran.cell)).all(), "to the last bit"
 
 
-@pytest.mark.slow
-@settings(max_examples=25, deadline=None, derandomize=True, phases=PHASES, suppress_health_check=QUIET)
-@given(DRAWN)
-def test_a_repeated_run_tells_the_same(drawn: Drawn) -> None:
-    check(drawn)
-
-
 @pytest.mark.sim
 @settings(max_examples=RUNS, deadline=None, derandomize=True, phases=PHASES, suppress_health_check=QUIET)
 @given(DRAWN)
-def test_many_repeated_runs_tell_the_same(drawn: Drawn) -> None:
+def test_a_repeated_run_tells_the_same(drawn: Drawn) -> None:
     check(drawn)
 
 

@@ -131,24 +131,23 @@ def test_the_events_of_an_operation_arrive_without_a_gap(server: RunningServer) 
 
 
 @pytest.mark.sim
-def test_a_cell_that_dies_is_started_again_and_its_operation_was_interrupted(tmp_path: Path) -> None:
-    with serving(tmp_path) as server:
-        server.client.put("/cells/yard/pace", json={"factor": 0.1})
-        operation = server.submit(task="carry_all")["id"]
-        server.wait_for(operation, "running")
-        os.kill(find_cell_process(server), signal.SIGKILL)
-        wait_until(lambda: server.client.get("/cells/yard").json(), lambda it: "signal 9" in it["reason"])
-        refused = server.client.post("/cells/yard/operations", json={"task": "carry_all"})
-        assert refused.status_code == 503 and "yard is off" in refused.json()["detail"]
-        server.wait_ready()
-        left = server.client.get(f"/operations/{operation}").json()
-        assert left["state"] == "interrupted" and left["decisions"][:2] == ["replan", "retry"]
-        server.client.put("/cells/yard/pace", json={"factor": None})
-        again = server.submit(continues=operation, decision="retry")["id"]
-        server.wait_for(again, "succeeded")
-        assert server.client.get(f"/operations/{operation}").json()["continued_by"] == again
-        refused = server.client.post("/cells/yard/operations", json={"continues": operation})
-        assert refused.status_code == 409 and f"was continued by {again}" in refused.json()["detail"]
+def test_a_cell_that_dies_is_started_again_and_its_operation_was_interrupted(server: RunningServer) -> None:
+    server.put_back(pace=0.1)
+    operation = server.submit(task="carry_all")["id"]
+    server.wait_for(operation, "running")
+    os.kill(find_cell_process(server), signal.SIGKILL)
+    wait_until(lambda: server.client.get("/cells/yard").json(), lambda it: "signal 9" in it["reason"])
+    refused = server.client.post("/cells/yard/operations", json={"task": "carry_all"})
+    assert refused.status_code == 503 and "yard is off" in refused.json()["detail"]
+    server.wait_ready()
+    left = server.client.get(f"/operations/{operation}").json()
+    assert left["state"] == "interrupted" and left["decisions"][:2] == ["replan", "retry"]
+    server.client.put("/cells/yard/pace", json={"factor": None})
+    again = server.submit(continues=operation, decision="retry")["id"]
+    server.wait_for(again, "succeeded")
+    assert server.client.get(f"/operations/{operation}").json()["continued_by"] == again
+    refused = server.client.post("/cells/yard/operations", json={"continues": operation})
+    assert refused.status_code == 409 and f"was continued by {again}" in refused.json()["detail"]
 
 
 @pytest.mark.sim

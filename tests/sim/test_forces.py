@@ -83,12 +83,11 @@ def wiped_with_error(error_n: float, returns: bool) -> tuple[Execution[Simulated
     return ended, float(np.median(truth.on_surface[(truth.time > ends - 25.0) & (truth.time < ends - 1.0)]))
 
 
-@pytest.mark.parametrize(("task", "wanted"), [("clean_whiteboard", "8 N"), ("clean_desk", "10 N")])
-def test_a_force_that_is_measured_in_its_band_is_verified(task: str, wanted: str) -> None:
-    prepared, cell = start(task)
+def test_a_force_that_is_measured_in_its_band_is_verified() -> None:
+    prepared, cell = start("clean_whiteboard")
     ended = execute_task(prepared, library(), cell)
     assert ended.status == "succeeded" and ended.verified, ended.failure
-    assert force_of(ended).known == "sensed" and f".pushForce == {wanted}" in format_unverified(force_of(ended))
+    assert force_of(ended).known == "sensed" and ".pushForce == 8 N" in format_unverified(force_of(ended))
     (clean,) = (each for each in ended.facts if "isClean" in format_unverified(each))
     assert format_evidence(clean) == "idealised by Inspect, verified in simulation only"
     (surface,) = cell.scene.surfaces
@@ -102,7 +101,6 @@ ASSUMED = "lab:Ur5e-1.pushForce == 8 N is only assumed: the arm measured "
     ("error_n", "why"),
     [
         (0.6, "0.60 N when it touched nothing; less this error it pressed with 7.40 N for 8 N"),
-        (-1.0, "-1.00 N when it touched nothing; less this error it pressed with 9.01 N for 8 N"),
         (1.0, "8.00 N for 8 N, but did not approach steadily for long enough to check that it measures 0 N when it"),
     ],
 )

@@ -11,12 +11,10 @@ pytestmark = pytest.mark.sim
 
 WORST = (
     ("iiwa", "speed-negated", "approach", 0.1),
-    ("iiwa", "speed-negated", "wipe", 0.1),
     ("iiwa", "all-frozen", "carry", 0.1),
     ("iiwa", "position-jumps", "free", 0.1),
     ("iiwa", "all-intermittent", "insert", 0.1),
     ("panda", "speed-negated", "press", 0.1),
-    ("panda", "all-frozen", "approach", 0.1),
     ("ur5e", "wrench-frozen", "wipe", 0.1),
     ("ur5e", "wrench-zero", "approach", 0.1),
     ("ur5e", "wrench-negated", "approach", 0.3),

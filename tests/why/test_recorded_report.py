@@ -62,12 +62,12 @@ def test_a_file_needs_a_folder_for_its_report(run: Path) -> None:
 @pytest.mark.early
 @pytest.mark.sim
 def test_figures_are_those_of_the_run(tmp_path: Path) -> None:
-    record(RunSpec(task="clean_desk"), tmp_path / "run", 26.0, "mujoco")
+    record(RunSpec(task="contact:press_button"), tmp_path / "run", 3.0, "mujoco")
     again = tmp_path / "again"
     assert report(tmp_path / "run/recording.mcap", "--film-quality", "draft", "--out", again).exit_code == 0
     assert read_result(again) == read_result(tmp_path / "run")
     figures = sorted(path.name for path in (tmp_path / "run").glob("*.svg"))
-    assert figures == sorted(path.name for path in again.glob("*.svg")) and "wiping.svg" in figures
+    assert figures == sorted(path.name for path in again.glob("*.svg")) and "push.svg" in figures
     for name in figures:
         assert (again / name).read_bytes() == (tmp_path / "run" / name).read_bytes()
     films = [(each / "film.mp4").exists() for each in (tmp_path / "run", again)]
