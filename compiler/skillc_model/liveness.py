@@ -59,6 +59,7 @@ def _declared(implementation: Implementation) -> Iterator[msgspec.Struct]:
         yield from post.effects
     if implementation.duration is not None:
         yield implementation.duration
+    yield from (each.value for each in implementation.outputs)
     for line in implementation.verify:
         yield from (event for event in (line.first, line.second) if event is not None)
 

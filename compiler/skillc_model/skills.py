@@ -179,7 +179,10 @@ class Let(msgspec.Struct, frozen=True):
 
 
 class Implementation(msgspec.Struct, frozen=True, kw_only=True):
-    """An implementation of a skill, with the parameters and conditions of the description refined and its own added."""
+    """An implementation of a skill, with the parameters and conditions of the description refined and its own added.
+
+    `outputs` are those whose values are computed when it has ended.
+    """
 
     name: str
     skill: str
@@ -191,6 +194,7 @@ class Implementation(msgspec.Struct, frozen=True, kw_only=True):
     duration: Expression | None = None
     prefer: float = 0.0
     lets: tuple[Let, ...] = ()
+    outputs: tuple[Let, ...] = ()
     body: ImplementationBody
     verify: tuple[Property, ...] = ()
     source: Position

@@ -148,8 +148,8 @@ class LibraryLeaves(Leaves):
 
     def _expression(self, path: Path) -> Expression:
         """Return the expression of a node that evaluates one: a let by its name, else by the text that it declares."""
-        lets = self.library.implementations[".".join(path[:2])].lets if path[0] else ()
-        for each in lets:
+        owner = self.library.implementations.get(".".join(path[:2]))
+        for each in (*owner.lets, *owner.outputs) if owner is not None else ():
             if each.name == path[-1]:
                 return each.value
         word, _, number = path[-1].rpartition("__")

@@ -98,6 +98,49 @@ def test_it_runs(folder: Path, lines: str) -> None:
     assert done.exit_code == 0, done.output
 
 
+OUTPUTS = """
+skill Whole { in bin: Location  out n: Int  out m: Mass  noplan }
+impl own of Whole { BODY }
+"""
+
+
+@pytest.mark.parametrize(
+    ("body", "found"),
+    [
+        (f"out n = count({IN_BIN})  out m = k * 1 kg  let k = 2  do wait 1 s", []),
+        ("out n = 2  do wait 1 s", ["out-never-assigned"]),
+        ("out n = 2 m  out m = 1 kg  do wait 1 s", ["wrong-type"]),
+        ("out n = 2  out n = 3  out m = 1 kg  do wait 1 s", ["duplicate-member"]),
+        ("out bin = 2  out n = 2  out m = 1 kg  do wait 1 s", ["unknown-parameter"]),
+        ("out n = k  out m = 1 kg  do wait 1 s", ["unknown-parameter"]),
+        ('out n = 2  run python "skillc.primitives:StandIn"', ["misplaced-output"]),
+        ("out n = k  out m = 1 kg  do try { seq { check(bin holdsBook _) Size(bin) -> k } }", ["out-unassigned"]),
+        ("out n = k + 1  out m = 1 kg  do Size(bin) -> k", []),
+    ],
+)
+def test_outputs_are_checked(folder: Path, body: str, found: list[str]) -> None:
+    text = "skill Size { in bin: Location  out n: Int  noplan }\n"
+    text += "impl own of Size { out n = count(b: Book where bin holdsBook b)  do wait 1 s }\n"
+    told = json.loads(run(folder, text + OUTPUTS.replace("BODY", body), "check", "--json").stdout)
+    assert sorted({each["name"] for each in told if each["severity"] == "error"}) == found, told
+
+
+def test_outputs_are_computed_at_the_end(folder: Path) -> None:
+    text = "skill Empty2 { in bin: Location  in cart: Cart  out left: Int  out lightest: Mass  noplan }\n"
+    text += "impl own of Empty2 { out left = count(b: Book where bin holdsBook b)\n"
+    text += "    out lightest = min(b: Book where bin holdsBook b, b.weight)\n"
+    text += "    do for b: Book where bin holdsBook b by b.shelf { Load(book: b, cart, from: bin) } }\n"
+    text += "skill Left { in bin: Location  in cart: Cart  out left: Int  noplan }\n"
+    text += "impl own of Left { out left = count(b: Book where bin holdsBook b) + 1\n"
+    text += "    do for b: Book where bin holdsBook b by b.shelf { Load(book: b, cart, from: bin) } }\n"
+    text += (
+        'test one { do seq { Left(bin: lab:Bin, cart: lab:Cart) -> n  fail "{n} left" }  expect failure "1 left" }\n'
+    )
+    text += 'test none { do Empty2(bin: lab:Bin, cart: lab:Cart)  expect failure "`min` has no value: there is no" }\n'
+    done = run(folder, text, "test", ".")
+    assert done.exit_code == 0, done.output
+
+
 @pytest.mark.parametrize(
     ("body", "unproved"),
     [

@@ -61,9 +61,11 @@ def end_findings(
     """
     unassigned: set[str] = set()
     unproved: list[Finding] = []
+    run.check_reads((each.value for each in implementation.outputs), (), ends.success)
+    computed = {each.name.text for each in implementation.outputs}
     for parameter in implementation.parameters:
         states = [path for state, path in ends.success.items() if parameter.name not in state.assigned]
-        if parameter.direction == "out" and states:
+        if parameter.direction == "out" and parameter.name not in computed and states:
             unassigned.add(parameter.name)
             yield UnassignedOutput(implementation, parameter, min(states, key=path_length))
     for post in (*requirements_of(implementation, "post"), *_join_outcomes(implementation)):

@@ -29,7 +29,7 @@ from skillc_compiler.program.typed import (
     TypedExpression,
     TypedNode,
 )
-from skillc_compiler.program.walk import conditions_in, values_in
+from skillc_compiler.program.walk import conditions_in, reads_in, values_in
 from skillc_dsl.source import Span
 from skillc_model.conditions import Condition, Effect
 from skillc_model.traversal import free_variables
@@ -176,14 +176,9 @@ class Exploration:
         self, values: Iterable[TypedExpression], conditions: Iterable[TypedCondition], states: StatePaths
     ) -> None:
         """Record outputs that are read where they may have no value."""
-        every = [part for value in values for part in values_in(value)]
-        every += [
-            part
-            for whole in conditions
-            for condition in conditions_in(whole)
-            for v in condition.values
-            for part in values_in(v)
-        ]
+        every = [part for value in values for part in reads_in(value)]
+        inside = (condition for whole in conditions for condition in conditions_in(whole))
+        every += [part for condition in inside for value in condition.values for part in values_in(value)]
         for value in every:
             names = free_variables(value.meaning) & self.outputs if not value.parts else frozenset[str]()
             for name in sorted(names):

@@ -20,8 +20,8 @@ from skillc_compiler.program.walk import (
     implementation_values,
     node_values,
     nodes_in,
+    reads_in,
     skill_values,
-    values_in,
 )
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -87,6 +87,6 @@ def _names_read_in(implementation: Implementation) -> set[str]:
 
 def _names(values: Iterable[TypedExpression], given_conditions: Iterable[TypedCondition]) -> set[str]:
     conditions = [part for condition in given_conditions for part in conditions_in(condition)]
-    read = [part for value in (*values, *(v for c in conditions for v in c.values)) for part in values_in(value)]
+    read = [part for value in (*values, *(v for c in conditions for v in c.values)) for part in reads_in(value)]
     given = {c.meaning.parameter for c in conditions if isinstance(c.meaning, Given)}
     return given | {value.meaning.name for value in read if isinstance(value.meaning, Variable)}

@@ -173,6 +173,10 @@ def type_constraints(program: Program) -> Iterator[TypeConstraint]:
         for new in implementation.refinements:
             yield from _parameter_constraints(new, new.written.name.text, new.written.name.span)
         yield from _time_constraint(implementation.duration, "by `duration`")
+        for output in implementation.outputs:
+            if output.of is not None:
+                by = f"by the output `{output.of.name}`"
+                yield TypeConstraint(output.value, output.of.type, by, output.of.span)
     for call in all_calls(program):
         yield from argument_constraints(call)
     for node in all_nodes(program):

@@ -170,10 +170,14 @@ class FileOccurrences(BodyOccurrences, frozen=True):
                 case s.Verify(first=first, second=second):
                     for event in (first, second):
                         yield from self._event(known, event)
-                case s.Let() | s.Prefer() | s.RunPython():
+                case s.Let() | s.Output() | s.Prefer() | s.RunPython():
                     pass
                 case _:
                     assert_never(member)
+        for member in members:
+            if isinstance(member, s.Output):  # reads what the body has named
+                yield from self.reference(known, member.name)
+                yield from self.value(known, member.value)
 
     def _task(self, written: s.TaskDeclaration) -> Iterator[Occurrence]:
         known: dict[str, Symbol] = {}

@@ -93,6 +93,8 @@ def _members(members: Iterable[s.SkillMember | s.ImplementationMember]) -> Itera
                 yield OutlineEntry(name.text, "refine", "parameter", span, name.span)
             case s.Requirement(label=s.Name(text=text, span=place), kind=kind, span=span):
                 yield OutlineEntry(text, kind, "condition", span, place)
+            case s.Output(name=name, span=span):
+                yield OutlineEntry(name.text, "out", "parameter", span, name.span)
             case s.Let(name=name, span=span):
                 yield OutlineEntry(name.text, "let", "let", span, name.span)
             case _:

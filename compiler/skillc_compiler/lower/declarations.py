@@ -65,6 +65,7 @@ def lower_implementation(typed: Implementation, body: TypedNode | s.RunPython) -
         duration=_expression(typed.duration or typed.skill.duration),
         prefer=typed.prefer,
         lets=tuple(library.Let(let.name.text, fold(let.value.meaning)) for let in typed.lets),
+        outputs=tuple(library.Let(each.name.text, fold(each.value.meaning)) for each in typed.outputs),
         body=library.Compound(lower_node(body))
         if isinstance(body, TypedNode)
         else library.Primitive(body.target.value),

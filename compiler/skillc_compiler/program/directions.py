@@ -49,11 +49,11 @@ def _uses(call: Call, skill: Skill) -> Iterator[tuple[Span, bool]]:
 def _used_in(implementation: Implementation) -> Iterator[Span]:
     """Yield the optional parameters that an implementation asks for, and the outputs that it assigns."""
     asked = {name for each in implementation.requirements for name in _asked(conditions_in(each.condition))}
-    taken: set[str] = set()
+    taken = {each.name.text for each in implementation.outputs}
     if isinstance(implementation.body, TypedNode):
         for node in nodes_in(implementation.body):
             asked |= {name for whole in node.conditions for name in _asked(conditions_in(whole))}
-        taken = {call.out.text for call in calls_in(implementation.body) if call.out}
+        taken |= {call.out.text for call in calls_in(implementation.body) if call.out}
     used: Mapping[str, set[str]] = {"opt": asked, "out": taken}
     for parameter in (*implementation.skill.parameters, *implementation.parameters):
         if parameter.name in used.get(parameter.direction, ()):

@@ -190,6 +190,14 @@ class Let(msgspec.Struct, frozen=True):
     value: TypedExpression
 
 
+class Output(msgspec.Struct, frozen=True):
+    """What an implementation computes at its end for an output; `of` is None if the skill has no such output."""
+
+    name: s.Name
+    of: Parameter | None
+    value: TypedExpression
+
+
 class ForceLimit(msgspec.Struct, frozen=True):
     """A comparison of the measured contact force with a limit."""
 
@@ -234,6 +242,7 @@ class Implementation(msgspec.Struct, frozen=True):
     duration: TypedExpression | None
     prefer: float
     lets: tuple[Let, ...]
+    outputs: tuple[Output, ...]
     body: Body
     verify: tuple[Property, ...]
     name_span: Span

@@ -134,6 +134,7 @@ def implementation_values(implementation: Implementation) -> Iterator[TypedExpre
     if implementation.duration:
         yield implementation.duration
     yield from (let.value for let in implementation.lets)
+    yield from (output.value for output in implementation.outputs)
 
 
 def node_values(node: TypedNode) -> Iterator[TypedExpression]:
@@ -148,6 +149,13 @@ def values_in(value: TypedExpression) -> Iterator[TypedExpression]:
     yield value
     for part in value.parts:
         yield from values_in(part)
+
+
+def reads_in(value: TypedExpression) -> Iterator[TypedExpression]:
+    """Yield an expression and its operands, also those of the conditions in it."""
+    yield from values_in(value)
+    for condition in conditions_of(value):
+        yield from _all(*condition.values)
 
 
 def _all(*whole: TypedExpression) -> Iterator[TypedExpression]:

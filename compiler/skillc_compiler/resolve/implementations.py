@@ -11,6 +11,7 @@ from skillc_compiler.program.typed import (
     ForceLimit,
     Implementation,
     Let,
+    Output,
     Parameter,
     Property,
     Refinement,
@@ -25,7 +26,7 @@ from skillc_compiler.resolve.nodes import assume_outputs_assigned, resolve_node
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.skills import build_scopes
 from skillc_compiler.resolve.type_names import resolve_type
-from skillc_compiler.resolve.values import ExpectedType, resolve_value
+from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.source import Span
@@ -72,6 +73,7 @@ def resolve_implementation(
     owner = f"the implementation `{written.name.text}` of `{skill.name}`"
     before, after = build_scopes(owner, skill.name, parameters)
     lets, inner = _resolve_lets(context, before, written)
+    body, at_end = _resolve_body(context, inner, written)
     labels = {r.label.text: r.label for r in skill.requirements if r.label}
     prefer = single_member(context, written.members, s.Prefer, "prefer")
     return Implementation(
@@ -84,7 +86,8 @@ def resolve_implementation(
         duration=resolve_duration(context, before, written.members),
         prefer=prefer.value.value if prefer else 0.0,
         lets=lets,
-        body=_resolve_body(context, inner, written),
+        outputs=tuple(_resolve_outputs(context, at_end, written, skill)),
+        body=body,
         verify=tuple(_resolve_verify_lines(context, inner, written, lines)),
         name_span=written.name.span,
         span=written.span,
@@ -162,7 +165,36 @@ def _resolve_lets(
     return tuple(lets), scope
 
 
-def _resolve_body(context: FileContext, scope: Scope, written: s.ImplementationDeclaration) -> Body:
+def _resolve_outputs(
+    context: FileContext, scope: Scope, written: s.ImplementationDeclaration, skill: Skill
+) -> Iterator[Output]:
+    outputs = {each.name: each for each in skill.parameters if each.direction == "out"}
+    seen: dict[str, s.Output] = {}
+    for member in written.members:
+        if not isinstance(member, s.Output):
+            continue
+        name = member.name
+        parameter = outputs.get(name.text)
+        if seen.setdefault(name.text, member) is not member:
+            label = Label(seen[name.text].name.span, "the first one")
+            message = f"the output `{name.text}` is given two values"
+            context.report("duplicate-member", name.span, message, "keep one of them", label)
+        elif parameter is None:
+            message, declared = (
+                f"the skill `{skill.name}` has no output `{name.text}`",
+                Label(skill.name_span, "declared"),
+            )
+            unknown = UnknownName("parameter", name, message, tuple(outputs), labels=(declared,), owner=skill.name)
+            context.report_unknown(unknown)
+        elif any(isinstance(each, s.RunPython) for each in written.members):
+            message, help_ = f"the Python class gives the output `{name.text}`", "delete it, or write a body with `do`"
+            context.report("misplaced-output", member.span, message, help_)
+        wanted = ExpectedType(parameter.type) if parameter else ANYTHING
+        yield Output(name, parameter, resolve_value(context, scope, member.value, wanted))
+
+
+def _resolve_body(context: FileContext, scope: Scope, written: s.ImplementationDeclaration) -> tuple[Body, Scope]:
+    """Return the body, and the scope at its end."""
     bodies = [m for m in written.members if isinstance(m, s.Body | s.RunPython)]
     for extra in bodies[1:]:
         context.report(
@@ -174,11 +206,10 @@ def _resolve_body(context: FileContext, scope: Scope, written: s.ImplementationD
         )
     match bodies[:1]:
         case [s.Body(node=node)]:
-            typed, _ = resolve_node(context, assume_outputs_assigned(scope), node)
-            return typed
+            return resolve_node(context, assume_outputs_assigned(scope), node)
         case [s.RunPython() as python]:
-            return python
-    return None
+            return python, assume_outputs_assigned(scope)
+    return None, scope
 
 
 def _resolve_verify_lines(

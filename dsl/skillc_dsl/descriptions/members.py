@@ -24,8 +24,9 @@ PARAMETERS = (
     Construct(
         "member",
         reserved("out"),
-        "out NAME: TYPE",
-        "the implementation: an output of a skill that it calls, or of its Python class",
+        "out NAME: TYPE` or `out NAME = VALUE",
+        "the implementation: an output of a skill that it calls, a value that is [computed at its "
+        "end](#outputs-that-are-computed), or its Python class",
     ),
 )
 """Parameters, with where their values come from."""

@@ -42,7 +42,7 @@ class MemberFormatter(StepFormatter):
         if tree.data in ("parameter", "refinement"):
             return self._parameter(keyword, rest, above)
         first = ColumnCell(KEYWORD, self.bare(keyword), loose=keyword.value in _LOOSE)
-        if tree.data == "let":
+        if tree.data in ("let", "output"):
             return MemberLine(above, (first, ColumnCell("let", self.of(rest[0]))), self.spaced(rest[1:]))
         if is_token(rest[0], "LABEL"):
             return MemberLine(above, (first, ColumnCell("name", self.of(rest[0]))), self.spaced(rest[1:]))

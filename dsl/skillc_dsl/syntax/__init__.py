@@ -54,6 +54,7 @@ from skillc_dsl.syntax.members import Direction as Direction
 from skillc_dsl.syntax.members import Duration as Duration
 from skillc_dsl.syntax.members import Flag as Flag
 from skillc_dsl.syntax.members import Let as Let
+from skillc_dsl.syntax.members import Output as Output
 from skillc_dsl.syntax.members import Parameter as Parameter
 from skillc_dsl.syntax.members import Pause as Pause
 from skillc_dsl.syntax.members import PausePlace as PausePlace

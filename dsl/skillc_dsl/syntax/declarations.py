@@ -14,6 +14,7 @@ from skillc_dsl.syntax.members import (
     Duration,
     Flag,
     Let,
+    Output,
     Parameter,
     Pause,
     Prefer,
@@ -26,7 +27,9 @@ from skillc_dsl.syntax.members import (
 from skillc_dsl.syntax.names import Name, TypeName
 
 SkillMember: TypeAlias = Parameter | Requirement | Senses | Duration | DeviceUse | Pause | Flag
-ImplementationMember: TypeAlias = Refinement | Requirement | Duration | Let | Prefer | Body | RunPython | Verify
+ImplementationMember: TypeAlias = (
+    Refinement | Requirement | Duration | Let | Output | Prefer | Body | RunPython | Verify
+)
 
 
 class Use(msgspec.Struct, frozen=True):

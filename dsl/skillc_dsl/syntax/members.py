@@ -107,6 +107,14 @@ class Let(msgspec.Struct, frozen=True):
     span: Span
 
 
+class Output(msgspec.Struct, frozen=True):
+    """`out name = value`"""
+
+    name: Name
+    value: Value
+    span: Span
+
+
 class Prefer(msgspec.Struct, frozen=True):
     """`prefer N`"""
 

@@ -10,7 +10,7 @@ from skillc_compiler.emit.bt.calls import make_call, make_run
 from skillc_compiler.emit.bt.model import Model
 from skillc_compiler.emit.bt.names import NodeIds, given_port, port_name
 from skillc_compiler.emit.bt.nodes import NodeWriter, with_start_scripts
-from skillc_compiler.emit.bt.ports import forward_parameters, inferring_ports
+from skillc_compiler.emit.bt.ports import forward_parameters, inferring_ports, port_type
 from skillc_model.conditions import Expression, IsA, Variable
 from skillc_model.rewriting import ALWAYS
 from skillc_model.skills import Compound, Implementation, Outcome, Post, Requirement, Skill, SkillLibrary
@@ -51,13 +51,15 @@ def make_fixed_tree(
 def make_implementation_tree(
     library: SkillLibrary, names: NodeIds, model: Model, implementation: Implementation
 ) -> Element:
-    """Return the tree of a compound implementation: its lets, then its body."""
+    """Return the tree of a compound implementation: its lets, its body, then the outputs that it computes."""
     if not isinstance(implementation.body, Compound):
         raise TypeError(f"{implementation.name} has no tree")
     owner, bound = (implementation.skill, implementation.name), bind_parameters(implementation.parameters)
     body = NodeWriter(library, names, model, owner, posts=implementation.post, bound=bound)
     steps = [body.evaluate(each.value, port_name(each.name)) for each in implementation.lets]
     steps.append(body.node(implementation.body.node))
+    types = {each.name: port_type(each.type) for each in implementation.parameters}
+    steps += [body.evaluate(each.value, port_name(each.name), types[each.name]) for each in implementation.outputs]
     return _tree(body, with_start_scripts(body, steps), str(implementation.source))
 
 

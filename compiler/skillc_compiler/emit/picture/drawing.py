@@ -35,7 +35,7 @@ def draw_implementation(written: s.ImplementationDeclaration, source: Source) ->
                 bodies.append(NodeDrawer(places).box(node))
             case s.RunPython(target=target):
                 bodies.append(PictureBox("code", "λ", "run python", (target.value,)))
-            case s.Refinement() | s.Requirement() | s.Duration() | s.Let() | s.Prefer() | s.Verify():
+            case s.Refinement() | s.Requirement() | s.Duration() | s.Let() | s.Output() | s.Prefer() | s.Verify():
                 lines.append(places.written(member.span))
             case _:
                 assert_never(member)

@@ -97,6 +97,10 @@ class MemberBuilder(NodeBuilder):
         """`let name = value`"""
         return s.Let(self.as_name(children[1]), self.value(children[3]), self.over(children))
 
+    def output(self, children: list[Child]) -> s.Output:
+        """`out name = value`"""
+        return s.Output(self.as_name(children[1]), self.value(children[3]), self.over(children))
+
     def prefer(self, children: list[Child]) -> s.Prefer:
         """`prefer N`"""
         return s.Prefer(self._plain_number(children[1], "prefer", "prefer 2"), self.over(children))

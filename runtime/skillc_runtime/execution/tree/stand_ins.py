@@ -22,7 +22,7 @@ from skillc_runtime.world.state.world_state import WorldState
 def find_outputs(
     implementation: Implementation, state: WorldState, bound: Mapping[str, Value]
 ) -> dict[str, Value | None]:
-    """Return a value for each output, None if the world has no individual for it.
+    """Return a value for each output that is not computed at the end, None if the world has no individual for it.
 
     An output that a postcondition equates with a property has the value of that property, if it has one. Of the
     individuals of its class, it is the first for which what they say of it holds already, else the first, in the order
@@ -30,8 +30,9 @@ def find_outputs(
     """
     values = dict(bound)
     found: dict[str, Value | None] = {}
+    computed = {each.name for each in implementation.outputs}
     for parameter in implementation.parameters:
-        if parameter.direction == "out":
+        if parameter.direction == "out" and parameter.name not in computed:
             value = _find_output(parameter, implementation.post, state, values)
             found[parameter.name] = value
             if value is not None:

@@ -22,6 +22,7 @@ from skillc_runtime.recording.failure import Failure, FailureKind
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.effects import changes_of, find_unmet
 from skillc_runtime.world.eval.explain import explain
+from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
@@ -88,7 +89,7 @@ class Activation:
             if problem is not None:
                 return problem
             self._write_posts(self.body)
-        return self._check_outputs() or self._check_posts() or self._check_outcomes()
+        return self._compute_outputs() or self._check_outputs() or self._check_posts() or self._check_outcomes()
 
     def release_locks(self) -> None:
         """Release the locks of the call."""
@@ -122,6 +123,17 @@ class Activation:
                 if problem is not None:
                     return self._failure("error", f"output `{parameter.name}` {problem}")
                 self.frame[parameter.name] = value
+        return None
+
+    def _compute_outputs(self) -> Failure | None:
+        """Write what the implementation says of outputs to the frame; return the failure of the first invalid one."""
+        parameters = {parameter.name: parameter for parameter in self.implementation.parameters}
+        for each in self.implementation.outputs:
+            value = value_of(each.value, self._context.state, self.frame)
+            problem = check_value(parameters[each.name], value, self._context.state)
+            if problem is not None:
+                return self._failure("error", f"output `{each.name}` {problem}")
+            self.frame[each.name] = value
         return None
 
     def _write_outcome(self, body: PrimitiveNode) -> Failure | None:
