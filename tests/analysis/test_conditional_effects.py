@@ -36,6 +36,11 @@ skill Bring {
     noplan
 }
 impl move of Move { run python "skillc.primitives:StandIn" }
+skill Lift {
+    in    cup: Cup
+    post  not cup lies _
+}
+impl lift of Lift { run python "skillc.primitives:StandIn" }
 impl fill of Fill { run python "skillc.primitives:StandIn" }
 # allow no-effect: it is seen
 impl show of Show { run python "skillc.primitives:StandIn" }
@@ -52,6 +57,8 @@ SAME = "post spilled: forall k: Cup (k.isEmpty == true when k lies tray)"
     ("declared", "body", "reported"),
     [
         (SAME, "Move(tray)", []),
+        (f"{SAME}\n    post not cup lies _", "Move(tray)\n        Lift(cup)", []),
+        (f"{SAME}\n    post not cup lies _", "Lift(cup)\n        Move(tray)", ["post-not-established"]),
         (SAME, "try { wait 1 s }\n        Move(tray)", []),
         (SAME, "wait 1 s\n        apply spilled", []),
         (SAME, "wait 1 s", ["post-not-established"]),

@@ -102,7 +102,7 @@ def _end_call(
     ends: EndStates,
 ) -> None:
     name, span = binding.skill.name, call.written.span
-    failed = extend_path(path, span, f"`{name}` fails")
+    failed = extend_path(path, span, f"`{name}` fails", failed=True)
     _check_applied(run, call, binding, state, path)
     started = _assume_started(run, binding, (*conditions[0], *conditions[1]), state)
     less = havoc_concurrent(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -22,12 +22,13 @@ MAX_LABELS = 7
 
 
 class PathStep(msgspec.Struct, frozen=True):
-    """The last step of a path, and the path before it."""
+    """The last step of a path, and the path before it; `failed` if it is a call that failed."""
 
     before: PathStep | None
     span: Span
     event: str
     length: int
+    failed: bool = False
 
     def __iter__(self) -> Iterator[PathStep]:
         """Yield the steps from the first to this one."""
@@ -64,9 +65,14 @@ class EndStates:
         return found
 
 
-def extend_path(path: Path, span: Span, event: str) -> PathStep:
+def extend_path(path: Path, span: Span, event: str, failed: bool = False) -> PathStep:
     """Return the path with one more step."""
-    return PathStep(path, span, event, path_length(path) + 1)
+    return PathStep(path, span, event, path_length(path) + 1, failed)
+
+
+def leads_through(path: Path, calls: Collection[Span]) -> bool:
+    """Whether a path leads through the start of any of these calls, not only past their failure."""
+    return bool(calls) and path is not None and any(step.span in calls and not step.failed for step in path)
 
 
 def extend_if_new(before: State, after: State, path: Path, span: Span, text: str, holds: bool) -> Path:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import islice
 from typing import TypeAlias, TypeVar
@@ -36,7 +36,7 @@ from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import NO_WRITES, Write
 from skillc_compiler.analysis.nodes import explore
 from skillc_compiler.analysis.parallel_conflicts import find_parallel_conflicts
-from skillc_compiler.analysis.paths import Path
+from skillc_compiler.analysis.paths import leads_through
 from skillc_compiler.analysis.remedies import Explored, add_remedies
 from skillc_compiler.analysis.scopes import leaked_scopes
 from skillc_compiler.analysis.summaries import WriteSummaries
@@ -46,6 +46,7 @@ from skillc_compiler.program.typed import Implementation, Let, Program, Task, Te
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.query import Memo
+from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import Vocabulary
 
 F = TypeVar("F", bound=Finding)
@@ -174,10 +175,13 @@ class Prover:
         run = self.new_exploration(implementation, body)
         start = initial_state(run.types, implementation, self.summaries.all_writes(implementation))
         ends = explore(run, body, {start: None}, EvalContext())
+        stuck = stuck_calls(run.unproved_preconditions())
+        ended = {state: path for state, path in ends.success.items() if not leads_through(path, stuck)}
+        ends = replace(ends, success=ended)
         before = start, *end_states.declared_states(run, implementation, start)
         end_findings = (
             *end_states.end_findings(run, implementation, before, ends),
-            *self._verify_findings(implementation, body, start),
+            *self._verify_findings(implementation, body, start, stuck),
         )
         leaks = end_states.undeclared_writes(run, implementation, before, ends)
         interface = summarise(self.program, self.summaries, implementation, leaks)
@@ -195,10 +199,12 @@ class Prover:
             start = assume(run.types, start, condition) or start
         return run, explore(run, body, {start: None}, EvalContext())
 
-    def _verify_findings(self, implementation: Implementation, body: TypedNode, start: State) -> Iterator[Finding]:
+    def _verify_findings(
+        self, implementation: Implementation, body: TypedNode, start: State, stuck: frozenset[Span]
+    ) -> Iterator[Finding]:
         for line in implementation.verify:
             run = self.new_exploration(implementation, body)
-            run.monitor = monitor = VerifyMonitor(line, self.program, self.summaries, self.new_exploration)
+            run.monitor = monitor = VerifyMonitor(line, self.program, self.summaries, self.new_exploration, stuck)
             ends = explore(run, body, {start: None}, EvalContext())
             monitor.on_end(run, ends.success)
             monitor.observe(run, ends.failed)
@@ -228,11 +234,14 @@ class Prover:
 
 def _without_consequences(found: Sequence[Finding]) -> Iterator[Finding]:
     """Yield the findings that are not on a path through a call that never starts."""
-    stuck = {each.call.written.span for each in found if isinstance(each, UnprovedPrecondition) and each.always}
-    for each in found:
-        path: Path = getattr(each, "path", None)
-        if not stuck or path is None or stuck.isdisjoint(step.span for step in path):
-            yield each
+    stuck = stuck_calls(found)
+    yield from (each for each in found if not leads_through(getattr(each, "path", None), stuck))
+
+
+def stuck_calls(found: Iterable[Finding]) -> frozenset[Span]:
+    """Return the places of the calls that never start, since a precondition is false whenever they begin."""
+    never = (each for each in found if isinstance(each, UnprovedPrecondition) and each.always)
+    return frozenset(each.call.written.span for each in never)
 
 
 def unreachable_nodes(run: Exploration, node: TypedNode, start: State) -> Iterator[UnreachableNode]:

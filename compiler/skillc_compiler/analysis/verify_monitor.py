@@ -15,22 +15,27 @@ from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.initial_state import initial_state
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
-from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, path_length
+from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, leads_through, path_length
 from skillc_compiler.analysis.summaries import WriteSummaries
 from skillc_compiler.program.typed import Call, Implementation, Program, Property, TypedNode, VerifyEvent
 from skillc_compiler.program.walk import calls_in
+from skillc_dsl.source import Span
 
 Monitor = tuple[int, bool]
 
 
 @dataclass
 class VerifyMonitor:
-    """One property of one implementation; `broken` is the shortest path that violates it, `open_` if undecided."""
+    """One property of one implementation; `broken` is the shortest path that violates it, `open_` if undecided.
+
+    `stuck` are calls that never start: what would come of them is reported as that.
+    """
 
     property: Property
     program: Program
     summaries: WriteSummaries
     new_run: Callable[[Implementation, TypedNode], Exploration]
+    stuck: frozenset[Span] = frozenset()
     broken: PathStep | None = None
     open_: bool = False
     _inside: dict[tuple[str, Monitor], dict[str, frozenset[Monitor]]] = field(default_factory=dict)
@@ -132,6 +137,8 @@ class VerifyMonitor:
         )
 
     def _violate(self, path: PathStep) -> None:
+        if leads_through(path, self.stuck):
+            return
         if self.broken is None or path_length(path) < path_length(self.broken):
             self.broken = path
 
@@ -139,10 +146,12 @@ class VerifyMonitor:
         self, implementation: Implementation, monitor: Monitor, path: PathStep
     ) -> Mapping[str, frozenset[Monitor]]:
         """Return the possible memories after a body that began with `monitor`, by outcome."""
-        key = (implementation.key, monitor)
+        key, alone = (implementation.key, monitor), frozenset({monitor})
+        as_before = {"success": alone, "failure": alone, "broken": alone}
+        if leads_through(path, self.stuck):
+            return as_before
         if key not in self._inside:
-            alone = frozenset({monitor})
-            self._inside[key] = {"success": alone, "failure": alone, "broken": alone}
+            self._inside[key] = as_before
             if isinstance(implementation.body, TypedNode):
                 self._inside[key] = self._explore(implementation, implementation.body, monitor, path)
         return self._inside[key]
