@@ -98,7 +98,7 @@ SECTIONS = {
     "Projects": ("new", "add", "import", "tasks", "lock"),
     "Skills": ("check", "test", "fix", "fmt", "explain", "graph", "doc", "compile", "shapes", "ontology"),
     "Tasks": ("plan", "run", "why", "diff", "replay", "report", "trials", "learn", "demo"),
-    "Scenes": ("world", "scene", "connect"),
+    "Scenes": ("world", "scene", "look", "connect"),
     "Servers": (
         "studio",
         "serve",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -35,6 +36,28 @@ class Lens(msgspec.Struct, frozen=True):
     def coefficients(self) -> Array:
         """The distortion (n,), n >= 4."""
         return np.array(self.distortion or (0.0,) * 4)
+
+
+def read_calibration(file: str | Path) -> Lens:
+    """Return the lens of a calibration file of ROS, YAML or JSON; FileNotFoundError, or ValueError if it is none.
+
+    It has `image_width`, `image_height`, `camera_matrix` and `distortion_coefficients`, as `camera_calibration` writes.
+    """
+    cv2, text = load_opencv(), Path(file).read_text("utf-8")
+    try:
+        read = cv2.FileStorage(text, cv2.FILE_STORAGE_READ | cv2.FILE_STORAGE_MEMORY)
+        width, height = (int(read.getNode(name).real()) for name in ("image_width", "image_height"))
+        matrix, distortion = (_numbers(read.getNode(name)) for name in ("camera_matrix", "distortion_coefficients"))
+    except (SystemError, cv2.error) as error:
+        raise ValueError(f"{file} is no calibration in YAML or JSON") from error
+    if len(matrix) != 9 or width < 1 or height < 1:
+        raise ValueError(f"{file} has no image_width, image_height and camera_matrix, as calibrations of ROS have")
+    return Lens(width, height, matrix[0], matrix[4], matrix[2], matrix[5], distortion)
+
+
+def _numbers(node: Any) -> tuple[float, ...]:
+    data = node.getNode("data")
+    return tuple(data.at(number).real() for number in range(data.size()))
 
 
 def rotation_vector(pose: Pose) -> Any:

@@ -64,6 +64,22 @@ def locate_surface(image: Image, lens: Lens, surface: InspectedSurface, believed
     return located
 
 
+def find_surface(image: Image, lens: Lens, surface: InspectedSurface) -> Pose:
+    """Return where a surface is in the frame of the camera by its markers alone; NotLocated if fewer than two are seen.
+
+    Its plane follows from homography (Collins & Bartoli, IPPE, 2014), to begin `locate_surface` with.
+    """
+    found = {} if surface.markers is None else find_markers(image, surface.markers)
+    if surface.markers is None or len(found) < LEAST_MARKERS:
+        raise NotLocated(f"{len(found)} of its markers are seen, and {LEAST_MARKERS} have to be")
+    cv2, centres, corners = load_opencv(), marker_centres(surface), square(surface.markers.side_m)
+    points = np.concatenate([centres[number] + corners for number in found])
+    _, turned, moved = cv2.solvePnP(
+        points, np.concatenate(list(found.values())), lens.matrix, lens.coefficients, flags=cv2.SOLVEPNP_IPPE
+    )
+    return Pose(np.asarray(moved, dtype=float).ravel(), np.asarray(cv2.Rodrigues(turned)[0], dtype=float))
+
+
 def _fit_markers(found: dict[int, Array], lens: Lens, surface: InspectedSurface, believed: Pose) -> LocatedSurface:
     """Return the pose that fits the markers, without the one that fits worst if it was moved."""
     pose, errors = _fit(found, lens, surface, believed)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
 
 from skillc_runtime.vision.cell_map import CLEAN, DIRTY, UNSEEN, CellMap
+from skillc_runtime.vision.classify_part import ClassifiedPart
+from skillc_runtime.vision.inspected_surface import square
 from skillc_runtime.vision.lens import Lens, project
 from skillc_runtime.vision.markers import Image
 from skillc_runtime.vision.opencv import load_opencv
@@ -47,4 +50,19 @@ def draw_cells(image: Image, lens: Lens, seen: CellMap) -> Image:
             if np.isfinite(corners).all():
                 at = np.rint(16 * corners).astype(np.int32).reshape(-1, 1, 2)
                 cv2.polylines(drawn, [at], True, COLOURS[int(seen.state[row, column])], 1, cv2.LINE_AA, 4)
+    return drawn
+
+
+def draw_parts(image: Image, lens: Lens, parts: Iterable[ClassifiedPart]) -> Image:
+    """Return an image (h, w, 3) with the outline of each face, green if good, else red as the spots of its defect."""
+    cv2, drawn = load_opencv(), np.array(image)
+    for each in parts:
+        colour = COLOURS[CLEAN if each.good else DIRTY]
+        corners = np.rint(16 * project(lens, each.pose, square(1.0) * (*each.size, 0.0))).astype(np.int32)
+        cv2.polylines(drawn, [corners.reshape(-1, 1, 2)], True, colour, 2, cv2.LINE_AA, 4)
+        rows, columns = np.nonzero(each.mask)
+        x, y = ((at + 0.5) / count - 0.5 for at, count in ((columns, each.mask.shape[1]), (rows, each.mask.shape[0])))
+        spots = np.stack([x * each.size[0], y * each.size[1], np.zeros(len(x))], axis=1)
+        for column, row in np.rint(project(lens, each.pose, spots)).astype(int) if len(spots) and not each.good else ():
+            cv2.circle(drawn, (int(column), int(row)), 1, colour, -1)
     return drawn

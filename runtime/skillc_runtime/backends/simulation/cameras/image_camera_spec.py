@@ -5,21 +5,26 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import msgspec
-import numpy as np
 
 from skillc_runtime.motion.pose import Pose
-from skillc_runtime.vision.inspected_surface import InspectedSurface, Markers
+from skillc_runtime.vision.inspected_surface import InspectedSurface
 from skillc_runtime.vision.lens import Lens
 from skillc_runtime.vision.part_look import PartLook
 from skillc_runtime.world.space.frames import moves_with, pose, size
+from skillc_runtime.world.space.image_facts import MARKER_SIZE, read_inspected, read_lens
 from skillc_runtime.world.space.part_looks import read_looks
-from skillc_runtime.world.state.data_sheet import DataSheet, SheetError, number_of, sheet_of
-from skillc_runtime.world.state.terms import INSPECTION_CAMERA, MANIPULATABLE, MOBILE_ROBOT, SKILLC, SURFACE
+from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
+from skillc_runtime.world.state.terms import (
+    IMAGE_SHEET,
+    INSPECTION_CAMERA,
+    MANIPULATABLE,
+    MOBILE_ROBOT,
+    SKILLC,
+    SURFACE,
+)
 from skillc_runtime.world.state.world_state import WorldState
 
-IMAGE_SHEET, MARKER_SIZE, FIRST_MARKER, DIRT_REMOVAL, LABEL_CODE, DEFECT_RATE = (
-    SKILLC + name for name in ("ImageSheet", "markerSize", "firstMarker", "dirtRemoval", "labelCode", "defectRate")
-)
+DIRT_REMOVAL, LABEL_CODE, DEFECT_RATE = (SKILLC + name for name in ("dirtRemoval", "labelCode", "defectRate"))
 
 
 class PrintedPart(msgspec.Struct, frozen=True):
@@ -70,28 +75,16 @@ def read_image_camera(state: WorldState) -> ImageCameraSpec | None:
     return ImageCameraSpec(
         individual=cameras[0],
         pose=pose(state, cameras[0]),
-        lens=_lens(sheet),
+        lens=read_lens(sheet),
         mount_m=sheet.number("mountError"),
         mount_rad=sheet.number("mountTilt"),
         full_well=sheet.number("fullWell"),
         read_noise=sheet.number("readNoise"),
         ring_light=number_of(state, sheet.individual, SKILLC + "ringLight", default=0.0),
-        surfaces={each: _surface(state, each) for each in marked},
+        surfaces={each: read_inspected(state, each) for each in marked},
         removal_s={each: number_of(state, each, DIRT_REMOVAL) for each in marked},
         parts={each: _printed(state, each) for each in _labelled(state)},
     )
-
-
-def _lens(sheet: DataSheet) -> Lens:
-    width, height = (round(sheet.number(name)) for name in ("imageWidth", "imageHeight"))
-    focal = sheet.number("focalPixels")
-    return Lens(width, height, focal, focal, (width - 1) / 2, (height - 1) / 2)
-
-
-def _surface(state: WorldState, surface: str) -> InspectedSurface:
-    first = round(number_of(state, surface, FIRST_MARKER, default=0.0))
-    markers = Markers(number_of(state, surface, MARKER_SIZE), first)
-    return InspectedSurface(np.array(size(state, surface)[:2]), markers=markers)
 
 
 def _labelled(state: WorldState) -> list[str]:
