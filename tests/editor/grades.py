@@ -39,6 +39,7 @@ skill Approve {
 impl by_judging of Approve {
     do seq {
         Judge(part)
+        for cup: Cup where cup.isOpen == true by count(c: Cup where c.isOpen == true) { wait 1 s }
         if not part.grade == Good { fail "the part is not good" }
     } on failure as why {
         if why.kind == "space" { wait 1 s }

@@ -29,6 +29,10 @@ HOVERS = [
     ("test a_part", 1, "says what comes of a body or a goal"),
     ("-> good", 4, "outcome good:"),
     ("expect", 1, "what holds at the end"),
+    ("count(", 1, "how many individuals of the class there are"),
+    ("where cup", 1, "for each individual"),
+    ("by count", 1, "for each individual"),
+    ("cup.isOpen", 1, "`cup`: the loop variable, a Cup"),
     ("skill Judge", 1, "what can be done"),
     ("not part.grade", 1, "the condition after it does not hold"),
 ]
@@ -43,6 +47,12 @@ OFFERS = [
     ("scene ", "    start Judge -> |", "good rework", "here"),
     ("scene ", "    expect no |", "plan", "contain grade"),
     ("TakePosture(arm)", "    }\n    verify never |", "Judge Approve TakePosture", "seq"),
+    ("Judge(part)", "        wait count(c: |", "Cup Location", "part"),
+    ("Judge(part)", "        wait count(c: Cup where c.|", "isOpen", "part"),
+    ("Judge(part)", "        for c: |", "Cup Location", "part"),
+    ("Judge(part)", "        for c: Cup |", "where by", "max"),
+    ("Judge(part)", "        for c: Cup where c.|", "isOpen", "part"),
+    ("Judge(part)", "        repeat |", "count sum", "part"),
     ("isOpen", "task go(x: |", "Grade Cup Length", "Judge"),
 ]
 

@@ -15,7 +15,7 @@ from skillc_compiler.ide.cursor_context import CursorContext, find_context
 from skillc_compiler.ide.descriptions import describe_keyword
 from skillc_compiler.ide.expectation import find_expected_type, find_ranges
 from skillc_compiler.ide.offers import Offer
-from skillc_compiler.ide.term_pages import format_bare_type
+from skillc_compiler.ide.term_pages import AGGREGATE_FORMS, format_bare_type
 from skillc_compiler.program.types import UNKNOWN, Measure, Thing, Type
 from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl.descriptions.constructs import CONSTRUCTS
@@ -139,7 +139,9 @@ def _in_members(analysis: Analysis, around: CursorContext, cursor: InCode) -> It
             yield from _narrower(analysis, around, cursor, before[-1].value.rstrip(":"))
         case (*_, "REFINE"):
             yield from _refinable(analysis, around, before)
-        case (*_, "IS") | (*_, ("EXISTS" | "FORALL"), "LABEL"):
+        case (*_, "IS") | (*_, ("EXISTS" | "FORALL" | "FOR"), "LABEL"):
+            yield from _classes(analysis, around, cursor)
+        case (*_, "LPAR", "LABEL") if len(before) > 2 and before[-3].value in AGGREGATE_FORMS:
             yield from _classes(analysis, around, cursor)
         case (*_, ("USES" | "SHARES")):
             yield from offers.offer_parameters(analysis, around.skill.parameters if around.skill else ())

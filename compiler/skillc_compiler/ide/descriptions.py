@@ -10,6 +10,7 @@ import msgspec
 from skillc_compiler.ide import term_pages
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.symbols import (
+    AggregateSymbol,
     ChoiceSymbol,
     FailurePartSymbol,
     FileSymbol,
@@ -55,6 +56,8 @@ def describe_symbol(analysis: Analysis, symbol: Symbol) -> str:
             return term_pages.choice_page(vocabulary, text, value)
         case FailurePartSymbol(name=name):
             return f"`{name}`: {term_pages.FAILURE[name]}" if name in term_pages.FAILURE else ""
+        case AggregateSymbol(name=name):
+            return term_pages.describe_aggregate(name)
         case QuantitySymbol(value=value, unit=unit):
             return term_pages.quantity_page(value, unit)
         case PrefixSymbol(name=name):

@@ -10,6 +10,7 @@ import msgspec
 
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.symbols import (
+    AggregateSymbol,
     ChoiceSymbol,
     FailurePartSymbol,
     FileSymbol,
@@ -112,6 +113,7 @@ def _kind_of_value(
     | IndividualSymbol
     | ChoiceSymbol
     | FailurePartSymbol
+    | AggregateSymbol
     | QuantitySymbol
     | FileSymbol
     | SceneSymbol,
@@ -127,6 +129,8 @@ def _kind_of_value(
             return "enumMember"
         case FailurePartSymbol():
             return "property"
+        case AggregateSymbol():
+            return "function"
         case QuantitySymbol():
             return "number"
         case FileSymbol() | SceneSymbol():

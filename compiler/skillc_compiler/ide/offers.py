@@ -11,9 +11,15 @@ from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.cursor_context import CursorContext
 from skillc_compiler.ide.descriptions import format_parameter
 from skillc_compiler.ide.imports import find_hidden_terms, find_importable
-from skillc_compiler.ide.term_pages import FAILURE, format_bare_type, format_function_head
+from skillc_compiler.ide.term_pages import (
+    AGGREGATE_FORMS,
+    FAILURE,
+    describe_aggregate,
+    format_bare_type,
+    format_function_head,
+)
 from skillc_compiler.program.typed import Parameter
-from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, Type, describe_type, fits, type_of
+from skillc_compiler.program.types import BOOL, INT, UNKNOWN, Measure, Thing, Type, describe_type, fits, type_of
 from skillc_compiler.resolve.names import Kind
 from skillc_compiler.resolve.type_names import BUILT_IN
 from skillc_compiler.resolve.values import ExpectedType
@@ -119,6 +125,10 @@ def offer_values(around: CursorContext, wanted: ExpectedType) -> Iterator[Offer]
             yield Offer(
                 name, "function", format_function_head(function).removeprefix("function "), function.comment, rank=3
             )
+    if not wanted.values and (wanted.type in (INT, UNKNOWN) or isinstance(wanted.type, Measure)):
+        for name, form in AGGREGATE_FORMS.items():
+            if name != "count" or fits(vocabulary, INT, wanted.type):
+                yield Offer(name, "function", form.removeprefix(name), describe_aggregate(name), rank=4)
     yield from offer_individuals(around, wanted.type)
     if wanted.type != UNKNOWN and not wanted.values and not isinstance(wanted.type, Thing):
         yield from _read_properties(around, wanted.type)

@@ -95,6 +95,12 @@ class FailurePartSymbol(msgspec.Struct, frozen=True):
     name: str
 
 
+class AggregateSymbol(msgspec.Struct, frozen=True):
+    """A function of the individuals of a class, such as `count(x: Class where C)`."""
+
+    name: str
+
+
 class QuantitySymbol(msgspec.Struct, frozen=True):
     """A number with a unit."""
 
@@ -128,6 +134,7 @@ Symbol: TypeAlias = (
     | IndividualSymbol
     | ChoiceSymbol
     | FailurePartSymbol
+    | AggregateSymbol
     | QuantitySymbol
     | FileSymbol
     | SceneSymbol

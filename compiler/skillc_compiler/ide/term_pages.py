@@ -42,6 +42,25 @@ FAILURE = {
 """What is told of a failure, by the name after the `.`."""
 
 
+AGGREGATE_FORMS = {
+    "count": "count(x: Class where C)",
+    **{name: f"{name}(x: Class where C, VALUE)" for name in ("sum", "min", "max", "mean")},
+}
+"""The functions of the individuals of a class, with how each is written."""
+_AGGREGATES = {
+    "count": "how many individuals of the class there are of which the condition holds",
+    "sum": "the sum of the value of each individual of which the condition holds; 0 if there are none",
+    "min": "the least value of the individuals of which the condition holds; of none there is none",
+    "max": "the greatest value of the individuals of which the condition holds; of none there is none",
+    "mean": "the mean of the values of the individuals of which the condition holds; of none there is none",
+}
+
+
+def describe_aggregate(name: str) -> str:
+    """Return the page of a function of the individuals of a class; empty for any other name."""
+    return format_page(AGGREGATE_FORMS[name], _AGGREGATES[name]) if name in AGGREGATE_FORMS else ""
+
+
 def term_page(vocabulary: Vocabulary, kind: Kind, iri: str) -> str:
     """Return the page of a class, relation or property, or an empty string for an unknown one."""
     match kind:

@@ -8,6 +8,7 @@ from typing import TypeAlias, assert_never
 import msgspec
 
 from skillc_compiler.ide.symbols import (
+    AggregateSymbol,
     ChoiceSymbol,
     FailurePartSymbol,
     FunctionSymbol,
@@ -148,6 +149,7 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
             yield from self.condition(inner, written.when)
 
     def _aggregate(self, known: Locals, written: s.Aggregate) -> Iterator[Occurrence]:
+        yield Occurrence(written.function.span, AggregateSymbol(written.function.text))
         symbol = LocalSymbol("variable", written.span, written.variable.text)
         yield from self.bound(known, written.variable, symbol)
         yield from self.members({**known, written.variable.text: symbol}, written.cls, written.where, written.value)
