@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.initial_state import initial_state
+from skillc_compiler.analysis.knowledge.canonical import canonical_condition
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, leads_through, path_length
@@ -20,6 +21,7 @@ from skillc_compiler.analysis.summaries import WriteSummaries
 from skillc_compiler.program.typed import Call, Implementation, Program, Property, TypedNode, VerifyEvent
 from skillc_compiler.program.walk import calls_in
 from skillc_dsl.source import Span
+from skillc_model.conditions import Compare, Variable
 
 Monitor = tuple[int, bool]
 
@@ -115,6 +117,8 @@ class VerifyMonitor:
         match self.property.pattern:
             case "never" if first and path is not None:
                 self._violate(path)
+            case "never" if self._depth == 0 and self._depends_on_parameter(run, state):
+                self.open_ = True
             case "outside" if first and path is not None and not inside:
                 self._violate(path)
             case "before" if first:
@@ -128,6 +132,20 @@ class VerifyMonitor:
             case _:
                 pass
         return state.replace(monitor=(number, inside)) if number != state.monitor[0] else state
+
+    def _depends_on_parameter(self, run: Exploration, state: State) -> bool:
+        """Whether a value that was set to a parameter is forbidden for some of what the parameter may be."""
+        event = self.property.first.condition
+        asked = canonical_condition(run.types, state, event.meaning) if event is not None else None
+        if not isinstance(asked, Compare) or evaluate(run.types, state, asked) is not None:
+            return False
+        set_to = (
+            fact.right
+            for fact, true in state.facts.items()
+            if true and isinstance(fact, Compare) and (fact.left, fact.operator) == (asked.left, "==")
+        )
+        names = (value for value in set_to if isinstance(value, Variable) and value.name in run.stable)
+        return any(evaluate(run.types, state, Compare(name, asked.operator, asked.right)) is None for name in names)
 
     def _holds(self, run: Exploration, state: State, event: VerifyEvent | None) -> bool:
         return (
