@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 
 from lsprotocol import types
 from pygls.exceptions import JsonRpcInvalidParams
@@ -15,6 +16,7 @@ from skillc.lsp.positions import PositionConverter
 from skillc.lsp.scenes import read_scene_texts
 from skillc.lsp.session import Session
 from skillc_compiler.ide.completion import complete
+from skillc_compiler.ide.creations import find_creations
 from skillc_compiler.ide.imports import make_import, make_use
 from skillc_compiler.ide.offers import Offer
 from skillc_compiler.ide.rename import NotRenamable, find_renamable
@@ -90,7 +92,13 @@ def offer_code_actions(session: Session, params: types.CodeActionParams) -> list
     here = [problem for problem in view.analysis.problems if problem.span.path == view.path]
     touched = _touched(params, session.lines(view), here)
     tried = view.analysis.with_useful_fixes([each for each in here if each in touched or (each.fix and each.fix.safe)])
-    return _actions(session, params, view.root, session.lines(view), tried)
+    lines = session.lines(view)
+    found = _actions(session, params, view.root, lines, tried)
+    if not _wanted(params, types.CodeActionKind.QuickFix.value):
+        return found
+    made = find_creations(view.analysis, touched)
+    cured = [replace(each.problem, fix=each.edit) for each in made]
+    return [*found, *(_quick_fix(session, view.root, lines, each) for each in cured)]
 
 
 def _in_turtle(session: Session, params: types.CodeActionParams) -> list[types.CodeAction]:
