@@ -62,3 +62,12 @@ async def test_what_is_asked_of_skills_alone_has_no_answer_for_scenes(desk: Desk
     assert await desk.client.text_document_hover_async(types.HoverParams(document, position)) is None
     assert await desk.client.text_document_folding_range_async(types.FoldingRangeParams(document)) is None
     assert desk.client.error is None
+
+
+async def test_an_individual_leads_to_its_scene(desk: Desk) -> None:
+    (desk.folder / "cell.ttl").write_text(RIGHT)
+    at = desk.at("go.skill", TASK.replace("lab:Shelf-1 is", "lab:Sh|elf-1 is"))
+    (place,) = await desk.client.text_document_definition_async(types.DefinitionParams(*at)) or ()
+    assert isinstance(place, types.Location)
+    assert place.uri == desk.uri("cell.ttl")
+    assert (place.range.start, place.range.end) == (types.Position(2, 0), types.Position(2, 11))

@@ -13,7 +13,7 @@ from pygls.uris import from_fs_path, to_fs_path
 
 from skillc.lsp import files
 from skillc.lsp.files import Root
-from skillc.lsp.scenes import find_choices, find_problems, read_scenes
+from skillc.lsp.scenes import find_choices, find_problems, find_statements, read_scenes
 from skillc.services.library.files import LibraryFiles, edition_of
 from skillc.services.library.libraries import load_vocabulary_with
 from skillc_compiler.ide.analysis import Analysis, AnalysisInput, analyse
@@ -23,7 +23,7 @@ from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import normalise_text
 from skillc_dsl.parsing.reparse import parse_with
 from skillc_dsl.query import Memo
-from skillc_dsl.source import Source
+from skillc_dsl.source import Source, Span
 from skillc_rdf.vocabulary.conflicts import judge_conflicts
 
 if TYPE_CHECKING:
@@ -163,6 +163,10 @@ class Libraries:
     def choices(self, view: FileView, lines: range) -> Choices:
         """Return how the calls in the tasks and tests of some lines of a file go in their scenes."""
         return find_choices(self._scenes[view.root], view.analysis, view.path, lines)
+
+    def statements(self, root: Root, iri: str) -> tuple[Span, ...]:
+        """Return where the scenes of a library state the class of an individual."""
+        return find_statements(self._scenes[root], iri)
 
     def is_symbolic(self, root: Root) -> bool:
         """Whether the tasks of a library run in cells without bodies."""

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
 
 from lsprotocol import types
 
 from skillc.lsp.files import Root
 from skillc.lsp.positions import PositionConverter, count_units
+from skillc.lsp.scenes import read_text
 from skillc.lsp.session import At, Session
 from skillc_compiler.ide import highlighting, outline, places
 from skillc_compiler.ide.calls import find_signature
 from skillc_compiler.ide.descriptions import find_hover
 from skillc_compiler.ide.outline import OutlineEntry
-from skillc_compiler.ide.symbols import ImplementationSymbol, SkillSymbol
+from skillc_compiler.ide.symbols import ImplementationSymbol, IndividualSymbol, SkillSymbol
 from skillc_dsl.source import Source, Span
 
 TOKEN_KINDS = (
@@ -47,8 +49,12 @@ def show_hover(session: Session, params: types.HoverParams) -> types.Hover | Non
 
 
 def find_definition(session: Session, params: types.DefinitionParams) -> list[types.Location]:
-    """Return where the name under the cursor is declared."""
+    """Return where the name under the cursor is declared; an individual where a scene states its class."""
     at = session.at(params)
+    there = places.find_symbols(at.view.analysis, at.view.path, at.line, at.column)
+    named = [each.symbol.iri for each in there if isinstance(each.symbol, IndividualSymbol)]
+    if named:
+        return _in_scenes(session, session.libraries.statements(at.view.root, named[0]))
     return _locations(session, at, places.find_definitions(at.view.analysis, at.view.path, at.line, at.column))
 
 
@@ -129,6 +135,13 @@ def show_signature(session: Session, params: types.SignatureHelpParams) -> types
     text = types.MarkupContent(types.MarkupKind.Markdown, found.documentation)
     information = types.SignatureInformation(found.head, text, parameters, found.active)
     return types.SignatureHelp([information], 0, found.active)
+
+
+def _in_scenes(session: Session, spans: Sequence[Span]) -> list[types.Location]:
+    spans = [each for each in spans if Path(each.path).is_file()]
+    texts = {each.path: read_text(Path(each.path), session.libraries.buffers) for each in spans}
+    lines = PositionConverter(texts, session.encoding)
+    return [types.Location(Path(each.path).absolute().as_uri(), lines.range(each)) for each in spans]
 
 
 def _locations(session: Session, at: At, spans: Iterable[Span]) -> list[types.Location]:
