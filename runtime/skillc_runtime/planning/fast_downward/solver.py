@@ -34,8 +34,10 @@ from skillc_runtime.planning.process import (
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.platforms.signals import FILE_TOO_LARGE
 
-HEAD_START_S = 0.5
-"""How much later LAMA starts than A*, which has solved most tasks by then."""
+HEAD_START_S = 3.0
+"""How much later LAMA starts than A*, which has solved most tasks by then: both together take twice the CPU time."""
+HEAD_START_SHARE = 0.1
+"""The most of the time that is left for which LAMA waits."""
 
 MAX_COST = 2**30
 """The largest cost that is trusted: the planner's costs are 32-bit integers, which may overflow."""
@@ -134,7 +136,8 @@ class FastDownward:
                 )
                 with RunningProcess(command, folder, f"proving{index}.txt", self._limits, folder / "task.sas") as proof:
                     if finder is None:
-                        wait_for_end((proof,), cancel.limited(HEAD_START_S))
+                        head_start = cancel.share(min(heuristic.share, HEAD_START_SHARE)).limited(HEAD_START_S)
+                        wait_for_end((proof,), head_start, watch.look)
                         if not _has_proved(proof.outcome()) and cancel.reason is None:
                             finder = beside.enter_context(
                                 RunningProcess((*self._programs.driver, *finding), folder, "finding.txt", self._limits)
