@@ -56,25 +56,51 @@ class Assign(msgspec.Struct, frozen=True, tag="assign"):
     value: Expression
 
 
+class Adjust(msgspec.Struct, frozen=True, tag="adjust"):
+    """The number is between `low` and `high` afterwards, which are read in the state before; None is no bound.
+
+    It is exactly the value that both are, if they are the same.
+    """
+
+    subject: Variable | Individual
+    property: str
+    low: Expression | None
+    high: Expression | None
+
+
+SingleEffect: TypeAlias = Assert | Retract | Assign | Adjust
+
+
 class ForEach(msgspec.Struct, frozen=True, tag="for each"):
     """The effect happens to each individual of the class, called `variable`, of which the condition held before."""
 
     variable: str
     cls: str
     when: Condition
-    effect: Assert | Retract | Assign
+    effect: SingleEffect
 
 
-Effect: TypeAlias = Assert | Retract | Assign | ForEach
+Effect: TypeAlias = SingleEffect | ForEach
 
 
-def single_effect(effect: Effect) -> Assert | Retract | Assign:
+def single_effect(effect: Effect) -> SingleEffect:
     """Return what an effect does to one individual."""
     return effect.effect if isinstance(effect, ForEach) else effect
 
 
-def wanted_by(effect: Assert | Retract | Assign) -> Condition:
-    """Return the condition that an effect makes true."""
+def exact_value(effect: Adjust) -> Expression | None:
+    """Return which value a number has afterwards; None if only bounds of it are known."""
+    return effect.low if effect.low == effect.high else None
+
+
+def bounds_of(effect: SingleEffect) -> tuple[Expression, ...]:
+    """Return the expressions that are read in the state before; none unless the effect changes a number."""
+    bounds = (effect.low, effect.high) if isinstance(effect, Adjust) else ()
+    return tuple(each for each in bounds if each is not None)
+
+
+def wanted_by(effect: SingleEffect) -> Condition:
+    """Return the condition that an effect makes true; the bounds of a number in it are read in the state before."""
     match effect:
         case Assert(subject, relation, object_):
             return Holds(subject, relation, object_)
@@ -82,5 +108,13 @@ def wanted_by(effect: Assert | Retract | Assign) -> Condition:
             return Not(Holds(subject, relation, object_))
         case Assign(subject, property_, value):
             return Compare(PropertyOf(subject, property_), "==", value)
+        case Adjust(subject, property_, low, high):
+            number = PropertyOf(subject, property_)
+            exact = exact_value(effect)
+            if exact is not None:
+                return Compare(number, "==", exact)
+            least = () if low is None else (Compare(number, ">=", low),)
+            most = () if high is None else (Compare(number, "<=", high),)
+            return And((HasProperty(subject, property_), *least, *most))
         case _:
             assert_never(effect)

@@ -8,6 +8,7 @@ from typing import assert_never
 import msgspec
 
 from skillc_model.conditions import (
+    Adjust,
     Assert,
     Assign,
     Compare,
@@ -22,6 +23,7 @@ from skillc_model.conditions import (
     PropertyOf,
     Retract,
     Variable,
+    bounds_of,
     single_effect,
 )
 from skillc_model.skills import Implementation, Outcome, Post, Skill, SkillLibrary
@@ -137,6 +139,7 @@ def terms_read_by(skill: Skill, library: SkillLibrary) -> frozenset[str]:
         read |= terms_read(result.condition)
         for effect in result.effects:
             read |= terms_read(effect.when) if isinstance(effect, ForEach) else frozenset()
+            read = read.union(*map(terms_read, bounds_of(single_effect(effect))))
         single = map(single_effect, result.effects)
         asserted = (effect.relation for effect in single if isinstance(effect, Assert))
         implied = (each.relation for relation in asserted for each in vocabulary.closure.implied[relation])
@@ -165,7 +168,7 @@ def terms_written_by(effect: Effect, vocabulary: Vocabulary) -> frozenset[str]:
     """
     closure, single = vocabulary.closure, single_effect(effect)
     match single:
-        case Assign(property=iri):
+        case Assign(property=iri) | Adjust(property=iri):
             return frozenset({iri})
         case Retract(relation=iri):
             return frozenset(each.relation for each in closure.canonical_sources.get(iri, ()))

@@ -10,6 +10,7 @@ from typing import Any, TypeVar, assert_never
 import msgspec
 
 from skillc_model.conditions import (
+    Adjust,
     Aggregate,
     And,
     Anything,
@@ -48,7 +49,7 @@ ALWAYS, NEVER = And(()), Or(())
 _PLACES_OF_INDIVIDUALS: Mapping[type, tuple[str, ...]] = {
     **dict.fromkeys((Holds, Assert, Retract), ("subject", "object")),
     Same: ("left", "right"),
-    **dict.fromkeys((HasProperty, IsA, Assign), ("subject",)),
+    **dict.fromkeys((HasProperty, IsA, Assign, Adjust), ("subject",)),
 }
 
 

@@ -13,4 +13,9 @@ _NEAR_ZERO = 1e-12
 
 def is_above(value: float, bound: float) -> bool:
     """Whether `value` is above `bound` by more than rounding: 3 * 0.1 is not above 0.3."""
-    return value > bound and not isclose(value, bound, rel_tol=ROUNDING, abs_tol=_NEAR_ZERO)
+    return value > bound and not is_same(value, bound)
+
+
+def is_same(one: float, other: float) -> bool:
+    """Whether two numbers are equal but for rounding."""
+    return one == other or isclose(one, other, rel_tol=ROUNDING, abs_tol=_NEAR_ZERO)

@@ -9,6 +9,7 @@ import msgspec
 
 from skillc_dsl.position import Position
 from skillc_model.conditions import (
+    Adjust,
     And,
     Anything,
     Assert,
@@ -61,8 +62,8 @@ class Requirement(msgspec.Struct, frozen=True, kw_only=True):
 class Post(msgspec.Struct, frozen=True, kw_only=True):
     """A postcondition with its effects; a sensed one is only checked, never written.
 
-    What effects on each individual that fulfils a condition have made so is no part of `condition`: it depends on the
-    state before.
+    What changes of numbers, and effects on each individual that fulfils a condition, have made so is no part of
+    `condition`: it depends on the state before.
     """
 
     label: str
@@ -75,11 +76,13 @@ class Post(msgspec.Struct, frozen=True, kw_only=True):
     @property
     def achieved(self) -> Condition:
         """The condition under which its effects would change nothing."""
-        several = [each for each in self.effects if isinstance(each, ForEach)]
-        if not several:
-            return self.condition
-        done = (Forall(each.variable, each.cls, Or((Not(each.when), wanted_by(each.effect)))) for each in several)
-        return And((self.condition, *done))
+        done: list[Condition] = []
+        for each in self.effects:
+            if isinstance(each, ForEach):
+                done.append(Forall(each.variable, each.cls, Or((Not(each.when), wanted_by(each.effect)))))
+            elif isinstance(each, Adjust):
+                done.append(wanted_by(each))
+        return And((self.condition, *done)) if done else self.condition
 
 
 class Outcome(msgspec.Struct, frozen=True, kw_only=True):

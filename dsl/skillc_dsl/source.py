@@ -34,6 +34,10 @@ class Span(NamedTuple):
         """Return the span from the start of this one to the end of `end`, in the same file."""
         return Span(self.path, self.line, self.column, end.end_line, end.end_column)
 
+    def gap(self, next_: Span) -> Span:
+        """Return the span between this one and a later one."""
+        return Span(self.path, self.end_line, self.end_column, next_.line, next_.column)
+
     def begins_in(self, other: Span) -> bool:
         """Whether this span starts within another one of the same file."""
         return (other.line, other.column) <= (self.line, self.column) < (other.end_line, other.end_column)

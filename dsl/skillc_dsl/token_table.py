@@ -55,7 +55,7 @@ TYPES = (
 NAME = r"[^\W\d]\w*"
 NUMBER = r"\d+(\.\d+)?([eE][+-]?\d+)?"
 UNIT = "|".join(re.escape(unit) for unit in sorted(UNITS, key=lambda unit: (-len(unit), unit)))
-OPERATORS = ("->", "..", "==", "!=", "<=", ">=", "=", "<", ">", "+", "-", "*", "/", ".")
+OPERATORS = ("->", "..", "==", "!=", "<=", ">=", "+=", "-=", ":=", "=", "<", ">", "+", "-", "*", "/", ".")
 PUNCTUATION = ("{", "}", "(", ")", "[", "]", ",", ":")
 
 PATTERNS: MappingProxyType[TokenKind, str] = MappingProxyType(

@@ -95,7 +95,6 @@ EXAMPLES = (
     ("member", "pre a hasA b == true", "pre a hasA b"),
     ("member", "post a hasA b = false", "post not a hasA b"),
     ("member", "post delete a hasA b", "post not a hasA b"),
-    ("member", "post a.m := 1 kg", "post a.m == 1 kg"),
     ("member", "pre a has m == 1 kg", "pre a.m == 1 kg"),
     ("member", "pre exists(a.m)", "pre a has m"),
     ("member", "pre: a hasA b", "pre a hasA b"),

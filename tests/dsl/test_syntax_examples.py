@@ -59,7 +59,7 @@ def test_the_vocabulary() -> None:
         ("transitive", None),
         ("sub", "touches"),
     ]
-    assert shape(force) == ("PropertyDeclaration", "normalForce", "Surface", "Force", "")
+    assert shape(force) == ("PropertyDeclaration", "normalForce", "Surface", "Force", "", None)
     assert isinstance(lanes, s.FunctionDeclaration)
     assert [p.name.text for p in lanes.parameters] == ["surface", "width", "overlap"]
     assert shape(lanes.result) == ("ListOf", "Pose")

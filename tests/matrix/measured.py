@@ -19,7 +19,7 @@ from skillc_model.pddl.planning import make_planning_domain
 from skillc_model.skills import SkillLibrary
 from skillc_model.tree import Node
 from skillc_runtime.execution.tree.run import TreeRun
-from skillc_runtime.planning.problem.pose import pose_problem
+from skillc_runtime.planning.problem.chains import unroll_chains
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
@@ -73,10 +73,11 @@ def in_pddl(library: SkillLibrary) -> str:
     from emit.unified import disagreements, temporal  # unified-planning takes seconds to import
 
     excluded = [each.reason for each in make_planning_domain(library).excluded]
-    posed = pose_problem(library, scene(library), And(()))
+    unrolled = unroll_chains(library, scene(library), And(()))
+    posed = unrolled.pose()
     if not posed.problem.domain.actions:
         return f"left out: {excluded[0]}" if excluded else "not planned"
-    wrong, tried = disagreements(posed, scene(library), depth=1)
+    wrong, tried = disagreements(posed, unrolled.state, depth=1)
     assert wrong == []
     if any(each.duration or each.hold or each.uses for each in library.skills.values()):
         assert {each.name for each in temporal(posed.problem).actions} == set(posed.problem.domain.action)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from skillc_compiler.program.labels import label_values
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, TypedCondition, TypedExpression
+from skillc_compiler.program.typed import NumberChange, Program, TypedCondition, TypedExpression
 from skillc_compiler.program.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe_type, fits
 from skillc_compiler.program.walk import all_conditions, all_values
 from skillc_compiler.resolve.aggregates import aggregate_type
@@ -36,6 +36,8 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for condition in all_conditions(program):
         if isinstance(condition.meaning, Compare):
             yield from _check_comparison(program, condition, condition.meaning)
+        if condition.change is not None:
+            yield from _check_change(program, condition.change)
 
 
 def _check_arithmetic(value: TypedExpression, meaning: Arithmetic) -> Iterator[Diagnostic]:
@@ -74,6 +76,18 @@ def _check_comparison(program: Program, condition: TypedCondition, meaning: Comp
             f"`{meaning.operator}` compares numbers, and this is {describe_type(left)}",
             help="compare with `==` or `!=`",
         )
+
+
+def _check_change(program: Program, change: NumberChange) -> Iterator[Diagnostic]:
+    of, operator = change.of, change.operator
+    if not (of.type in (INT, UNKNOWN) or isinstance(of.type, Measure)):
+        message = f"`{operator}` changes numbers, and this is {describe_type(of.type)}"
+        yield Diagnostic("wrong-operands", of.span, message, help="say what is so afterwards with `==`")
+        return
+    for amount in dict.fromkeys(each for each in (change.low, change.high) if each is not None):
+        after = amount.type if operator == ":=" else arithmetic_type(operator[0], of.type, amount.type)
+        if after is None or not fits(program.vocabulary, after, of.type):
+            yield _problem(amount.span, operator, of.type, amount.type, (of, amount))
 
 
 def _problem(span: Span, operator: str, left: Type, right: Type, sides: Sequence[TypedExpression]) -> Diagnostic:

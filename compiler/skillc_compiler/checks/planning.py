@@ -4,14 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.logic.effects import effects_of
+from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Skill
 from skillc_compiler.program.types import INT, Measure, Thing, UnknownType, describe_type, type_of
 from skillc_dsl.diagnostics import Diagnostic, Label
-from skillc_model.conditions import Assign, ForEach
+from skillc_model.conditions import (
+    Adjust,
+    Assign,
+    Effect,
+    Individual,
+    Invoke,
+    PropertyOf,
+    Variable,
+    exact_value,
+    single_effect,
+)
 from skillc_model.pddl.kebab import to_kebab
+from skillc_model.traversal import free_variables, walk
 from skillc_rdf.vocabulary.types import local_name
 
 NAMES = ("no-effect", "unplannable-parameter", "numeric-effect", "colliding-names")
@@ -62,21 +73,36 @@ def _check_parameters(skill: Skill) -> Iterator[Diagnostic]:
 
 def _check_numbers(program: Program, skill: Skill) -> Iterator[Diagnostic]:
     for post in (requirement for requirement in skill.requirements if requirement.says_what_comes):
-        for each in effects_of(post.condition):
-            effect = each.effect if isinstance(each, ForEach) else each
-            if not isinstance(effect, Assign) or effect.property not in program.vocabulary.properties:
+        for effect in effects_of(post.condition):
+            single = None if isinstance(effect, NoEffect) else single_effect(effect)
+            if not isinstance(single, Assign | Adjust) or single.property not in program.vocabulary.properties:
                 continue
-            if isinstance(type_of(program.vocabulary.properties[effect.property].type), Measure) or (
-                type_of(program.vocabulary.properties[effect.property].type) == INT
-            ):
+            kind = type_of(program.vocabulary.properties[single.property].type)
+            if (isinstance(kind, Measure) or kind == INT) and not _is_plannable(effect, skill, post.kind):
                 yield Diagnostic(
                     "numeric-effect",
                     post.condition.span,
-                    f"the planner does not support numbers: it leaves `{skill.name}` out, which changes "
-                    f"`{local_name(effect.property)}`",
-                    help="add `noplan`, or state what is achieved by a relation or a truth value",
+                    f"the planner leaves `{skill.name}` out: how it changes `{local_name(single.property)}` depends on "
+                    "what is known only at run time",
+                    help="add `noplan`, or let it depend on numbers of `in` and `infer` parameters alone",
                     severity="warning",
                 )
+
+
+def _is_plannable(effect: Effect | NoEffect, skill: Skill, kind: str) -> bool:
+    """Whether a planner can compute a number: from constants and numbers of things that it chooses."""
+    match effect:
+        case Adjust():
+            value = exact_value(effect)
+        case Assign():
+            value = effect.value
+        case _:
+            return False
+    chosen = {each.name for each in skill.parameters if each.direction in ("in", "infer")}
+    if value is None or kind != "post" or not free_variables(value) <= chosen:
+        return False
+    reads = [each for each in walk(value) if isinstance(each, PropertyOf | Invoke)]
+    return all(isinstance(each, PropertyOf) and isinstance(each.of, Variable | Individual) for each in reads)
 
 
 def _check_names(program: Program) -> Iterator[Diagnostic]:

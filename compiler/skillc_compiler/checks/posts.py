@@ -12,9 +12,10 @@ from skillc_compiler.logic.related import TopicIndex, topics_of_effect, topics_o
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Program, Requirement
-from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
 from skillc_model.conditions import (
+    Adjust,
     Anything,
     Assert,
     Assign,
@@ -120,18 +121,20 @@ def _is_assigned(fact: TypedFact) -> bool:
 
 
 def _not_literal(part: NoEffect) -> Diagnostic:
-    return Diagnostic(
-        "post-not-literal",
-        part.span,
-        f"this does not say what is true afterwards: {part.reason}",
-        help="write relations and `property == value` joined by `and`, or mark the post `sensed`",
-    )
+    help_ = "write relations and `property == value` joined by `and`, or mark the post `sensed`"
+    fix = None
+    if part.around is not None:
+        left, amount = part.around
+        help_ = f"write `{part.operator}`, which changes the value from what it was before"
+        fix = Fix(left.gap(amount), f" {part.operator} ", f"write `{part.operator}`")
+    message = f"this does not say what is true afterwards: {part.reason}"
+    return Diagnostic("post-not-literal", part.span, message, help=help_, fix=fix)
 
 
 def _check_computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -> Iterator[Diagnostic]:
     term: PropertyTerm | RelationTerm | None
     single = single_effect(effect)
-    if isinstance(single, Assign):
+    if isinstance(single, Assign | Adjust):
         term = vocabulary.properties.get(single.property)
     else:
         term = vocabulary.relations.get(single.relation)
@@ -182,6 +185,9 @@ def _find_conflict(conflicts: Conflicts, effect: Effect, other: Effect) -> tuple
         case Assign(value=Literal() as one), Assign(value=Literal() as two):
             if (effect.subject, effect.property) == (other.subject, other.property) and one != two:
                 return "two-values", f"`{local_name(effect.property)}` is given two values"
+        case (Adjust() | Assign() as effect, Adjust() | Assign() as other) if Adjust in (type(effect), type(other)):
+            if (effect.subject, effect.property) == (other.subject, other.property):
+                return "contradicting-posts", f"another post says what becomes of `{local_name(effect.property)}`"
         case (Assert() as true, Retract() as false) | (Retract() as false, Assert() as true):
             if any(covers(_holds(false), link) for link in conflicts.implied(_holds(true))):
                 return "contradicting-posts", _OPPOSITE

@@ -13,7 +13,8 @@ from skillc_compiler.resolve.values import ANYTHING, ExpectedType
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.units import DIMENSIONS, TIME, UNITS
 
-_COMPARISONS = ("EQUALS", "UNEQUAL", "LESS", "LESS_EQUAL", "MORE", "MORE_EQUAL")
+_CHANGES = ("PLUS_EQUAL", "MINUS_EQUAL", "COLON_EQUAL")
+_COMPARISONS = ("EQUALS", "UNEQUAL", "LESS", "LESS_EQUAL", "MORE", "MORE_EQUAL", *_CHANGES)
 _TIMES = ("DURATION", "KEEP", "WAIT", "TIMEOUT")
 _COUNTS = ("RETRY", "REPEAT")
 _SAME_AS_LEFT = ("PLUS", "MINUS")

@@ -113,9 +113,8 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
                 yield from self._side(known, subject)
                 yield from self.term("relation", name)
                 yield from self._side(known, object_)
-            case s.Compare(left=left, right=right):
-                yield from self._compared(known, left)
-                yield from self._compared(known, right)
+            case s.Compare() | s.Change():
+                yield from self._comparison(known, written)
             case s.Has(subject=subject, property=name):
                 yield from self.value(known, subject)
                 yield from self.read(name)
@@ -168,9 +167,20 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
         """Yield the occurrence of a name that is bound here; if it is already in `known`, it refers to that symbol."""
         yield Occurrence(name.span, known.get(name.text, symbol), declares=name.text not in known)
 
-    def _side(self, known: Locals, written: s.Value | s.Anything) -> Iterator[Occurrence]:
-        if not isinstance(written, s.Anything):
+    def _side(self, known: Locals, written: s.Value | s.Anything | None) -> Iterator[Occurrence]:
+        if written is not None and not isinstance(written, s.Anything):
             yield from self.value(known, written)
+
+    def _comparison(self, known: Locals, written: s.Compare | s.Change) -> Iterator[Occurrence]:
+        match written:
+            case s.Compare(left=left, right=right):
+                yield from self._compared(known, left)
+                yield from self._compared(known, right)
+            case s.Change(property=of, amount=amount, to=to):
+                for each in (of, amount, to):
+                    yield from self._side(known, each)
+            case _:
+                assert_never(written)
 
     def _compared(self, known: Locals, written: s.Value) -> Iterator[Occurrence]:
         """Yield the occurrences on one side of a comparison; a bare name that is not a local name is a choice."""

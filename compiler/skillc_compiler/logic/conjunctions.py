@@ -38,7 +38,7 @@ def facts_in(
 ) -> Iterator[TypedFact]:
     """Yield the facts that are certain if the condition holds, or if it does not."""
     match condition.meaning:
-        case _ if condition.conditional is not None:
+        case _ if condition.is_effect:
             pass
         case Not():
             yield from facts_in(condition.parts[0], not holds, source or condition)

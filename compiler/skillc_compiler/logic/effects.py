@@ -6,11 +6,13 @@ from collections.abc import Iterator
 
 import msgspec
 
-from skillc_compiler.program.typed import EffectScope, TypedCondition
+from skillc_compiler.program.typed import EffectScope, NumberChange, TypedCondition, TypedExpression
 from skillc_dsl.source import Span
 from skillc_model.conditions import (
+    Adjust,
     And,
     Anything,
+    Arithmetic,
     Assert,
     Assign,
     Compare,
@@ -27,19 +29,27 @@ from skillc_model.conditions import (
     Retract,
     Variable,
 )
+from skillc_model.rewriting import fold
 from skillc_model.traversal import walk
 
 
 class NoEffect(msgspec.Struct, frozen=True):
-    """A part of a postcondition that does not determine the world afterwards, and why."""
+    """A part of a postcondition that does not determine the world afterwards, and why.
+
+    It would with `operator` in the place of what stands between its two spans.
+    """
 
     span: Span
     reason: str
+    operator: str = ""
+    around: tuple[Span, Span] | None = None
 
 
 def effects_of(post: TypedCondition) -> tuple[Effect | NoEffect, ...]:
     """Return the effects of a postcondition, a conjunction of literals; any other part gives a NoEffect."""
     match post.meaning:
+        case _ if post.change is not None:
+            return (_adjust(post, post.change),)
         case _ if post.conditional is not None:
             body, when = post.parts
             return tuple(_for_each(body, post.conditional, when.meaning))
@@ -51,6 +61,22 @@ def effects_of(post: TypedCondition) -> tuple[Effect | NoEffect, ...]:
             return (_negative_effect(post, post.parts[0]),)
         case _:
             return (_positive_effect(post),)
+
+
+def _adjust(post: TypedCondition, change: NumberChange) -> Effect | NoEffect:
+    match change.of.meaning:
+        case PropertyOf(of=Variable() | Individual() as of, property=name) as number:
+            low, high = (_value_after(number, change.operator, each) for each in (change.low, change.high))
+            return Adjust(of, name, high, low) if change.operator == "-=" else Adjust(of, name, low, high)
+    return NoEffect(change.of.span, "only a number that is a property of a parameter or an individual can be changed")
+
+
+def _value_after(number: PropertyOf, operator: str, amount: TypedExpression | None) -> Expression | None:
+    if amount is None:
+        return None
+    if operator == ":=":
+        return fold(amount.meaning)
+    return fold(Arithmetic("+" if operator == "+=" else "-", number, amount.meaning))
 
 
 def _for_each(body: TypedCondition, scope: EffectScope, when: Condition) -> Iterator[Effect | NoEffect]:
@@ -94,7 +120,17 @@ def _negative_effect(whole: TypedCondition, body: TypedCondition) -> Effect | No
 
 def _assign(post: TypedCondition, of: Expression, name: str, value: Expression) -> Effect | NoEffect:
     if any(part == PropertyOf(of, name) for part in walk(value) if part is not value):
-        return NoEffect(post.span, "it reads the value that it sets, which would have to differ from itself")
+        reason = "it reads the value that it sets, which would have to differ from itself"
+        return NoEffect(post.span, reason, *_written_as_change(post, of, name))
     if isinstance(of, Variable | Individual):
         return Assign(of, name, value)
     return NoEffect(post.span, "only a parameter's or an individual's property can be set")
+
+
+def _written_as_change(post: TypedCondition, of: Expression, name: str) -> tuple[str, tuple[Span, Span]] | tuple[()]:
+    """Return the operator of the change that `x.p == x.p - amount` means, and what stands around it."""
+    left, right = post.values
+    match right.meaning:
+        case Arithmetic(operator="+" | "-" as operator, left=before) if before == left.meaning == PropertyOf(of, name):
+            return f"{operator}=", (left.span, right.parts[1].span)
+    return ()

@@ -11,6 +11,7 @@ from skillc_compiler.logic.bounds import Bound, constant_bound
 from skillc_compiler.logic.conflicts import Conflicts, Link
 from skillc_compiler.logic.conjunctions import TypedFact
 from skillc_model.conditions import (
+    Adjust,
     Anything,
     Assert,
     Assign,
@@ -109,7 +110,7 @@ def topics_of_effect(conflicts: Conflicts, effect: Effect) -> Iterator[tuple[Top
                     yield _both("subjects", link.relation, link.object)
         case Retract(subject=subject, relation=relation, object=object_):
             yield from _absent(Holds(subject, relation, object_))
-        case Assign(subject=subject, property=name):
+        case Assign(subject=subject, property=name) | Adjust(subject=subject, property=name):
             yield _both("values", subject, name)
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from msgspec import structs
 
 from skillc_compiler.logic.effects import NoEffect, effects_of
+from skillc_compiler.logic.number_changes import needs_of_changes
 from skillc_compiler.lower.bodies import lower_node
 from skillc_compiler.program.typed import (
     Implementation,
@@ -36,7 +37,7 @@ def lower_skill(typed: Skill, implementations: Sequence[str]) -> library.Skill:
         name=typed.name,
         doc=typed.doc,
         parameters=tuple(_parameter(p) for p in typed.parameters),
-        pre=_requirements(labelled, "pre"),
+        pre=_preconditions(labelled),
         hold=_requirements(labelled, "hold"),
         post=_posts(labelled),
         senses=tuple(each.known for each in typed.senses if each.known is not None),
@@ -59,7 +60,7 @@ def lower_implementation(typed: Implementation, body: TypedNode | s.RunPython) -
         skill=typed.skill.name,
         doc=typed.doc,
         parameters=tuple(_parameter(p) for p in typed.parameters),
-        pre=_requirements(labelled, "pre"),
+        pre=_preconditions(labelled),
         hold=_requirements(labelled, "hold"),
         post=_posts(labelled),
         duration=_expression(typed.duration or typed.skill.duration),
@@ -128,6 +129,19 @@ def _requirements(labelled: Sequence[tuple[str, Requirement]], kind: str) -> tup
         for name, r in labelled
         if r.kind == kind
     )
+
+
+def _preconditions(labelled: Sequence[tuple[str, Requirement]]) -> tuple[library.Requirement, ...]:
+    """Return the preconditions, those included that changes of numbers imply."""
+    implied = (
+        library.Requirement(
+            label=f"{name}_range", condition=fold(need), text=f"{r.text} stays in its range", source=r.span.start
+        )
+        for name, r in labelled
+        if r.kind == "post" and not r.sensed
+        for need in needs_of_changes(r.condition)
+    )
+    return (*_requirements(labelled, "pre"), *implied)
 
 
 def _posts(labelled: Sequence[tuple[str, Requirement]]) -> tuple[library.Post, ...]:

@@ -26,7 +26,7 @@ from skillc_model.conditions import (
     PropertyOf,
     Variable,
 )
-from skillc_rdf.vocabulary.types import ValueType, Vocabulary
+from skillc_rdf.vocabulary.types import Bounds, ValueType, Vocabulary
 
 
 class TypedExpression(msgspec.Struct, frozen=True):
@@ -59,11 +59,24 @@ class EffectScope(msgspec.Struct, frozen=True):
     cls: str
 
 
+class NumberChange(msgspec.Struct, frozen=True):
+    """A change of a number by an amount, or to it, between `low` and `high`; None where it is open (`_`).
+
+    `bounds` are those of the property.
+    """
+
+    operator: s.ChangeOperator
+    of: TypedExpression
+    low: TypedExpression | None
+    high: TypedExpression | None
+    bounds: Bounds | None
+
+
 class TypedCondition(msgspec.Struct, frozen=True):
     """A condition: its meaning, its place, the expressions in it and its parts.
 
-    `conditional` if it is an effect on those individuals of which its second part held at the start: it claims nothing
-    of the end, so that it means what always holds.
+    `conditional` if it is an effect on those individuals of which its second part held at the start, `change` if it is
+    one on a number: it claims nothing of the end alone, so that it means what always holds.
     """
 
     meaning: Condition
@@ -71,6 +84,12 @@ class TypedCondition(msgspec.Struct, frozen=True):
     values: tuple[TypedExpression, ...] = ()
     parts: tuple[TypedCondition, ...] = ()
     conditional: EffectScope | None = None
+    change: NumberChange | None = None
+
+    @property
+    def is_effect(self) -> bool:
+        """Whether it says what happens, from which nothing follows for one state alone."""
+        return self.conditional is not None or self.change is not None
 
 
 class Parameter(msgspec.Struct, frozen=True):

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import assert_never
 
 from skillc_compiler.program.labels import label_values
-from skillc_compiler.program.typed import EffectScope, TypedCondition, TypedExpression
+from skillc_compiler.program.typed import EffectScope, NumberChange, TypedCondition, TypedExpression
 from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, fits
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.called_conditions import (
@@ -48,8 +48,8 @@ def resolve_condition(context: FileContext, scope: Scope, written: s.Condition) 
     match written:
         case s.Relation():
             return _resolve_relation(context, scope, written)
-        case s.Compare():
-            return _resolve_compare(context, scope, written)
+        case s.Compare() | s.Change():
+            return _resolve_comparison(context, scope, written)
         case s.Has():
             return _resolve_has(context, scope, written)
         case s.Is():
@@ -205,6 +205,12 @@ def _look_up_class(context: FileContext, name: s.Name) -> str:
     return context.names.look_up_term("class", name) or name.text
 
 
+def _resolve_comparison(context: FileContext, scope: Scope, written: s.Compare | s.Change) -> TypedCondition:
+    if isinstance(written, s.Change):
+        return _resolve_change(context, scope, written)
+    return _resolve_compare(context, scope, written)
+
+
 def _resolve_compare(context: FileContext, scope: Scope, written: s.Compare) -> TypedCondition:
     left, right = _resolve_sides(context, scope, written)
     if written.operator in ("==", "!="):
@@ -221,6 +227,19 @@ def _resolve_compare(context: FileContext, scope: Scope, written: s.Compare) -> 
         return TypedCondition(Compare(one.meaning, written.operator, other.meaning), written.span, (one, other))
 
     return say_of(context, scope, (left, right), compare)
+
+
+def _resolve_change(context: FileContext, scope: Scope, written: s.Change) -> TypedCondition:
+    of = resolve_value(context, scope, written.property)
+    ends = (written.amount, written.amount if written.to is None else written.to)
+    low, high = (
+        None if isinstance(each, s.Anything) else resolve_value(context, scope, each, _expected_type(context, of))
+        for each in ends
+    )
+    values = tuple(dict.fromkeys(each for each in (of, low, high) if each is not None))
+    term = context.vocabulary.properties.get(of.meaning.property) if isinstance(of.meaning, PropertyOf) else None
+    change = NumberChange(written.operator, of, low, high, term.bounds if term else None)
+    return TypedCondition(And(()), written.span, values, change=change)
 
 
 def _all_terms(*sides: TypedExpression) -> bool:

@@ -9,6 +9,7 @@ import msgspec
 from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.declarations import FileDeclarations, library_prefix, term_kind
 from skillc_compiler.resolve.names import Kind, Names
+from skillc_compiler.resolve.property_bounds import resolve_bounds
 from skillc_compiler.resolve.type_names import BUILT_IN, resolve_type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
@@ -200,11 +201,14 @@ def _property(written: s.PropertyDeclaration, iri: str, old: PropertyTerm | None
     domain = names.look_up_term("class", written.domain)
     domains = (domain,) if domain else ()
     declared = resolve_type(names, written.type)
+    bounds = resolve_bounds(written.range, declared, names)
     if old is None:
-        return PropertyTerm(iri=iri, domains=domains, type=declared, comment=written.doc, source=written.span.start)
+        return PropertyTerm(
+            iri=iri, domains=domains, type=declared, bounds=bounds, comment=written.doc, source=written.span.start
+        )
     if old.type != declared:
         names.problems.append(_contradiction(written, old, names))
-    return msgspec.structs.replace(old, domains=_union(old.domains, domains))
+    return msgspec.structs.replace(old, domains=_union(old.domains, domains), bounds=old.bounds or bounds)
 
 
 def _contradiction(written: s.PropertyDeclaration, old: PropertyTerm, names: Names) -> Diagnostic:

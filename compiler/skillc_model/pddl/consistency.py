@@ -12,7 +12,19 @@ from functools import cached_property
 from itertools import combinations
 from typing import assert_never
 
-from skillc_model.conditions import Anything, Assert, Assign, Effect, ForEach, Literal, Retract, Term, Variable
+from skillc_model.conditions import (
+    Adjust,
+    Anything,
+    Assert,
+    Assign,
+    Effect,
+    ForEach,
+    Literal,
+    Retract,
+    SingleEffect,
+    Term,
+    Variable,
+)
 from skillc_model.pddl.effects import BoundEach, bind_each
 from skillc_model.pddl.formulas import (
     FALSE,
@@ -82,7 +94,7 @@ class Consistency:
                     shown = self.translator.symbols.short(term.iri)
                     raise Untranslatable(f"states `{shown}` of several individuals at once, and one has it only")
 
-    def _alone(self, effect: Assert | Retract | Assign) -> Iterator[Formula]:
+    def _alone(self, effect: SingleEffect) -> Iterator[Formula]:
         match effect:
             case Assert():
                 yield from self._typed(effect)
@@ -95,6 +107,8 @@ class Consistency:
                     raise Impossible(f"sets `{self.translator.symbols.short(iri)}`, which is computed")
                 owners = (self.translator.is_a(subject, each, self.scope) for each in term.domains)
                 yield disjunction(owners) if term.domains else TRUE
+            case Adjust():
+                raise AssertionError("translating the effect has refused it before")
             case _:
                 assert_never(effect)
 

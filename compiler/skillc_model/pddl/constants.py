@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 import msgspec
 
 from skillc_dsl.position import Position
-from skillc_model.conditions import Assert, Assign, HasProperty, Holds, Individual, PropertyOf, Retract
+from skillc_model.conditions import Adjust, Assert, Assign, HasProperty, Holds, Individual, PropertyOf, Retract
 from skillc_model.pddl.hierarchy import find_common_class
 from skillc_model.skills import Implementation, Parameter, Skill, SkillLibrary
 from skillc_model.traversal import walk
@@ -91,7 +91,7 @@ class _Mentions(msgspec.Struct, frozen=True):
                 yield from self._sides(relation, subject, object_)
             case PropertyOf(Individual(iri), property_) | HasProperty(Individual(iri), property_):
                 yield iri, self._owner(property_)
-            case Assign(Individual(iri), property_, _):
+            case Assign(Individual(iri), property_, _) | Adjust(Individual(iri), property_, _, _):
                 yield iri, self._owner(property_)
 
     def _sides(self, relation: str, *terms: object) -> Iterator[tuple[str, str | None]]:

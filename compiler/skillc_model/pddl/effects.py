@@ -9,7 +9,19 @@ from typing import NamedTuple, assert_never
 
 from msgspec import structs
 
-from skillc_model.conditions import Anything, Assert, Assign, Effect, ForEach, Literal, Retract, Term, Variable
+from skillc_model.conditions import (
+    Adjust,
+    Anything,
+    Assert,
+    Assign,
+    Effect,
+    ForEach,
+    Literal,
+    Retract,
+    SingleEffect,
+    Term,
+    Variable,
+)
 from skillc_model.pddl.formulas import (
     Atom,
     Change,
@@ -35,7 +47,7 @@ class BoundEach(NamedTuple):
     place: BoundVariable
     condition: Formula
     scope: Scope
-    effect: Assert | Retract | Assign
+    effect: SingleEffect
 
 
 def bind_each(each: ForEach, translator: Translator, scope: Scope) -> BoundEach:
@@ -75,6 +87,8 @@ class Effects:
                 return self._for_each(effect)
             case Assign():
                 return self._assign(effect)
+            case Adjust(property=iri):
+                raise NeedsNumbers(f"changes the number `{self.translator.symbols.short(iri)}`")
             case Retract(subject=subject, relation=relation, object=object_):
                 return self._retract(relation, self._term(subject), self._term(object_))
             case Assert():

@@ -15,6 +15,7 @@ from skillc_model.chains import unroll_for_any_scene
 from skillc_model.counting import write_out_changing_counts
 from skillc_model.definitions import expand_for_any_scene
 from skillc_model.foresight import foresee_effects
+from skillc_model.levelling import level_library
 from skillc_model.pddl.actions import PlannedSkill, make_actions
 from skillc_model.pddl.constants import Mention, assumed_classes, find_mentions, missing_individuals
 from skillc_model.pddl.costs import common_scale
@@ -53,8 +54,9 @@ def make_planning_domain(
     what is static, which decides what skills can be planned with, so the result is computed as a fixed point.
     """
     library = expand_for_any_scene(write_out_changing_counts(library))
-    library = unroll_for_any_scene(foresee_effects(library))
-    named, settled = find_mentions(library), individuals is not None
+    library, settled = unroll_for_any_scene(foresee_effects(library)), individuals is not None
+    library = library if settled else level_library(library).library
+    named = find_mentions(library)
     if individuals is None:
         individuals = assumed_classes((each for found in named.values() for each in found), library.vocabulary)
         combined = {*combined, *(each for each in individuals.values() if len(each) > 1)}

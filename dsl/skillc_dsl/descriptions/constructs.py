@@ -45,7 +45,7 @@ _DECLARATIONS = (
     Construct(
         "declaration",
         reserved("property"),
-        "property NAME(CLASS): TYPE",
+        "property NAME(CLASS): TYPE range VALUE .. VALUE",
         "a value that individuals of a class can have",
     ),
     Construct(

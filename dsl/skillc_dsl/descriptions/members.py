@@ -42,8 +42,9 @@ MEMBERS = (
     Construct(
         "member",
         (*reserved("post"), Word("sensed", "leading"), *words("when", "trailing", since=2)),
-        meaning="a postcondition: true afterwards; a conjunction of literals, and of [effects on "
-        "many](#effects-on-many). The postconditions of a primitive are written to the world model when it succeeds, "
+        meaning="a postcondition: true afterwards; a conjunction of literals, of [effects on "
+        "many](#effects-on-many) and of [changes of numbers](#changes-of-numbers). The postconditions of a primitive "
+        "are written to the world model when it succeeds, "
         "as [assumed](world-model.md#evidence-for-a-fact) unless its code has written them as sensed. The "
         "postconditions of a compound must be established by the skills that it calls or by `apply`; the compiler "
         "proves this. A `post sensed` must have been "

@@ -27,6 +27,7 @@ def _phrases() -> tuple[Phrase, ...]:
     conditions = list_following_terminals(f"{impl} DO IF")
     relations = name_terminals() & list_following_terminals(f"{impl} DO IF NAME")
     operators = _set("PLUS MINUS STAR SLASH DOT LPAR")
+    compared = _set("EQUALS UNEQUAL LESS LESS_EQUAL MORE MORE_EQUAL PLUS_EQUAL MINUS_EQUAL COLON_EQUAL")
     table = (
         ("a declaration such as `skill` or `impl`", "CLASS SKILL", list_following_terminals("") - {END}),
         (
@@ -46,7 +47,7 @@ def _phrases() -> tuple[Phrase, ...]:
         ("a value", "NUMBER QUANTITY STRING", values | name_terminals()),
         ("a relation", "NAME HAS", relations | {"HAS", "IS"}),
         ("a name", "NAME", name_terminals()),
-        ("a comparison such as `==`", "EQUALS LESS", _set("EQUALS UNEQUAL LESS LESS_EQUAL MORE MORE_EQUAL")),
+        ("a comparison such as `==`", "EQUALS LESS", compared),
         ("a connective such as `and`", "AND OR", _set("AND OR IMPLIES") | operators),
         ("an operator such as `+`", "PLUS STAR", operators),
         ("a name with its `:`", "LABEL", _set("LABEL")),

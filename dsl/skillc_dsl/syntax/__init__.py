@@ -6,6 +6,8 @@ from skillc_dsl.syntax.conditions import Anything as Anything
 from skillc_dsl.syntax.conditions import Arithmetic as Arithmetic
 from skillc_dsl.syntax.conditions import Bare as Bare
 from skillc_dsl.syntax.conditions import Boolean as Boolean
+from skillc_dsl.syntax.conditions import Change as Change
+from skillc_dsl.syntax.conditions import ChangeOperator as ChangeOperator
 from skillc_dsl.syntax.conditions import Compare as Compare
 from skillc_dsl.syntax.conditions import CompareOperator as CompareOperator
 from skillc_dsl.syntax.conditions import Condition as Condition

@@ -10,6 +10,7 @@ from skillc_dsl.source import Span
 from skillc_dsl.syntax.names import Name
 
 CompareOperator: TypeAlias = Literal["==", "!=", "<", "<=", ">", ">="]
+ChangeOperator: TypeAlias = Literal["+=", "-=", ":="]
 
 
 class Quantity(msgspec.Struct, frozen=True):
@@ -134,6 +135,16 @@ class Compare(msgspec.Struct, frozen=True):
     span: Span
 
 
+class Change(msgspec.Struct, frozen=True):
+    """`property += amount`, `-=` or `:=`, in a post; `to` is the other end of `amount .. to`."""
+
+    property: Value
+    operator: ChangeOperator
+    amount: Value | Anything
+    to: Value | Anything | None
+    span: Span
+
+
 class Has(msgspec.Struct, frozen=True):
     """`subject has property`"""
 
@@ -204,4 +215,4 @@ class Bare(msgspec.Struct, frozen=True):
     span: Span
 
 
-Condition: TypeAlias = Relation | Compare | Has | Is | Given | Not | And | Or | Implies | Quantified | Bare
+Condition: TypeAlias = Relation | Compare | Change | Has | Is | Given | Not | And | Or | Implies | Quantified | Bare

@@ -18,6 +18,7 @@ from skillc_dsl.syntax.members import (
     Parameter,
     Pause,
     Prefer,
+    Range,
     Refinement,
     Requirement,
     RunPython,
@@ -96,13 +97,14 @@ class RelationDeclaration(msgspec.Struct, frozen=True):
 
 
 class PropertyDeclaration(msgspec.Struct, frozen=True):
-    """`property name(Domain): Type`"""
+    """`property name(Domain): Type range a .. b`"""
 
     name: Name
     domain: Name
     type: TypeName
     doc: str
     span: Span
+    range: Range | None = None
 
 
 class HeadParameter(msgspec.Struct, frozen=True):

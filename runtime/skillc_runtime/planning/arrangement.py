@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from skillc_model.conditions import ForEach
+from skillc_model.conditions import ForEach, bounds_of, single_effect
 from skillc_model.pddl.devices import locked_parameters
 from skillc_model.read_write import FactPattern, ReadWriteSet, facts_read
 from skillc_model.skills import SkillLibrary
@@ -143,9 +143,10 @@ def read_write_set(
 def _find_reads(step: Step, library: SkillLibrary, state: WorldState, reads: DecidingReads) -> Iterator[FactPattern]:
     """Yield what the preconditions and hold conditions of a step's skill and of all its implementations read."""
     skill = library.skills[step.skill]
-    deciding = (each.when for post in skill.post for each in post.effects if isinstance(each, ForEach))
-    for condition in deciding:
-        yield from facts_read(condition, step.arguments, library.vocabulary)
+    for each in (each for post in skill.post for each in post.effects):
+        when = (each.when,) if isinstance(each, ForEach) else ()
+        for item in (*when, *bounds_of(single_effect(each))):
+            yield from facts_read(item, step.arguments, library.vocabulary)
     ways = ((each.parameters, (*each.pre, *each.hold)) for each in library.implementations_of(skill.name))
     for parameters, requirements in ((skill.parameters, (*skill.pre, *skill.hold)), *ways):
         bindings = bind_in(parameters, step, state)

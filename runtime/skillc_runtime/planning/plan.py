@@ -117,7 +117,7 @@ Optimal: TypeAlias = Literal[
     "proven", "optimal for the filtered problem", "optimal for approximate durations", "best found"
 ]
 
-Kind: TypeAlias = Literal["individuals", "skills", "steps", "chains"]
+Kind: TypeAlias = Literal["individuals", "skills", "steps", "chains", "numbers"]
 
 
 class LeftOut(msgspec.Struct, frozen=True):
@@ -217,6 +217,7 @@ PARTS: dict[Kind, str] = {
     "skills": "the skills that can be planned with",
     "steps": "the steps that have not failed",
     "chains": "what follows from a few facts that skills change",
+    "numbers": "the values that few changes give to numbers",
 }
 
 

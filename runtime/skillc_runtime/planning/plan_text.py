@@ -7,6 +7,7 @@ from fractions import Fraction
 
 import msgspec
 
+from skillc_model.levels import is_level_parameter
 from skillc_model.pddl.domain import Action, ComputedCost, FixedCost
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.planning.plan import Plan, Step
@@ -51,7 +52,9 @@ def _make_step(problem: Problem, action: Action, arguments: tuple[str, ...]) -> 
     if action.skill is None:
         return None
     named = dict(zip(action.binds, map(problem.names.__getitem__, arguments), strict=True))
-    return Step(action.skill, named, action.outcome)
+    return Step(
+        action.skill, {name: iri for name, iri in named.items() if not is_level_parameter(name)}, action.outcome
+    )
 
 
 def _find_action(problem: Problem, words: tuple[str, ...]) -> tuple[Action, tuple[str, ...]]:

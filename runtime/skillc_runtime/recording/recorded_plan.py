@@ -23,7 +23,7 @@ class PlanStep(msgspec.Struct, frozen=True, kw_only=True):
 class PartLeftOut(msgspec.Struct, frozen=True):
     """A part of a planning problem that was left out; see `LeftOut` in `planning.plan`."""
 
-    kind: Literal["individuals", "skills", "steps", "chains"]
+    kind: Literal["individuals", "skills", "steps", "chains", "numbers"]
     why: str
     harmless: bool
 

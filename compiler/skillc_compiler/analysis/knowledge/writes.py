@@ -9,6 +9,7 @@ import msgspec
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, any_individual
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
 from skillc_model.conditions import (
+    Adjust,
     Assert,
     Assign,
     Compare,
@@ -87,6 +88,8 @@ def write_of(effect: Effect) -> Write:
             return RelationWrite(subject, relation, object_, False)
         case Assign(subject=subject, property=iri, value=value):
             return PropertyWrite(subject, iri, value if isinstance(value, Literal | Variable | Individual) else None)
+        case Adjust(subject=subject, property=iri):
+            return PropertyWrite(subject, iri, None)
         case _:
             assert_never(effect)
 
@@ -100,7 +103,7 @@ def normalise_each(effect: ForEach) -> ForEach:
 def may_undo(types: AliasTypes, write: Write, each: ForEach) -> bool:
     """Whether a write may undo something of an effect on all individuals of a class."""
     match each.effect, write:
-        case Assign(property=iri), PropertyWrite(property=written):
+        case Assign(property=iri) | Adjust(property=iri), PropertyWrite(property=written):
             return iri == written
         case Assert(relation=iri) | Retract(relation=iri), RelationWrite(relation=written):
             canonical = types.axioms.canonical

@@ -6,7 +6,19 @@ from collections.abc import Iterator
 
 import msgspec
 
-from skillc_model.conditions import Assert, Assign, Exists, Forall, HasProperty, Holds, Invoke, IsA, PropertyOf, Retract
+from skillc_model.conditions import (
+    Adjust,
+    Assert,
+    Assign,
+    Exists,
+    Forall,
+    HasProperty,
+    Holds,
+    Invoke,
+    IsA,
+    PropertyOf,
+    Retract,
+)
 from skillc_model.traversal import find_calls, walk
 from skillc_rdf.vocabulary.types import ClassType
 
@@ -27,7 +39,7 @@ def _named(item: msgspec.Struct) -> Iterator[str]:
             yield iri
         case Holds(relation=iri) | Assert(relation=iri) | Retract(relation=iri):
             yield iri
-        case HasProperty(property=iri) | PropertyOf(property=iri) | Assign(property=iri):
+        case HasProperty(property=iri) | PropertyOf(property=iri) | Assign(property=iri) | Adjust(property=iri):
             yield iri
         case Invoke(function=name):
             yield name

@@ -68,6 +68,13 @@ class ConditionBuilder(ValueBuilder):
         operator = cast(s.CompareOperator, keyword_at(children, 1))
         return s.Compare(self.value(left), operator, self.value(right), self.over(children))
 
+    def change(self, children: list[Child]) -> s.Change:
+        """`property -= amount`, `property += amount .. to`"""
+        of, _, amount, *rest = children
+        operator = cast(s.ChangeOperator, keyword_at(children, 1))
+        to = self._individual(rest[1]) if rest else None
+        return s.Change(self.value(of), operator, self._individual(amount), to, self.over(children))
+
     def relation_of(self, children: list[Child]) -> s.Relation:
         """`subject relation object`"""
         subject, relation, object_ = children

@@ -8,7 +8,15 @@ from typing import Literal, TypeVar, cast
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.parsing.building.members import MemberBuilder
-from skillc_dsl.parsing.building.places import Child, MemberPart, Spanned, children_of_type, find_part, keyword_at
+from skillc_dsl.parsing.building.places import (
+    Child,
+    MemberPart,
+    Spanned,
+    children_of_type,
+    find_part,
+    first_of_type,
+    keyword_at,
+)
 from skillc_dsl.parsing.tokens import Tree
 from skillc_dsl.source import Span
 
@@ -99,10 +107,11 @@ class FileBuilder(MemberBuilder):
         return s.Trait(cast(TraitKind, keyword_at(children, 0)), name, self.over(children))
 
     def property(self, children: list[Child]) -> s.PropertyDeclaration:
-        """`property name(Domain): Type`"""
+        """`property name(Domain): Type range a .. b`"""
         span = self.over(children)
         name, domain = self.as_name(children[1]), self.as_name(children[3])
-        return s.PropertyDeclaration(name, domain, self.type_at(children, 6), self.doc(span), span)
+        bounds = first_of_type(children, s.Range)
+        return s.PropertyDeclaration(name, domain, self.type_at(children, 6), self.doc(span), span, bounds)
 
     def function(self, children: list[Child]) -> s.FunctionDeclaration:
         """`function name(parameter, ..) -> Type = python "module:function"`"""

@@ -16,6 +16,7 @@ from skillc_rdf.vocabulary.closure import reachable
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.planning.plan import Excluded, LeftOut
 from skillc_runtime.planning.problem.definitions import LONG_CHAINS, MOST_STEPS, expand_definitions
+from skillc_runtime.planning.problem.levels import level_problem
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem, with_vocabulary
 from skillc_runtime.planning.stated_facts import LibraryKey, StatedTerms, VocabularyKey
@@ -47,6 +48,8 @@ def unroll_chains(library: SkillLibrary, state: WorldState, goal: Condition) -> 
     """Return what a planner is to plan with instead of chains of facts that skills change; the same without such."""
     whole = with_vocabulary(library, state.vocabulary)
     library, goal, left_out = expand_definitions(whole, state, goal)
+    library, state, goal, more = level_problem(library, state, goal)
+    left_out = (*left_out, *more)
     chains = _find_chains(LibraryKey(library), goal)
     if not chains:
         return UnrolledProblem(library, state, goal, whole, left_out)
@@ -58,7 +61,7 @@ def unroll_chains(library: SkillLibrary, state: WorldState, goal: Condition) -> 
     facts |= {each.moving: links[each.relation].moving for each in chains}
     wanted = _GoalUnrolling(links, _unrolling(lengths, library.vocabulary)).of(goal)
     if any(each.cut for _, each in lengths):
-        left_out = (LONG_CHAINS,)
+        left_out = (LONG_CHAINS, *more)
     return UnrolledProblem(unrolled, stated.apply(state, facts), wanted, whole, left_out)
 
 

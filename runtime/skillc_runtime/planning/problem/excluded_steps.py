@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from msgspec import structs
 
+from skillc_model.levels import is_level_parameter
 from skillc_model.pddl.domain import Action, ExclusionMeaning, PlanningDomain, Predicate
 from skillc_model.pddl.formulas import Atom, Equal, Formula, Negation, conjunction, conjuncts, disjunction
 from skillc_model.pddl.names import make_unique
@@ -79,7 +80,7 @@ def _negate_literal(literal: Formula) -> Formula:
 def _arguments_of(action: Action, steps: Iterable[Step], names: Mapping[str, str]) -> tuple[tuple[str, ...], ...]:
     """Return the arguments (IRIs) that an action has in steps whose individuals are all objects of the problem."""
     return tuple(
-        tuple(step.arguments[each] for each in action.binds)
+        tuple(step.arguments[each] for each in action.binds if not is_level_parameter(each))
         for step in steps
         if step.skill == action.skill and names.keys() >= set(step.arguments.values())
     )
@@ -90,6 +91,7 @@ def _add_predicate(
 ) -> tuple[PlanningDomain, Atom]:
     """Return the domain with a static predicate that is true of arguments of an action, and its atom there."""
     unique = make_unique(name, {*domain.names, *domain.predicate})
-    added = Predicate(unique, action.parameters, ExclusionMeaning(arguments), changes=False)
-    atom = Atom(unique, tuple(each.name for each in action.parameters))
+    stated = [each for each, name in zip(action.parameters, action.binds, strict=True) if not is_level_parameter(name)]
+    added = Predicate(unique, tuple(stated), ExclusionMeaning(arguments), changes=False)
+    atom = Atom(unique, tuple(each.name for each in stated))
     return replace(domain, predicates=(*domain.predicates, added)), atom

@@ -9,6 +9,7 @@ from dataclasses import replace
 import msgspec
 
 from skillc_model.conditions import Anything, Condition, Exists, Forall, Holds, Individual
+from skillc_model.levels import list_level_classes
 from skillc_model.pddl.constants import most_specific
 from skillc_model.pddl.costs import common_scale
 from skillc_model.pddl.domain import Action, ComputedCost, PlanningDomain
@@ -104,6 +105,7 @@ def pose_problem(
     library = with_vocabulary(library, state.vocabulary)
     kinds = group_by_class(state)
     named = _referenced_individuals(goal, state, kinds)
+    named |= frozenset().union(*map(state.instances, list_level_classes(state.vocabulary)))
     domain = get_planning_domain(
         library, _class_combinations(kinds, state.vocabulary), lambda iri: _most_specific_classes(iri, state)
     )

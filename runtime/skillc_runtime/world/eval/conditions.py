@@ -26,6 +26,7 @@ from skillc_model.conditions import (
     Term,
     Variable,
 )
+from skillc_model.rounding import is_same
 from skillc_runtime.world.eval.bindings import Bindings, bound_value
 from skillc_runtime.world.eval.functions import make_function
 from skillc_runtime.world.eval.identity_cache import IdentityCache
@@ -33,7 +34,7 @@ from skillc_runtime.world.eval.quantifiers import compile_quantified
 from skillc_runtime.world.eval.scope import ConditionTest
 from skillc_runtime.world.state.properties import property_of
 from skillc_runtime.world.state.python_calls import EvaluationError
-from skillc_runtime.world.state.values import are_equal
+from skillc_runtime.world.state.values import Value, are_equal
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -112,13 +113,20 @@ def _holds(subject: Term, relation: str, object_: Term) -> ConditionTest:
             return lambda state, bindings: state.holds(start(bindings), relation, end(bindings))
 
 
+def _are_same(one: Value, other: Value) -> bool:
+    """Whether two values are equal: numbers but for rounding, as they may have been computed."""
+    if isinstance(one, float | int) and isinstance(other, float | int) and bool not in (type(one), type(other)):
+        return is_same(one, other)
+    return are_equal(one, other)
+
+
 _ORDER: dict[str, Callable[..., bool]] = {
-    "==": are_equal,
-    "!=": lambda one, other: not are_equal(one, other),
-    "<": operator.lt,
-    "<=": operator.le,
-    ">": operator.gt,
-    ">=": operator.ge,
+    "==": _are_same,
+    "!=": lambda one, other: not _are_same(one, other),
+    "<": lambda one, other: operator.lt(one, other) and not _are_same(one, other),
+    "<=": lambda one, other: operator.le(one, other) or _are_same(one, other),
+    ">": lambda one, other: operator.gt(one, other) and not _are_same(one, other),
+    ">=": lambda one, other: operator.ge(one, other) or _are_same(one, other),
 }
 
 

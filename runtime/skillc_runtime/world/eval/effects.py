@@ -6,21 +6,29 @@ from collections.abc import Iterable, Iterator
 from typing import assert_never
 
 from skillc_model.conditions import (
+    Adjust,
     Anything,
     Assert,
     Assign,
     Condition,
     Effect,
+    Expression,
     ForEach,
     Individual,
+    Literal,
     Retract,
+    SingleEffect,
     Variable,
     wanted_by,
 )
+from skillc_model.rounding import is_same
+from skillc_rdf.vocabulary.types import Bounds
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import Bindings, bound_value, value_of
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
+from skillc_runtime.world.state.properties import property_of
 from skillc_runtime.world.state.python_calls import EvaluationError
+from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -30,15 +38,17 @@ def changes_of(
     """Return the changes of effects; removals come first, so that all assertions hold afterwards.
 
     Relations that the world computes are not changed: they follow from what is. `before` is the state in which it was
-    decided which individuals effects are on, if that is an earlier one.
+    decided which individuals effects are on, and from which changes of numbers are computed, if that is an earlier one.
+    A number of which only bounds are known becomes the nearest one within them.
     """
+    before = before or state
     computed = state.axioms.computed
     changes = [
         change
         for effect in effects
-        for single, bound in _list_single(effect, before or state, bindings)
-        if isinstance(single, Assign) or single.relation not in computed
-        for change in _changes(single, state, bound)
+        for single, bound in _list_single(effect, before, bindings)
+        if isinstance(single, Assign | Adjust) or single.relation not in computed
+        for change in _changes(_settle(single, before, bound), state, bound)
     ]
     return tuple(sorted(changes, key=lambda change: not isinstance(change, RemoveRelation)))
 
@@ -46,19 +56,17 @@ def changes_of(
 def find_unmet(
     effects: Iterable[Effect], state: WorldState, bindings: Bindings, before: WorldState
 ) -> tuple[Condition, Bindings] | None:
-    """Return what is not so that an effect should have made so of an individual that fulfilled its condition before."""
+    """Return what is not so that an effect should have made so, as it depends on the state before."""
     for each in effects:
-        if isinstance(each, ForEach):
+        if isinstance(each, ForEach | Adjust):
             for single, bound in _list_single(each, before, bindings):
-                wanted = wanted_by(single)
+                wanted = wanted_by(_settle(single, before, bound))
                 if not evaluate(wanted, state, bound):
                     return wanted, bound
     return None
 
 
-def _list_single(
-    effect: Effect, before: WorldState, bindings: Bindings
-) -> Iterator[tuple[Assert | Retract | Assign, Bindings]]:
+def _list_single(effect: Effect, before: WorldState, bindings: Bindings) -> Iterator[tuple[SingleEffect, Bindings]]:
     """Yield an effect on single individuals, with the values of its names."""
     if not isinstance(effect, ForEach):
         yield effect, bindings
@@ -69,12 +77,49 @@ def _list_single(
             yield effect.effect, bound
 
 
-def _changes(effect: Assert | Retract | Assign, state: WorldState, bindings: Bindings) -> Iterator[Change]:
+def _settle(effect: SingleEffect, before: WorldState, bindings: Bindings) -> SingleEffect:
+    """Return a change of a number with the numbers that its bounds are in the state before; any other as it is."""
+    if not isinstance(effect, Adjust):
+        return effect
+    low, high = (each and Literal(_number(each, before, bindings)) for each in (effect.low, effect.high))
+    return Adjust(effect.subject, effect.property, low, high)
+
+
+def _number(expression: Expression, state: WorldState, bindings: Bindings) -> int | float:
+    value = value_of(expression, state, bindings)
+    if not isinstance(value, int | float):
+        raise EvaluationError(f"{value!r} is not a number")
+    return value
+
+
+def _find_nearest(effect: Adjust, state: WorldState, bindings: Bindings) -> Value | None:
+    """Return the number within its bounds that is nearest to what it is, or else to zero; None if none is needed."""
+    low, high = (None if each is None else _number(each, state, bindings) for each in (effect.low, effect.high))
+    now = property_of(state, _individual(effect.subject, bindings), effect.property)
+    low, high = (_snap(each, state.vocabulary.properties[effect.property].bounds) for each in (low, high))
+    if not isinstance(now, int | float):
+        now = 0.0 if low is not None or high is not None else None
+    if now is not None and low is not None and now < low:
+        return low
+    return high if now is not None and high is not None and now > high else now
+
+
+def _snap(value: float | None, bounds: Bounds | None) -> float | None:
+    """Return the bound of a property that a number is but for rounding; else the number."""
+    ends = (bounds.least, bounds.greatest) if bounds is not None else ()
+    return next((end for end in ends if value is not None and end is not None and is_same(value, end)), value)
+
+
+def _changes(effect: SingleEffect, state: WorldState, bindings: Bindings) -> Iterator[Change]:
     match effect:
         case Assert(subject, relation, object_):
             yield AddRelation(_individual(subject, bindings), relation, _individual(object_, bindings))
         case Assign(subject, property_, value):
             yield SetProperty(_individual(subject, bindings), property_, value_of(value, state, bindings))
+        case Adjust(subject, property_):
+            nearest = _find_nearest(effect, state, bindings)
+            if nearest is not None:
+                yield SetProperty(_individual(subject, bindings), property_, nearest)
         case Retract(Anything(), relation, Anything()):
             yield from (RemoveRelation(start, relation, end) for start, end in sorted(state.pairs(relation)))
         case Retract(Anything(), relation, Variable() | Individual() as object_):
