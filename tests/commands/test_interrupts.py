@@ -142,7 +142,6 @@ def test_a_signal_ends_planning(depot: Path, number: signal.Signals, code: int, 
     [
         (signal.SIGINT, "interrupted"),
         pytest.param(signal.SIGTERM, "ended by SIGTERM", marks=pytest.mark.sim),
-        pytest.param(signal.SIGHUP, "ended by SIGHUP", marks=pytest.mark.sim),
     ],
 )
 def test_a_signal_stops_a_task_that_is_planned(depot: Path, number: signal.Signals, said: str) -> None:

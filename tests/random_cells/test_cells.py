@@ -17,12 +17,14 @@ from skillc_runtime.evaluation.trials.trial import Trial
 
 SMALL = 1
 """How many parts are moved in the cells of this test: a cell with more takes long."""
+ALL = 2 * len(FAULTS)
+"""So many seeds have each trouble once, and as many cells without."""
 
 
 def test_half_of_the_cells_can_be_solved_and_every_trouble_occurs() -> None:
     cases = [draw_case(seed) for seed in range(300)]
     assert sum(case.trouble == "none" for case in cases) == 150
-    assert {case.trouble for case in cases} == {"none", *FAULTS}
+    assert {case.trouble for case in cases[:ALL]} == {"none", *FAULTS}
     assert {len(case.believed.parts) for case in cases} >= set(range(1, 13))
     assert {case.believed.has_camera for case in cases} == {True, False}
     assert {len(case.believed.goal) for case in cases} >= set(range(1, 9))
@@ -94,7 +96,7 @@ def test_what_happens_while_a_camera_looks_is_noticed(seed: int, tmp_path: Path)
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", range(ALL))
 def test_a_cell_ends_as_it_should(seed: int, tmp_path: Path) -> None:
     trial = CaseRunner(tmp_path, "mujoco", SMALL).run(seed)
     assert classify(trial) not in BAD, trial

@@ -14,9 +14,8 @@ LEFT = 0.25
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("seed", [0, 6])
-def test_what_is_left_is_seen_and_wiped_again(seed: int) -> None:
-    prepared, cell = start("clean_watched", seed)
+def test_what_is_left_is_seen_and_wiped_again() -> None:
+    prepared, cell = start("clean_watched", 6)
     ways: list[str] = []
 
     def listen(event: Event) -> None:

@@ -10,7 +10,6 @@ from menagerie import write_collection
 from msgspec import structs
 
 from skillc.cli.main import skillc
-from skillc_dsl.cache import VARIABLE
 from skillc_ontology import catalogue
 from skillc_runtime.recording.events import TaskStarted
 from skillc_runtime.recording.reader import TraceReader
@@ -19,13 +18,12 @@ PRESENT = "TakePosture(arm: lab:Panda-1)"
 
 
 @pytest.fixture
-def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def cache(own_cache: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Where the collection's folders belong; the cache is empty and Git has nothing but files."""
-    monkeypatch.setenv(VARIABLE, str(tmp_path / "cache"))
     monkeypatch.setenv("GIT_ALLOW_PROTOCOL", "file")
     (sheet,) = (text for path, text in catalogue.vocabulary_files() if path.endswith("menagerie.ttl"))
     commit = next(word.strip('"') for word in sheet.split() if len(word.strip('"')) == 40)
-    return tmp_path / "cache/looks/menagerie" / commit
+    return own_cache / "looks/menagerie" / commit
 
 
 def run(*words: str) -> Result:
@@ -38,7 +36,7 @@ def test_a_run_is_the_same_with_other_looks(tmp_path: Path, cache: Path) -> None
     told = []
     for looks in ("primitive", "menagerie"):
         out = tmp_path / looks
-        result = run("--looks", looks, "--out", str(out))
+        result = run("--looks", looks, "--out", str(out), "--film-quality", "draft")
         assert result.exit_code == 0, result.output
         started, *rest = TraceReader(out / "events.jsonl").events
         assert isinstance(started, TaskStarted) and started.settings.looks == looks
