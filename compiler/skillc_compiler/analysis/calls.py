@@ -16,7 +16,7 @@ from skillc_compiler.analysis.binding import (
 )
 from skillc_compiler.analysis.exploration import CallEffect, EvalContext, Exploration, havoc_concurrent
 from skillc_compiler.analysis.findings import EarlyApply
-from skillc_compiler.analysis.knowledge.apply_effects import apply_effects, is_done
+from skillc_compiler.analysis.knowledge.apply_effects import apply_effects, is_done, on_known_members
 from skillc_compiler.analysis.knowledge.assume import assume, unify
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.havoc import havoc
@@ -173,9 +173,10 @@ def _assume_succeeded(run: Exploration, call: Call, binding: Binding, state: Sta
         state = state.without_name(call.out.text)
         _declare_output(run, call)
     posts = call_requirements(run.program, call, "post")
-    had = [CallEffect(call, post, binding.effect(effect)) for post, effect in definite_effects(posts)]
+    effects = [(post, binding.effect(effect)) for post, effect in definite_effects(posts)]
+    had = [CallEffect(call, post, each) for post, one in effects for each in on_known_members(run.types, state, one)]
     run.effects.update({(id(call), id(one.post), one.effect): one for one in had})
-    state = apply_effects(run.types, state, [one.effect for one in had])
+    state = apply_effects(run.types, state, [effect for _, effect in effects])
     for post in posts:
         state = assume(run.types, state, binding.at_end(post.condition.meaning)) or state
     return state.replace(assigned=state.assigned | {call.out.text}) if call.out is not None else state

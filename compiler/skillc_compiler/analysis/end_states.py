@@ -25,6 +25,7 @@ from skillc_compiler.analysis.knowledge.writes import (
 )
 from skillc_compiler.analysis.paths import EndStates, StatePaths, path_length
 from skillc_compiler.analysis.released import contains_call, find_leaked
+from skillc_compiler.analysis.replaced_effects import takes_place
 from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedCondition, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s
@@ -226,9 +227,12 @@ def _check_declared(
 def _check_each_declared(
     run: Exploration, implementation: Implementation, one: CallEffect, effect: ForEach, states: StatePaths
 ) -> Iterator[Finding]:
-    """Yield an effect on all individuals that fulfil a condition which no postcondition declares in the same way."""
-    declared = definite_effects(requirements_of(implementation, "post"))
-    if one.post.sensed or any(isinstance(own, ForEach) and _same_each(effect, own) for _, own in declared):
+    """Yield an effect on all individuals that fulfil a condition which no postcondition declares, or replaces."""
+    declared = [own for _, own in definite_effects(requirements_of(implementation, "post")) if isinstance(own, ForEach)]
+    writes = run.summaries.all_writes(implementation)
+    if one.post.sensed or any(
+        _same_each(effect, own) or takes_place(run.types, own, effect, writes) for own in declared
+    ):
         return
     found = [path for path in states.values() if contains_call(path, one.call)]
     if found:

@@ -68,6 +68,10 @@ def _check_posts(
             seen = substitute(effect, names)
             yield from islice(known.contradictions(seen, post), MOST_CONFLICTS)
             known.add(seen, post)
+    for outcome in (requirement for requirement in own if requirement.kind == "outcome"):
+        for effect in effects_of(outcome.condition):
+            if isinstance(effect, Assert | Retract) and effect.relation in conflicts.vocabulary.definitions:
+                yield _defined(conflicts.vocabulary, effect, outcome)
     yield from _check_measured(conflicts, own, given, names)
 
 

@@ -215,16 +215,22 @@ def _part_of_failure(context: FileContext, scope: Scope, written: s.Member) -> T
 
 
 def _is_link(context: FileContext, of: TypedExpression, name: s.Name) -> bool:
-    """Whether a name after a dot is that of a relation; one that is a property as well is what `of` can have."""
+    """Whether a name after a dot is that of a relation.
+
+    One that is a property as well is what `of` can have; if it can have both, that which a library declares.
+    """
     names, vocabulary = context.names, context.vocabulary
     if not names.is_term("relation", name.text) or not names.is_term("property", name.text):
         return names.is_term("relation", name.text)
-    links = (vocabulary.relations[iri] for iri in names.bare["relation"].get(name.text, ()))
-    starts = (signature.domain for link in links if link.functional for signature in link.signatures)
-    owners = (each for iri in names.bare["property"].get(name.text, ()) for each in vocabulary.properties[iri].domains)
-    return any(fits(vocabulary, of.type, Thing(each)) for each in starts) and not any(
-        fits(vocabulary, of.type, Thing(each)) for each in owners
-    )
+    links, values = (names.bare[kind].get(name.text, ()) for kind in ("relation", "property"))
+    starts = (each.domain for iri in links for each in vocabulary.relations[iri].signatures)
+    owners = (each for iri in values for each in vocabulary.properties[iri].domains)
+    if not any(fits(vocabulary, of.type, Thing(each)) for each in starts):
+        return False
+    if not any(fits(vocabulary, of.type, Thing(each)) for each in owners):
+        return True
+    places = (vocabulary.relations[iri].source for iri in links)
+    return all(each is not None and each.path.endswith(".skill") for each in places)
 
 
 def resolve_property(context: FileContext, of: TypedExpression, name: s.Name) -> str | None:

@@ -9,10 +9,11 @@ from msgspec import structs
 
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, is_any_individual
 from skillc_compiler.analysis.knowledge.assume import single_values
+from skillc_compiler.analysis.knowledge.canonical import canonical_condition
 from skillc_compiler.analysis.knowledge.denied import keep_denied
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.havoc import havoc
-from skillc_compiler.analysis.knowledge.quantifiers import known_individuals
+from skillc_compiler.analysis.knowledge.quantifiers import known_individuals, possible_witnesses
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import (
     OnceWrite,
@@ -30,21 +31,24 @@ from skillc_model.conditions import (
     Compare,
     Condition,
     Effect,
+    Exists,
     ForEach,
     HasProperty,
     Holds,
     Individual,
     PropertyOf,
+    Retract,
     Variable,
+    single_effect,
 )
 from skillc_model.rewriting import substitute
 
 
 def apply_effects(types: AliasTypes, state: State, effects: Iterable[Effect]) -> State:
-    """Return the state after effects, retractions first, as the runtime applies them."""
+    """Return the state after effects, retractions first, as the runtime applies them; of both, those on many first."""
     effects, before = tuple(effects), state
-    writes = [write for effect in effects for write in _writes_of(types, state, effect)]
-    for write in sorted(writes, key=lambda w: not _is_retraction(w)):
+    writes = [(_order(effect, write), write) for effect in effects for write in _writes_of(types, state, effect)]
+    for _, write in sorted(writes, key=lambda each: each[0]):
         state = apply_write(types, state, write)
     each = frozenset(normalise_each(effect) for effect in effects if isinstance(effect, ForEach)) & before.unchanged
     return state.replace(done=state.done | each) if each else state
@@ -60,6 +64,25 @@ def _writes_of(types: AliasTypes, before: State, effect: Effect) -> Iterator[Wri
         named = {effect.variable: thing}
         if types.is_a(before, thing, effect.cls) and evaluate(types, before, substitute(effect.when, named)):
             yield write_of(substitute(effect.effect, named))
+
+
+def on_known_members(types: AliasTypes, before: State, effect: Effect) -> tuple[Effect, ...]:
+    """Return an effect on many individuals as those on each, if it is known before which these are; else as it is.
+
+    So is one that the skill promises as such.
+    """
+    if not isinstance(effect, ForEach) or normalise_each(effect) in before.unchanged:
+        return (effect,)
+    when = canonical_condition(types, before, effect.when)
+    for group in possible_witnesses(before, Exists(effect.variable, effect.cls, when)):
+        members = {
+            thing: evaluate(types, before, substitute(effect.when, {effect.variable: thing}))
+            and types.is_a(before, thing, effect.cls)
+            for thing in group
+        }
+        if None not in members.values():
+            return tuple(substitute(effect.effect, {effect.variable: each}) for each, true in members.items() if true)
+    return (effect,)
 
 
 def spare(types: AliasTypes, state: State, write: Write) -> Write:
@@ -118,8 +141,10 @@ def _know_written(types: AliasTypes, state: State, write: Write) -> State:
             assert_never(write)
 
 
-def _is_retraction(write: Write) -> bool:
-    return isinstance(write, RelationWrite) and write.value is False
+def _order(effect: Effect, write: Write) -> tuple[bool, bool]:
+    """Return when a write of an effect happens: what may be on any individual leaves open what is certain of one."""
+    is_on_any = isinstance(effect, ForEach) and isinstance(write, RelationWrite | PropertyWrite) and write.value is None
+    return not isinstance(single_effect(effect), Retract), not is_on_any
 
 
 def _assert_relation(types: AliasTypes, state: State, write: RelationWrite) -> State:

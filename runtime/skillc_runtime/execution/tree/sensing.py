@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from skillc_model.conditions import Condition
 from skillc_model.skills import Outcome, Post
 from skillc_model.traversal import conjuncts
 from skillc_runtime.execution.tree.lexical_scope import Frame
@@ -24,16 +25,28 @@ def drop_sensed_changes(changes: Sequence[Change], world: WorldModel, writes_bef
     return tuple(change for change in changes if not _is_sensed(change, world, writes_before))
 
 
-def explain_not_sensed(post: Post | Outcome, world: WorldModel, frame: Frame, writes_before: int) -> str | None:
-    """Explain why what is `sensed`, and holds, was not measured since write number `writes_before`; None if it was."""
-    for literal in conjuncts(post.condition):
-        found = find_grounds(literal, world, frame)
-        assumed = next((ground for ground in found if ground.is_assumed), None)
-        if assumed is not None:
-            return f"`{post.text}` must be sensed, but {_describe_ground(assumed, world)}"
-        if not any(_is_sensed_since(ground.write, writes_before) for ground in found):
-            old = f": {'; '.join(_describe_ground(ground, world) for ground in found)}" if found else ""
-            return f"`{post.text}` must be sensed, and nothing has sensed it since the skill started{old}"
+def explain_not_sensed(
+    post: Post | Outcome, world: WorldModel, frame: Frame, writes_before: int, *, wholly: bool = True
+) -> str | None:
+    """Explain why what is `sensed`, and holds, was not measured since write number `writes_before`; None if it was.
+
+    Unless `wholly`, it is enough that one of its literals was.
+    """
+    reasons = [_explain_literal(post, each, world, frame, writes_before) for each in conjuncts(post.condition)]
+    missing = [each for each in reasons if each is not None]
+    return missing[0] if missing and (wholly or len(missing) == len(reasons)) else None
+
+
+def _explain_literal(
+    post: Post | Outcome, literal: Condition, world: WorldModel, frame: Frame, writes_before: int
+) -> str | None:
+    found = find_grounds(literal, world, frame)
+    assumed = next((ground for ground in found if ground.is_assumed), None)
+    if assumed is not None:
+        return f"`{post.text}` must be sensed, but {_describe_ground(assumed, world)}"
+    if not any(_is_sensed_since(ground.write, writes_before) for ground in found):
+        old = f": {'; '.join(_describe_ground(ground, world) for ground in found)}" if found else ""
+        return f"`{post.text}` must be sensed, and nothing has sensed it since the skill started{old}"
     return None
 
 

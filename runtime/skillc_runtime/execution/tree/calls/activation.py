@@ -198,7 +198,9 @@ class Activation:
             return self._failure("post", f"{self.skill.name} succeeded, and {found} came true, where one has to")
         if evaluate(true[0].condition, self._state_at_start, self.frame):
             return None  # what is known need not be sensed again
-        reason = explain_not_sensed(true[0], self._context.cell.world, self.frame, self._writes_at_start)
+        world, primitive = self._context.cell.world, isinstance(self.body, PrimitiveNode)
+        # a compound has acted on what its steps have sensed: its outcome also says what it has done
+        reason = explain_not_sensed(true[0], world, self.frame, self._writes_at_start, wholly=primitive)
         return None if reason is None else self._failure("post", f"{self.skill.name}: {reason}")
 
 
