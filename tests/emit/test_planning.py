@@ -199,7 +199,6 @@ def test_individuals_of_several_classes_widen_the_types_of_parameters() -> None:
 
 LEFT_OUT = {
     "a number to choose": (varied(PICK, parameters=(*PICK.parameters, number("force", "in"))), "`force` is no thing"),
-    "a changing number": (varied(PICK, post=(assign("x", "object", "weight", 3.0),)), "sets `core:weight`"),
     "no effect": (varied(PICK, post=()), "it changes nothing"),
     "no implementation": (varied(PICK, implementations=()), "no implementation"),
     "never possible": (with_pre(DRIVE, Or(())), "can never hold"),

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
 from skillc_compiler.analysis.knowledge.writes import PropertyWrite, RelationWrite, Write, normalise_each
-from skillc_model.conditions import Assert, Assign, ForEach, Retract
+from skillc_model.conditions import Adjust, Assert, Assign, ForEach, Retract, SingleEffect
 from skillc_model.read_write import may_change, terms_read
 
 
@@ -26,10 +26,13 @@ def takes_place(types: AliasTypes, later: ForEach, effect: ForEach, writes: Iter
     return not any(may_change(iri, frozenset(written), types.vocabulary) for iri in terms_read(effect.when))
 
 
-def _decides(types: AliasTypes, later: Assert | Retract | Assign, effect: Assert | Retract | Assign) -> bool:
+def _decides(types: AliasTypes, later: SingleEffect, effect: SingleEffect) -> bool:
     """Whether an effect on an individual decides what another one has decided."""
     match later, effect:
-        case Assign(subject=now, property=iri), Assign(subject=then, property=former):
+        case (
+            Assign(subject=now, property=iri),
+            Assign(subject=then, property=former) | Adjust(subject=then, property=former),
+        ):
             return (now, iri) == (then, former)
         case (
             Assert(subject=now, relation=relation, object=thing),

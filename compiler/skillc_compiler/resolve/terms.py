@@ -9,8 +9,7 @@ import msgspec
 from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.declarations import FileDeclarations, library_prefix, term_kind
 from skillc_compiler.resolve.names import Kind, Names
-from skillc_compiler.resolve.property_bounds import resolve_bounds
-from skillc_compiler.resolve.type_names import BUILT_IN, resolve_type
+from skillc_compiler.resolve.type_names import BUILT_IN, resolve_bounds, resolve_type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
