@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from examples import WHOLE
-from hypothesis import given
+from hypothesis import example, given
 from lark.exceptions import LarkError
 from lark_peer import convert, describe, load_parser
 from programs import programs
@@ -56,6 +56,7 @@ def test_a_file_with_everything_is_parsed_as_by_lark() -> None:
 
 
 @given(programs())
+@example("enum Use { use , arm ,\nenum }")
 def test_random_programs_are_parsed_as_by_lark(text: str) -> None:
     assert parse_as_lark(text) is not None
     parse_in_both_ways(text)

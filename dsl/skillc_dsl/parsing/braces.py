@@ -40,9 +40,15 @@ def _regions(tokens: tuple[Token, ...]) -> Iterator[tuple[int, int]]:
     """Yield the range of tokens of each declaration, which begins with a keyword at the beginning of a line."""
     start = 0
     for index, token in enumerate(tokens):
-        if token.type == END or (token.type in DECLARATIONS and index > start and begins_line(tokens, index)):
+        if token.type == END or (index > start and _begins_declaration(tokens, index)):
             yield start, index
             start = index
+
+
+def _begins_declaration(tokens: Sequence[Token], index: int) -> bool:
+    """Whether a token begins a line with a keyword of declarations that is no name in a list, as of an `enum`."""
+    is_first = tokens[index].type in DECLARATIONS and begins_line(tokens, index)
+    return is_first and tokens[index + 1].type not in ("COMMA", "RBRACE")
 
 
 def _close(
