@@ -170,6 +170,6 @@ def test_paths_join_what_is_named_along_the_shortest_ways() -> None:
     )
     links = Links(state, (NS + "road", NS + "stands", NS + "lies"), state.individuals)
     paths = ShortestPaths(links, {NS + "v1", NS + "c1"})
-    assert paths.join() == {f"{NS}s{n}" for n in range(10)}
+    assert paths.find_between() == {f"{NS}s{n}" for n in range(10)}
     assert paths.find_nearest({NS + "s20", NS + "s21"}, 1) == (NS + "s20",)
     assert list(paths.trace(NS + "s20"))[:2] == [NS + "s20", NS + "s2"]

@@ -55,7 +55,7 @@ def test_the_arm_touches_a_post_and_then_goes_around_it(
 def test_what_an_arm_touched_when_its_own_limit_stopped_it_is_known_to_the_next_run(tmp_path: Path) -> None:
     ended = run_with_post(tmp_path, 0.4, -0.05, 0.02, physics=True, bears_n=20.0)
     why = [each.failure.message for each in ended.events if isinstance(each, NodeEnded) and each.failure is not None]
-    assert "arm.deviceState" in why[0], "it was stopped before the motion has felt the touch"
+    assert "beyond the 20 N" in why[0], "it was stopped before the motion has felt the touch"
     assert (ended.run.end, ended.claims[:2]) == ("succeeded", ["all 2 checked in space", "none"]), ended.run.reason
     where = ended.world.deciding_write(PropertyFact(TOUCHED, POSITION[0]))
     assert where is not None and (where.evidence, where.origin) == ("sensed", "MoveJoints")

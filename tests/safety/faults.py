@@ -102,6 +102,7 @@ PRESSING = {
 }
 SWINGING = {"radius": 0.01, "rate": 1.0, "amplitude": 0.01, "pitch": 0.001}
 ASKING = {"text": "Is it empty?", "choices": "yes | no", "default": None, "limit": 60.0}
+INSPECTED = {"part": EYE, "at": EYE}
 WIRED = {"level": 1.0, "least": 1.0, "most": 1.0}
 FIGURE = {"width": 0.01, "height": 0.01, "across_rate": 2.0, "phase": 0.0}
 
@@ -147,6 +148,7 @@ def arguments(scene: str, cell: Cell) -> dict[str, object]:
         **FIGURE,
         **ASKING,
         **WIRED,
+        **INSPECTED,
         **poses,
         **directions,
     }

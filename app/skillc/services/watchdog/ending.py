@@ -88,10 +88,6 @@ def main(folder: Path, reason: str) -> None:
         print(msgspec.json.format(msgspec.json.encode(result), indent=2).decode())
 
 
-if __name__ == "__main__":
-    main(Path(sys.argv[1]), sys.argv[2])
-
-
 def _end_recording(path: Path, explain: Callable[[RunHistory], str], now: float) -> HistoryBuilder:
     """End a recording as `interrupted` at the time `now` of the cell in s, if it has no end, and build its history.
 
@@ -123,3 +119,7 @@ def _append(path: Path, envelope: Envelope) -> None:
         file.truncate(content.rfind(b"\n") + 1)
         file.seek(0, 2)
         file.write(msgspec.json.encode(envelope) + b"\n")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), sys.argv[2])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import product
@@ -108,8 +108,8 @@ class _Levels:
         done = dict.fromkeys(self._values, 0)
         while done != (known := {iri: len(values) for iri, values in self._values.items()}):
             for each in (each for each in changes if each.reads):
-                places = product(*(range(known[read.property]) for read in each.reads))
-                self._apply(each, (at for at in places if _is_new(at, each.reads, done)))
+                spans = [(done[read.property], known[read.property]) for read in each.reads]
+                self._apply(each, _list_new(spans))
             done = known
         for iri in self._endless:
             self.is_cut = True
@@ -204,8 +204,12 @@ def _level_name(place: int) -> str:
     return f"|{place}"
 
 
-def _is_new(at: Iterable[int], reads: Iterable[PropertyOf], done: Mapping[str, int]) -> bool:
-    return any(place >= done[read.property] for place, read in zip(at, reads, strict=True))
+def _list_new(spans: Sequence[tuple[int, int]]) -> Iterator[tuple[int, ...]]:
+    """Yield the combinations of places below the second number of each span, one of them not below the first."""
+    for number, (done, known) in enumerate(spans):
+        before = (range(first) for first, _ in spans[:number])
+        after = (range(last) for _, last in spans[number + 1 :])
+        yield from product(*before, range(done, known), *after)
 
 
 def _iri(property_: str, value: float | None) -> str:

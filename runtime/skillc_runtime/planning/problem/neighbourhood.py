@@ -87,7 +87,7 @@ class _NearbyObjects:
         few = self._size.few
         start = set(named).union(*(each for types in self._members if sum(map(len, types)) <= few for each in types))
         paths = ShortestPaths(self._links, start)
-        ways = paths.join()
+        ways = paths.find_between()
         kept = self._grow(start | ways, self._size.objects + len(ways))
         spare: set[str] = set()
         for types in self._members:

@@ -72,7 +72,7 @@ class ShortestPaths:
                 found.append(individual)
         return tuple(found[:count])
 
-    def join(self) -> set[str]:
+    def find_between(self) -> set[str]:
         """Return what lies on paths that join the sources, as far as they are joined by what is visited.
 
         Of the paths between sources that meet, those of a minimum spanning tree are taken: Mehlhorn, "A faster

@@ -61,10 +61,6 @@ def main(messages: MessageSocket, memory_file: int) -> int:
     return 0
 
 
-if __name__ == "__main__":
-    sys.exit(main(MessageSocket(socket.socket(fileno=int(sys.argv[1]))), int(sys.argv[2])))
-
-
 def _rehearse(facts: ArmSpec, names: dict[str, str], link: RobotLink) -> None:
     """Control a copy of the arm that stays at home, with its joints, its tool and a push, one after the other."""
     arm, measured = ControlledArm(facts, names, link.abilities, link.period_s), make_state(facts.home.size)
@@ -90,3 +86,7 @@ def _rehearse(facts: ArmSpec, names: dict[str, str], link: RobotLink) -> None:
     arm.driver.compliance.restore()
     run()
     assert np.isfinite(arm.driver.measured.q).all()
+
+
+if __name__ == "__main__":
+    sys.exit(main(MessageSocket(socket.socket(fileno=int(sys.argv[1]))), int(sys.argv[2])))
