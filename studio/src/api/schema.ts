@@ -1687,7 +1687,7 @@ export interface components {
          */
         PartLeftOut: {
             /** @enum {unknown} */
-            kind: "chains" | "individuals" | "skills" | "steps";
+            kind: "chains" | "individuals" | "numbers" | "skills" | "steps";
             why: string;
             harmless: boolean;
         };
