@@ -75,7 +75,7 @@ def make_policy(
             policy = likely.expand(state, 1.0, line.plan.steps, tuple(without), frozenset())
         validate(policy, library, state, goal)
     except (_DeadEnd, PlanError, EvaluationError) as reason:
-        return GaveUp(f"no plan reaches the goal whatever is sensed: {reason}")
+        return GaveUp(f"none for all that may be sensed, as far as was searched: {reason}")
     return _rate(line, policy)
 
 

@@ -6,11 +6,15 @@ Exit code 3 if the picture shows no part, or does not decide.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from skillc.cli.command import Command
 from skillc.cli.options import PATH, json_option
+
+if TYPE_CHECKING:
+    from skillc.services.views.picture_look import SeenPart
 
 FILE = click.Path(path_type=Path, dir_okay=False)
 
@@ -51,8 +55,11 @@ def command(
     elif not seen:
         click.echo("no label is seen")
     else:
-        for each in seen:
-            defect = f", {each.defect_mm2:.0f} mm2 look otherwise" if each.grade == "scrap" else ""
-            what = f"{each.code}  {each.kind}  {each.grade}, confidence {each.confidence:.2f}{defect}"
-            click.echo(each.undecided or what)
+        click.echo("\n".join(map(_describe, seen)))
     return 0 if isinstance(seen, SeenSurface) or (seen and not any(each.undecided for each in seen)) else 3
+
+
+def _describe(part: SeenPart) -> str:
+    """Return what a picture shows of a part, in a line."""
+    defect = f", {part.defect_mm2:.0f} mm2 look otherwise" if part.grade == "scrap" else ""
+    return part.undecided or f"{part.code}  {part.kind}  {part.grade}, confidence {part.confidence:.2f}{defect}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NoReturn
 
@@ -79,7 +80,7 @@ class Findings:
         return tuple(sorted(self.diagnostics, key=lambda each: each.span))
 
     @property
-    def broken(self) -> bool:
+    def is_broken(self) -> bool:
         """Whether there is an error."""
         return any(each.severity == "error" for each in self.diagnostics)
 
@@ -88,26 +89,32 @@ def parse_expressions(source: Source) -> tuple[Node, ...]:
     """Return the expressions of a file; BrokenPddl if parentheses do not match."""
     open_: list[tuple[Node, list[Node]]] = []
     done: list[Node] = []
-    line, start = 1, 0
-    for found in _TOKEN.finditer(source.text):
-        text, column = found.group(), found.start() - start + 1
-        if text == "\n":
-            line, start = line + 1, found.end()
-        elif text == "(":
+    for word in _list_words(source):
+        if word.word == "(":
             if len(open_) == MOST_DEPTH:
-                raise BrokenPddl(_word(source, line, column, text), f"this is nested deeper than {MOST_DEPTH} levels")
-            open_.append((_word(source, line, column, text), []))
-        elif text == ")":
+                raise BrokenPddl(word, f"this is nested deeper than {MOST_DEPTH} levels")
+            open_.append((word, []))
+            continue
+        if word.word == ")":
             if not open_:
-                raise BrokenPddl(_word(source, line, column, text), "this `)` closes nothing", "remove it")
+                raise BrokenPddl(word, "this `)` closes nothing", "remove it")
             begun, items = open_.pop()
-            span = Span(source.path, begun.span.line, begun.span.column, line, column + 1)
-            (open_[-1][1] if open_ else done).append(Node(span, items=tuple(items)))
-        elif not text.isspace() and text[0] != ";":
-            (open_[-1][1] if open_ else done).append(_word(source, line, column, text))
+            word = Node(begun.span.to(word.span), items=tuple(items))
+        (open_[-1][1] if open_ else done).append(word)
     if open_:
         raise BrokenPddl(open_[-1][0], "this `(` is never closed", "write its `)`")
     return tuple(done)
+
+
+def _list_words(source: Source) -> Iterator[Node]:
+    """Yield the words and parentheses of a file, without spaces and comments."""
+    line, start = 1, 0
+    for found in _TOKEN.finditer(source.text):
+        text = found.group()
+        if text == "\n":
+            line, start = line + 1, found.end()
+        elif not text.isspace() and text[0] != ";":
+            yield _word(source, line, found.start() - start + 1, text)
 
 
 def _word(source: Source, line: int, column: int, text: str) -> Node:

@@ -54,11 +54,13 @@ def import_pddl(domain_file: Path, problem_file: Path | None, folder: Path | Non
         problem = read_problem(sources[1], domain, findings) if problem_file is not None else None
         name = _library_name(domain, folder)
         made = (
-            {} if findings.broken else _texts(name, domain, problem, findings, [each.name for each in map(Path, texts)])
+            {}
+            if findings.is_broken
+            else _texts(name, domain, problem, findings, [each.name for each in map(Path, texts)])
         )
     except BrokenPddl as error:
         findings.add_error(error)
-    if findings.broken:
+    if findings.is_broken:
         raise DiagnosticsError(findings.sorted(), texts)
     _try_out(name, made)
     return Imported(_write(made, folder or Path(name)), findings.sorted(), texts)
