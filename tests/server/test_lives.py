@@ -272,16 +272,19 @@ def operations_have_an_end_and_the_exit_code_is_0(server: RunningServer) -> Stor
 
 
 STORIES: tuple[Callable[[RunningServer], Story], ...] = (
-    jobs_of_each_kind_are_interrupted_and_begun_again,
     a_session_and_a_database_of_an_older_format_survive,
     a_backup_is_restored_in_the_place_of_a_state_that_nobody_uses,
     only_the_owner_reads_the_state,
+    jobs_of_each_kind_are_interrupted_and_begun_again,
     a_request_whose_key_was_noted_is_submitted_once_later,
     orders_that_were_due_meanwhile_are_submitted_once,
     a_store_belongs_to_its_cell_and_what_others_changed_is_adopted_by_a_person,
     operations_have_an_end_and_the_exit_code_is_0,
 )
-"""In this order with a server that runs, and the other way round when it has ended."""
+"""In this order with a server that runs, and the other way round when it has ended.
+
+Jobs begin after what takes long in the first life, so that it ends before they do, and before operations that go on.
+"""
 
 
 @pytest.mark.early
