@@ -35,8 +35,10 @@ def type_of_link(vocabulary: Vocabulary, relation: RelationTerm, of: Type) -> Ty
 
 
 def is_link(context: FileContext, value: TypedExpression) -> bool:
-    """Whether a value is that of a functional relation."""
-    return isinstance(value.meaning, PropertyOf) and value.meaning.property in context.vocabulary.relations
+    """Whether a value is that of a functional relation; not if it is of an erroneous expression."""
+    if not isinstance(value.meaning, PropertyOf) or value.meaning.property not in context.vocabulary.relations:
+        return False
+    return _is_term(value.parts[0]) or is_link(context, value.parts[0])
 
 
 def say_of(
