@@ -21,9 +21,10 @@ from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.cameras.image_camera import PIXELS_PER_CELL, ImageCamera
 from skillc_runtime.devices.device_map import NoSuchDevice
+from skillc_runtime.motion.dirt_map import CLEAN, DIRTY, UNSEEN
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.vision.cell_map import CLEAN, DIRTY, DIRTY_AMOUNT, UNSEEN
+from skillc_runtime.vision.cell_map import DIRTY_AMOUNT
 from skillc_runtime.world.state.model import WorldModel
 
 TABLE = "http://example.org/lab#Table-1"

@@ -1,6 +1,7 @@
 """What images show: which cells of a flat surface are clean, dirty, or not seen; and which parts are good."""
 
-from skillc_runtime.vision.cell_map import CLEAN, DIRTY, UNSEEN, CellMap
+from skillc_runtime.motion.dirt_map import CLEAN, DIRTY, UNSEEN
+from skillc_runtime.vision.cell_map import CellMap
 from skillc_runtime.vision.classify_part import ClassifiedPart, classify_part, classify_parts
 from skillc_runtime.vision.inspect_image import inspect_image
 from skillc_runtime.vision.inspected_surface import InspectedSurface, Markers, SurfaceLook

@@ -109,8 +109,12 @@ def facts_read(
             case Holds(subject, relation, object_):
                 yield FactPattern(relation, _individual(subject, individuals), _individual(object_, individuals))
             case HasProperty(subject, property_) | PropertyOf(subject, property_):
-                computed = vocabulary.is_computed(property_)
-                yield EVERYTHING if computed else FactPattern(property_, _individual(subject, individuals))
+                inputs = vocabulary.inputs_of(property_)
+                if vocabulary.is_computed(property_) and not inputs:
+                    yield EVERYTHING
+                else:
+                    who = _individual(subject, individuals)
+                    yield from (FactPattern(iri, who) for iri in inputs or (property_,))
             case Invoke():
                 yield EVERYTHING
 
@@ -210,12 +214,15 @@ def may_change(term: str, written: frozenset[str], vocabulary: Vocabulary) -> bo
 def is_fixed(item: Condition | Expression, changing: frozenset[str], vocabulary: Vocabulary) -> bool:
     """Whether the value of a condition or expression, once its names are bound, never changes.
 
-    `changing` are the terms that skills change, from `changing_terms`. Computed terms may depend on any fact.
+    `changing` are the terms that skills change, from `changing_terms`. Computed properties may depend on any fact if they
+    do not say on which, computed relations always.
     """
     if any(isinstance(each, Invoke) for each in walk(item)):
         return False
     read = terms_read(item)
-    return changing.isdisjoint(read) and not any(map(vocabulary.is_computed, read))
+    computed = [each for each in read if vocabulary.is_computed(each)]
+    inputs = [vocabulary.inputs_of(each) for each in computed if each in vocabulary.properties]
+    return len(inputs) == len(computed) and all(inputs) and changing.isdisjoint(read.union(*inputs))
 
 
 def _meet(some: Iterable[FactPattern], others: Iterable[FactPattern]) -> bool:

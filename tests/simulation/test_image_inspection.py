@@ -13,12 +13,13 @@ from skillc_runtime.backends.simulation.cameras import photographer
 from skillc_runtime.backends.simulation.cameras.camera import SimulatedCamera
 from skillc_runtime.backends.simulation.cameras.image_camera import PIXELS_PER_CELL, ImageCamera
 from skillc_runtime.devices.device_map import NoSuchDevice
+from skillc_runtime.motion.dirt_map import CLEAN, DIRTY, UNSEEN
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.platforms.gl import RenderingError, make_gl_context
 from skillc_runtime.primitives.inspect import Inspect
-from skillc_runtime.vision.cell_map import CLEAN, DIRTY, DIRTY_AMOUNT, UNSEEN
+from skillc_runtime.vision.cell_map import DIRTY_AMOUNT
+from skillc_runtime.world.space.dirt import work_layout
 from skillc_runtime.world.space.frames import pose
-from skillc_runtime.world.space.surfaces import surface_layout
 from skillc_runtime.world.state.changes import ClearProperty, SetProperty
 from skillc_runtime.world.state.terms import COVERAGE, IS_CLEAN, SKILLC
 
@@ -92,19 +93,19 @@ def test_what_an_image_shows_dirty_becomes_patches_until_it_is_clean() -> None:
     dose[70:, :20] = 0.0  # 10 cm square, at the corner with the least x and the greatest y
     dose[:20, 40:] = 0.0  # another one, at the opposite corner
     inspect(there)
-    layout = surface_layout(there.world.snapshot(), TABLE)
+    layout = work_layout(there.world.snapshot(), TABLE)
     assert len(layout.patches) == 2
     inside = layout.work_mask(there.coverage[TABLE].x, there.coverage[TABLE].y)
     assert inside[70:, :20].all() and inside[:20, 40:].all()
     assert inside.mean() < 0.3
     dose[70:, :20] = RUBBED_S
     inspect(there)
-    assert len(surface_layout(there.world.snapshot(), TABLE).patches) == 1
+    assert len(work_layout(there.world.snapshot(), TABLE).patches) == 1
     dose[:] = RUBBED_S
     inspect(there)
     state = there.world.snapshot()
     assert state.value(TABLE, IS_CLEAN) is True
-    assert surface_layout(state, TABLE).patches == ()
+    assert work_layout(state, TABLE).patches == ()
 
 
 def test_an_arm_over_the_table_hides_what_is_below_it() -> None:

@@ -20,8 +20,9 @@ from pictures import (
     look_down,
     take_photo,
 )
+from skillc_runtime.motion.dirt_map import CLEAN, DIRTY, UNSEEN
 from skillc_runtime.motion.pose import Pose, exp
-from skillc_runtime.vision.cell_map import CLEAN, DIRTY, DIRTY_AMOUNT, UNSEEN, CellMap
+from skillc_runtime.vision.cell_map import DIRTY_AMOUNT, CellMap
 from skillc_runtime.vision.inspect_image import inspect_image
 from skillc_runtime.vision.inspected_surface import encode, linear
 from skillc_runtime.vision.locate import NotLocated

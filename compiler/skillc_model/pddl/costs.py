@@ -118,7 +118,7 @@ def _moving(expression: Expression, symbols: Symbols) -> str | None:
     for each in walk(expression):
         match each:
             case PropertyOf(property=iri):
-                computed = symbols.vocabulary.is_computed(iri) and symbols.changing
+                computed = symbols.vocabulary.is_computed(iri) and symbols.decided_by(iri)
                 if computed or symbols.affected(iri):
                     return iri
             case Invoke(function=name):

@@ -51,8 +51,8 @@ class Symbols:
         return iri in self.vocabulary.relations and self.vocabulary.is_computed(iri)
 
     def decided_by(self, iri: str) -> tuple[str, ...]:
-        """Return the changing terms that a computed relation depends on; all of them if it declares no inputs."""
-        known = self.vocabulary.relations[iri].computed_from
+        """Return the changing terms that a computed term depends on; all of them if it declares no inputs."""
+        known = self.vocabulary.inputs_of(iri)
         return tuple(sorted(filter(self.affected, known))) if known else tuple(sorted(self.changing))
 
     def short(self, iri: str) -> str:

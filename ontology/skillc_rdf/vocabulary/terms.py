@@ -136,12 +136,17 @@ def make_properties(terms: Terms) -> dict[str, PropertyTerm]:
                 datatype=typed.datatype,
                 functional=_is(terms, iri, "FunctionalProperty"),
                 computed_by=terms.graph.text(iri, f"{SKILLC}computedBy"),
+                computed_from=_computed_from(terms, iri),
                 measure=_other_property(terms, iri, "measure"),
                 threshold=_other_property(terms, iri, "threshold"),
                 comment=terms.graph.text(iri, COMMENT) or "",
                 source=terms.places.position(iri),
             )
     return found
+
+
+def _computed_from(terms: Terms, iri: str) -> tuple[str, ...]:
+    return tuple(sorted(map(terms.named, terms.graph.iris(iri, f"{SKILLC}computedFrom"))))
 
 
 def _other_property(terms: Terms, iri: str, annotation: str) -> str | None:
@@ -223,7 +228,7 @@ def _relation(terms: Terms, iri: str, inverse: str | None) -> RelationTerm:
         irreflexive=_is(terms, iri, "IrreflexiveProperty"),
         acyclic=terms.graph.text(iri, f"{SKILLC}acyclic") == "true",
         computed_by=terms.graph.text(iri, f"{SKILLC}computedBy"),
-        computed_from=tuple(sorted(map(terms.named, terms.graph.iris(iri, f"{SKILLC}computedFrom")))),
+        computed_from=_computed_from(terms, iri),
         comment=terms.graph.text(iri, COMMENT) or "",
         source=terms.places.position(iri),
     )

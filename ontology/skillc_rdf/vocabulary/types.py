@@ -156,8 +156,9 @@ class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
 
     `values` is the finite set of values of a text property, () for any; `bounds` are those of a number; `datatype` is
     the datatype of texts which are no strings, such as dates, and LITERAL if the property has no range. `computed_by`
-    names a Python function, "module:function", (world state, individual) -> value. `measure` is the property of the
-    same individual with the number from which the value was judged, `threshold` the one with the number that it needs.
+    names a Python function, "module:function", (world state, individual) -> value; `computed_from` are the relations
+    and properties of the individual that it reads, all facts if it names none. `measure` is the property of the same
+    individual with the number from which the value was judged, `threshold` the one with the number that it needs.
     """
 
     iri: str
@@ -168,6 +169,7 @@ class PropertyTerm(msgspec.Struct, frozen=True, kw_only=True):
     datatype: str = ""
     functional: bool = True
     computed_by: str | None = None
+    computed_from: tuple[str, ...] = ()
     measure: str | None = None
     threshold: str | None = None
     comment: str = ""
@@ -282,6 +284,11 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
         """Whether a relation or property is computed from other facts."""
         known = self.relations.get(term) or self.properties.get(term)
         return known is not None and known.computed_by is not None
+
+    def inputs_of(self, term: str) -> tuple[str, ...]:
+        """Return the relations and properties from which a term is computed; none if it does not say."""
+        known = self.relations.get(term) or self.properties.get(term)
+        return known.computed_from if known is not None else ()
 
     def disjoint(self, one: str, other: str) -> bool:
         """Whether no individual can be of both classes."""

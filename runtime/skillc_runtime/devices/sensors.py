@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 from skillc_runtime.devices.device_map import NoSuchDevice
-from skillc_runtime.motion.layout import Patch
+from skillc_runtime.motion.dirt_map import DirtMap
 from skillc_runtime.world.state.facts import Evidence
 
 if TYPE_CHECKING:
@@ -24,12 +24,9 @@ class Camera(Protocol):
         """Return the share of a surface, by IRI, that is clean; KeyError if there is no such surface."""
         ...
 
-    def dirty_parts(self, surface: str) -> tuple[Patch, ...]:
-        """Return the rectangles, in the frame of a surface, by IRI, that the last inspection showed dirty.
-
-        Empty for a camera that only tells a share.
-        """
-        return ()
+    def dirt_map(self, surface: str) -> DirtMap | None:
+        """Return which cells of a surface, by IRI, the last inspection showed clean; None if it only told a share."""
+        return None
 
     def classify(self, part: str) -> ClassifiedPart:
         """Return what an image that is taken now shows of a part, by IRI.

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, Vector
+from skillc_runtime.motion.dirt_map import CLEAN, DirtMap, resample
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
 from skillc_runtime.motion.numerics.linear import add_under, product, times
@@ -26,20 +27,24 @@ class CoverageMap:
 
     `surface` is the true frame at the centre of the surface in the world, `world` the world in the surface; `layout`
     gives the cells that count, and the size (2,) in m of all of them. A tool works if it is pressed on the surface with
-    at least `least_n` N.
+    at least `least_n` N. `clean` says which cells have been clean before: all that a map of dirt knows to be clean.
     """
 
-    def __init__(self, surface: Pose, layout: Layout, least_n: float) -> None:
+    def __init__(self, surface: Pose, layout: Layout, least_n: float, dirt: DirtMap | None = None) -> None:
         self.least_n, self.normal = least_n, surface.rotation[:, 2].copy()
         self.world, self.size = surface.inverse(), layout.size
         self.x, self.y = _centres(float(layout.size[0])), _centres(float(layout.size[1]))
         self.mask = layout.work_mask(self.x, self.y)
         self.dose: NDArray[np.float64] = np.zeros((self.y.size, self.x.size))
+        self.clean: NDArray[np.bool_] = np.zeros(self.dose.shape, dtype=bool)
+        if dirt is not None:
+            self.clean[:] = resample(dirt, self.x, self.y, layout.size) == CLEAN
 
     @property
     def wiped_share(self) -> float:
-        """The share of the counted cells that were wiped."""
-        return self.rubbed_share(0.0)
+        """The share of the counted cells that are clean: they were wiped, or have been clean before."""
+        clean = self.find_clean()
+        return float(clean.mean()) if clean.size else 1.0
 
     def rubbed_share(self, seconds: float) -> float:
         """Return the share of the counted cells that were wiped for at least `seconds`; 1 if no cell counts."""
@@ -50,6 +55,10 @@ class CoverageMap:
         """Return which of the counted cells (n,) were wiped for at least `seconds`."""
         dose = self.dose[self.mask]
         return np.asarray((dose > 0) & (dose >= seconds))
+
+    def find_clean(self) -> NDArray[np.bool_]:
+        """Return which of the counted cells (n,) were wiped, or have been clean before."""
+        return np.asarray(self.find_worked(0.0) | self.clean[self.mask])
 
     def add(self, position: Array, rotation: Array, tool: Array, seconds: float) -> None:
         """Add a time to the cells that a tool's working face reaches.

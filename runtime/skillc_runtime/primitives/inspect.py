@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from skillc_runtime.devices.cell import Cell
-from skillc_runtime.motion.layout import Patch
+from skillc_runtime.motion.dirt_map import DirtMap, format_dirt_map
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
-from skillc_runtime.world.space.frames import frame_name, placement_changes
-from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveIndividual, SetProperty
-from skillc_runtime.world.state.terms import AREA, CLEAN_THRESHOLD, COVERAGE, HAS_PATCH, IS_CLEAN, SIZE
+from skillc_runtime.world.state.changes import Change, ClearProperty, SetProperty
+from skillc_runtime.world.state.terms import CLEAN_THRESHOLD, COVERAGE, DIRT_MAP, IS_CLEAN
 
 
 class Inspect(Primitive):
-    """Measures the share of a surface that is wiped; it is clean if that reaches the surface's threshold.
+    """Measures where a surface is clean; it is clean if the share of clean cells reaches the surface's threshold.
 
     The camera determines the evidence: `sensed` of a real one, or of one whose images are rendered, `idealised` of one
-    that reads the map of the simulator. What an image shows dirty becomes patches of the surface, to be wiped again.
+    that reads the map of the simulator. What the map shows dirty is what is to be wiped.
     """
 
     moves = NOTHING
@@ -37,27 +34,15 @@ class Inspect(Primitive):
         camera, threshold = self.cell.camera(), self._threshold()
         seen = camera.inspect(self._surface)
         clean = isinstance(threshold, float) and seen >= threshold
-        parts = () if clean else camera.dirty_parts(self._surface)
         measured = [SetProperty(self._surface, COVERAGE, seen), SetProperty(self._surface, IS_CLEAN, clean)]
-        self.cell.world.commit([*measured, *self._patches(parts)], "Inspect", camera.evidence)
+        self.cell.world.commit([*measured, self._write(camera.dirt_map(self._surface))], "Inspect", camera.evidence)
         return Status.SUCCESS
 
     def _threshold(self) -> object:
         return self.cell.world.snapshot().value(self._surface, CLEAN_THRESHOLD)
 
-    def _patches(self, parts: tuple[Patch, ...]) -> Iterator[Change]:
-        """Yield the changes by which the patches of an earlier inspection go, and parts become patches.
-
-        A surface of which only some patches are to be wiped keeps these.
-        """
-        state, prefix = self.cell.world.snapshot(), f"{self._surface}-dirty-"
-        patches = state.objects(self._surface, HAS_PATCH)
-        if any(not each.startswith(prefix) for each in patches):
-            return
-        yield from (RemoveIndividual(each) for each in sorted(patches))
-        for number, part in enumerate(parts):
-            patch = f"{prefix}{number}"
-            yield AddIndividual(patch, (AREA,))
-            yield AddRelation(self._surface, HAS_PATCH, patch)
-            yield from placement_changes(patch, part.pose, frame_name(state, self._surface))
-            yield from (SetProperty(patch, name, float(each)) for name, each in zip(SIZE, part.size, strict=False))
+    def _write(self, dirt: DirtMap | None) -> Change:
+        """Return the change by which a map replaces that of an earlier inspection."""
+        if dirt is None:
+            return ClearProperty(self._surface, DIRT_MAP)
+        return SetProperty(self._surface, DIRT_MAP, format_dirt_map(dirt))

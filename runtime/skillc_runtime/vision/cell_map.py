@@ -8,13 +8,10 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from skillc_runtime.motion.dirt_map import CLEAN, DIRTY, UNSEEN, DirtMap
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.vision.dirt import Dirt
 from skillc_runtime.vision.locate import LocatedSurface
-
-UNSEEN: Final = 0
-CLEAN: Final = 1
-DIRTY: Final = 2
 
 CELL_M: Final = 0.01
 """The edge of a cell, at most."""
@@ -64,6 +61,13 @@ class CellMap(msgspec.Struct, frozen=True):
     def seen_share(self) -> float:
         """The share of the cells that were seen."""
         return float((self.state != UNSEEN).mean())
+
+    @property
+    def dirt_map(self) -> DirtMap:
+        """The states and how sure they are, without the rest."""
+        rows, columns = self.state.shape
+        tenths = np.clip(np.floor(10 * self.confidence), 0, 9).astype(np.uint8)
+        return DirtMap(columns, rows, self.state.tobytes(), tenths.tobytes())
 
 
 def count_cells(size: Array) -> tuple[int, int]:

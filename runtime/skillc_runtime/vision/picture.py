@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from skillc_runtime.vision.cell_map import CLEAN, DIRTY, UNSEEN, CellMap
+from skillc_runtime.motion.dirt_map import CLEAN, DIRTY, UNSEEN
+from skillc_runtime.vision.cell_map import CellMap
 from skillc_runtime.vision.classify_part import ClassifiedPart
 from skillc_runtime.vision.inspected_surface import square
 from skillc_runtime.vision.lens import Lens, project

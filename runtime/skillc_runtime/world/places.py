@@ -13,6 +13,7 @@ from skillc_runtime.motion.lanes import Direction, lane_axis
 from skillc_runtime.motion.lanes import plan_lanes as lane_pattern
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.strokes import plan_layout_strokes
+from skillc_runtime.world.space.dirt import work_layout
 from skillc_runtime.world.space.frames import normal, pose, size
 from skillc_runtime.world.space.surfaces import lane_direction, surface_layout
 
@@ -73,14 +74,16 @@ def lanes(state: WorldState, surface: str, tool: str, overlap: float) -> list[Po
 
 
 def strokes(state: WorldState, surface: str, tool: str, overlap: float) -> list[list[Pose]]:
-    """Return tool poses along lanes that cover a surface's patches without its holes, in strokes, in the world.
+    """Return tool poses along lanes that cover what is to be worked on of a surface, in strokes, in the world.
+
+    That are its patches, else what a map of it shows dirty, else all; without its holes.
 
     The tool must be lifted between two strokes. `overlap` is the share of the lane width, 0 to 1. ValueError when the
     tool fits nowhere.
     """
     frame, along = pose(state, surface), lane_direction(state, surface)
     found = plan_layout_strokes(
-        surface_layout(state, surface), size(state, tool)[:2], overlap, Pose(np.zeros(3), np.eye(3)), along
+        work_layout(state, surface), size(state, tool)[:2], overlap, Pose(np.zeros(3), np.eye(3)), along
     )
     if not found:
         short = state.vocabulary.short

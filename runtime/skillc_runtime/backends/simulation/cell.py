@@ -100,7 +100,9 @@ class ModelledCell(ABC, Generic[A, G]):
             for each in self._bases
         }
         poses = {s.individual: variation.of(s.individual).true_pose(s.pose) for s in scene.surfaces}
-        self.coverage = {s.individual: CoverageMap(poses[s.individual], s.layout, s.least_n) for s in scene.surfaces}
+        self.coverage = {
+            s.individual: CoverageMap(poses[s.individual], s.layout, s.least_n, s.dirt) for s in scene.surfaces
+        }
         if checkpoint is not None:
             restore_cell(checkpoint, self.model, self.data, self._bases, self._grippers, self.coverage)
         self._prepare()

@@ -41,7 +41,8 @@ class Checkpoint(msgspec.Struct, frozen=True):
 
     places: where things were believed to be when the cell was first built, from which the true differences follow;
     joints: coordinates in m, rad and quaternions; bases: poses in the world; worked: for how long, in s, tools have
-    worked on each cell of a surface, as compressed float32.
+    worked on each cell of a surface, as compressed float32; clean: which cells had been clean before, as compressed
+    bytes.
     """
 
     places: dict[str, PoseNumbers]
@@ -50,6 +51,7 @@ class Checkpoint(msgspec.Struct, frozen=True):
     grippers: dict[str, SavedGripper]
     worked: dict[str, bytes]
     time_s: float = 0.0
+    clean: dict[str, bytes] = {}
 
 
 def encode_checkpoint(checkpoint: Checkpoint) -> bytes:

@@ -20,6 +20,9 @@ from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import pose, relocation_changes
 from skillc_runtime.world.state.world_state import WorldState
 
+NOTHING = zlib.compress(b"")
+"""What is saved of a surface on which there was no work."""
+
 SAME = 1e-9
 """Poses whose numbers differ by less are equal."""
 
@@ -55,6 +58,7 @@ def save_cell(
         grippers={gripper: each.save() for gripper, each in grippers.items()},
         time_s=float(data.time),
         worked={surface: zlib.compress(dose.astype("<f4").tobytes(), 1) for surface, dose in doses.items()},
+        clean={name: zlib.compress(each.clean.tobytes(), 1) for name, each in coverage.items() if each.clean.any()},
     )
 
 
@@ -75,7 +79,7 @@ def restore_cell(
     mujoco.mj_fwdPosition(model, data)
     for gripper in sorted(saved.grippers.keys() & grippers.keys()):
         grippers[gripper].restore(saved.grippers[gripper])
-    _restore_work(coverage, saved.worked)
+    _restore_work(coverage, saved)
 
 
 def _list_places(scene: SceneSpec) -> dict[str, PoseNumbers]:
@@ -93,12 +97,20 @@ def read_posture(saved: Checkpoint | None, arm: str, start: Array) -> Array:
     return np.array(found) if len(found) == start.size else start
 
 
-def _restore_work(coverage: Mapping[str, CoverageMap], worked: Mapping[str, bytes]) -> None:
-    """Set how long tools have worked on the surfaces that have the same size as those that were saved."""
-    for surface, compressed in worked.items():
-        dose = np.frombuffer(zlib.decompress(compressed), "<f4")
-        if surface in coverage and coverage[surface].dose.size == dose.size:
-            coverage[surface].dose[:] = dose.reshape(coverage[surface].dose.shape)
+def _restore_work(coverage: Mapping[str, CoverageMap], saved: Checkpoint) -> None:
+    """Set where and how long tools have worked on the surfaces that have the same size as those that were saved.
+
+    What has been learnt since of how clean they are is nothing that they have been before.
+    """
+    for surface, each in coverage.items():
+        dose, clean = (
+            np.frombuffer(zlib.decompress(named.get(surface, NOTHING)), kind)
+            for named, kind in ((saved.worked, "<f4"), (saved.clean, "?"))
+        )
+        if surface in saved.places:
+            each.clean[:] = clean.reshape(each.clean.shape) if clean.size == each.clean.size else False
+        if dose.size == each.dose.size:
+            each.dose[:] = dose.reshape(each.dose.shape)
 
 
 def _is_at(state: WorldState, thing: str, place: Pose) -> bool:

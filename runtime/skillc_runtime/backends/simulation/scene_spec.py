@@ -17,9 +17,11 @@ from skillc_runtime.backends.simulation.friction import read_friction_range
 from skillc_runtime.backends.simulation.people import PersonSpec, read_people
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.devices.reality import IDEAL_REALITY, Reality, read_reality
+from skillc_runtime.motion.dirt_map import DirtMap
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import RigidBody, read_bodies
+from skillc_runtime.world.space.dirt import read_dirt_map
 from skillc_runtime.world.space.frames import moves_with, pose, size
 from skillc_runtime.world.space.surfaces import LEAST_FORCE_N, least_force_n, surface_layout
 from skillc_runtime.world.state.data_sheet import DataSheet, SheetError, number_of, sheet_of, text_of
@@ -152,7 +154,8 @@ class ToolSpec(msgspec.Struct, frozen=True):
 class SurfaceSpec(msgspec.Struct, frozen=True):
     """A surface at its assumed pose, and the ranges of true values: m along the normal, rad, friction.
 
-    `layout` gives the area to work on; a tool works if it is pressed with at least `least_n` N.
+    `layout` gives the area to work on; a tool works if it is pressed with at least `least_n` N. `dirt` is the map of
+    where it is dirty; None where all of it is.
     """
 
     individual: str
@@ -163,6 +166,7 @@ class SurfaceSpec(msgspec.Struct, frozen=True):
     offset_range_m: float
     tilt_range_rad: float
     least_n: float = LEAST_FORCE_N
+    dirt: DirtMap | None = None
 
 
 class SceneSpec(msgspec.Struct, frozen=True):
@@ -300,4 +304,5 @@ def _surface(state: WorldState, surface: str) -> SurfaceSpec:
         offset_range_m=number_of(state, surface, OFFSET_RANGE, default=0.0),
         tilt_range_rad=number_of(state, surface, TILT_RANGE, default=0.0),
         least_n=least_force_n(state, surface),
+        dirt=read_dirt_map(state, surface),
     )

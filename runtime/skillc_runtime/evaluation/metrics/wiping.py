@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import msgspec
 import numpy as np
+from numpy.typing import NDArray
 
 from skillc_runtime.devices.ground_truth import Recording, join_recordings
 from skillc_runtime.evaluation.metrics.intervals import Interval, exclude_pauses, exclude_standstill, total_s
@@ -24,7 +25,8 @@ COVERAGE_PERIOD_S = 0.01
 class WipingSetup(msgspec.Struct, frozen=True):
     """The true pose of the surface in the world and its layout, the tool's size (2,) in m, the commanded force in N.
 
-    `least_n` is the least force in N with which a tool wipes the surface.
+    `least_n` is the least force in N with which a tool wipes the surface; `clean` (rows, columns) are the cells that
+    had been clean before anything was wiped, None for none.
     """
 
     surface: Pose
@@ -32,6 +34,7 @@ class WipingSetup(msgspec.Struct, frozen=True):
     tool: Array
     force_command_n: float
     least_n: float
+    clean: NDArray[np.bool_] | None = None
 
     @property
     def extent(self) -> Array:
@@ -43,8 +46,9 @@ class WipingMetrics(msgspec.Struct, frozen=True):
     """The quality of one wiping, from the first wiping reference to the end of the last lane, at every simulation step.
 
     Pauses are left out, but for the coverage and the greatest force.
-    coverage: share of the 5 mm cells that were wiped. Forces in N: mean, rms error about the command (with lost
-    contact), and the greatest outside the strokes, while the tool is put down. contact_lost: share of the time.
+    coverage: share of the 5 mm cells that were wiped, or had been clean before. Forces in N: mean, rms error about the
+    command (with lost contact), and the greatest outside the strokes, while the tool is put down. contact_lost: share of
+    the time.
     Vibration of the tool above 15 Hz, rms in mm/s. Tilt of the tool against the true normal in degrees. Tracking: rms
     distance from the reference in the plane, in mm. lane_dwell: of the worst stroke, None if the path has no corner.
     """
@@ -98,6 +102,8 @@ def measure_wiping(
 def measure_coverage(window: Recording, setup: WipingSetup) -> CoverageMap:
     """Return the contact time in s of every cell of the surface, sampled at 100 Hz or more."""
     result = CoverageMap(setup.surface, setup.layout, setup.least_n)
+    if setup.clean is not None:
+        result.clean[:] = setup.clean
     stride = max(1, int(COVERAGE_PERIOD_S / _step_s(window) + 1e-6))
     seconds = stride * _step_s(window)
     for row in np.flatnonzero(window.on_surface[::stride] >= setup.least_n) * stride:

@@ -123,6 +123,7 @@ def wiping_setup(wiping: Wiping, state: WorldState, truth: GroundTruth) -> Wipin
         tool=size(state, wiping.tool)[:2],
         force_command_n=wiping.force_n,
         least_n=least_force_n(state, surface),
+        clean=truth.coverage(surface).clean,
     )
 
 
@@ -211,7 +212,7 @@ def make_wiping_drawing(wiping: Wiping, state: WorldState, truth: GroundTruth) -
         extent=1e3 * setup.extent,
         covered=covered.wiped_share,
         dose=covered.dose,
-        spared=~covered.mask,
+        spared=~covered.mask | covered.clean,
         lanes=on_surface(rows_drawn.path),
         tool=on_surface(rows_drawn.position),
         time=rows_drawn.time - wiping.start,

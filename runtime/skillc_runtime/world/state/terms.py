@@ -160,6 +160,7 @@ JOINT_SPEED_NOISE = SKILLC + "jointSpeedNoise"
 REALITY = SKILLC + "reality"
 
 COVERAGE = WIPING + "coverage"
+DIRT_MAP = WIPING + "dirtMap"
 IS_CLEAN = WIPING + "isClean"
 CLEAN_THRESHOLD = WIPING + "cleanThreshold"
 

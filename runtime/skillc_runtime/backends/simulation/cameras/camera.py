@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import comb
 
 import msgspec
 import numpy as np
@@ -12,6 +13,7 @@ from skillc_runtime.devices.device_map import NoSuchDevice
 from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.motion.coverage import CoverageMap
+from skillc_runtime.motion.dirt_map import CLEAN, DIRTY, SPARED, SURE, DirtMap
 from skillc_runtime.vision.classify_part import ClassifiedPart
 from skillc_runtime.world.state.data_sheet import DataSheet, number_of, sheet_of
 from skillc_runtime.world.state.facts import Evidence
@@ -50,6 +52,7 @@ class SimulatedCamera(Camera):
         """`no_images` says why it takes no images."""
         self._coverage, self._spec, self._no_images = coverage, spec, no_images
         self._rng = rng_for(spec.individual, seed)
+        self._seen: dict[str, NDArray[np.bool_]] = {}
 
     @property
     def evidence(self) -> Evidence:
@@ -57,8 +60,20 @@ class SimulatedCamera(Camera):
         return "idealised"
 
     def inspect(self, surface: str) -> float:
-        """Return the share of the surface that is seen to be wiped; KeyError if there is no such surface."""
-        return self.rubbed_share(surface, 0.0)
+        """Return the share of the surface that is seen to be clean; KeyError if there is no such surface."""
+        self._seen[surface] = self._look(self._coverage[surface].find_clean())
+        return _share(self._seen[surface])
+
+    def dirt_map(self, surface: str) -> DirtMap | None:
+        """Return which spots of a surface were clean and dirty when it was last inspected."""
+        if surface not in self._seen:
+            return None
+        mask, seen = self._coverage[surface].mask, self._seen[surface]
+        state = np.full(mask.shape, SPARED, dtype=np.uint8)
+        state[mask] = np.where(seen, CLEAN, DIRTY)
+        wrong = max(each for each in (self._spec.miss, self._spec.false_alarm))
+        tenths = SURE if wrong == 0.0 else int(10 * (1.0 - _outvoted(wrong, self._spec.images)))
+        return DirtMap(mask.shape[1], mask.shape[0], state.tobytes(), bytes([tenths]) * state.size)
 
     def classify(self, part: str) -> ClassifiedPart:
         """Raise NoSuchDevice: without images nothing is known of parts."""
@@ -69,8 +84,7 @@ class SimulatedCamera(Camera):
 
         KeyError if there is no such surface.
         """
-        spots = self._coverage[surface].find_worked(seconds)
-        return float(self._look(spots).mean()) if spots.size else 1.0
+        return _share(self._look(self._coverage[surface].find_worked(seconds)))
 
     def _look(self, done: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Return which spots (n,) most of the images show as done, of which `done` (n,) really are."""
@@ -79,6 +93,16 @@ class SimulatedCamera(Camera):
             return done
         wrong = self._rng.random((spec.images, done.size)) < np.where(done, spec.false_alarm, spec.miss)
         return np.asarray(2 * (wrong != done).sum(axis=0) > spec.images)
+
+
+def _share(spots: NDArray[np.bool_]) -> float:
+    return float(spots.mean()) if spots.size else 1.0
+
+
+def _outvoted(wrong: float, images: int) -> float:
+    """Return how likely most of so many images are wrong about a spot, each with a probability."""
+    many = range(images // 2 + 1, images + 1)
+    return sum(comb(images, each) * wrong**each * (1.0 - wrong) ** (images - each) for each in many)
 
 
 def read_inspection_camera(state: WorldState) -> InspectionSpec:

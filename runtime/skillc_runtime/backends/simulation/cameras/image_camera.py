@@ -27,11 +27,10 @@ from skillc_runtime.devices.drawing import Drawing, Posture
 from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.motion.coverage import CoverageMap
-from skillc_runtime.motion.layout import Patch
+from skillc_runtime.motion.dirt_map import DirtMap
 from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.vision.cell_map import CellMap
 from skillc_runtime.vision.classify_part import ClassifiedPart, classify_part
-from skillc_runtime.vision.dirty_parts import find_dirty_parts
 from skillc_runtime.vision.inspect_image import inspect_image
 from skillc_runtime.vision.label_pose import NotDecided
 from skillc_runtime.vision.locate import NotLocated
@@ -84,9 +83,9 @@ class ImageCamera(Camera):
         self._seen[surface] = self.look(surface)
         return self._seen[surface].clean_share
 
-    def dirty_parts(self, surface: str) -> tuple[Patch, ...]:
-        """Return the rectangles, in the frame of a surface, that the last inspection showed dirty."""
-        return find_dirty_parts(self._seen[surface]) if surface in self._seen else ()
+    def dirt_map(self, surface: str) -> DirtMap | None:
+        """Return which cells of a surface the last inspection showed clean, dirty or not at all."""
+        return self._seen[surface].dirt_map if surface in self._seen else None
 
     def rubbed_share(self, surface: str, seconds: float) -> float:
         """Raise NoSuchDevice: no image shows that."""
@@ -138,7 +137,8 @@ class ImageCamera(Camera):
             self._before[surface] = np.asarray(cv2.resize(coarse, (columns, rows), interpolation=cv2.INTER_CUBIC))
         picked = (np.arange(rows) * dose.shape[0]) // rows, (np.arange(columns) * dose.shape[1]) // columns
         rubbed = dose[picked[0]][:, picked[1]]
-        return np.asarray(np.clip(self._before[surface] * np.exp(-rubbed / self._spec.removal_s[surface]), 0.0, 1.0))
+        left = np.where(self._coverage[surface].clean[picked[0]][:, picked[1]], 0.0, self._before[surface])
+        return np.asarray(np.clip(left * np.exp(-rubbed / self._spec.removal_s[surface]), 0.0, 1.0))
 
     def _build(self) -> Any:
         described = self._drawing.describe_model()
